@@ -23,8 +23,8 @@ struct UnitName {
     std::string_view name;  // in lower case
     Slot slot;
     double multiply;
-    double divide;                         // so that 20 ms is the double nearest to 0.02 s
-    ValueUnit value_unit = ValueUnit::db;  // of a value
+    double divide;  // a divisor, so that 20 ms is the double nearest to 0.02 s
+    ValueUnit value_unit = ValueUnit::db;  // for a value
 };
 constexpr std::array unit_names = {UnitName{"m", Slot::position, 1, 1},
                                    UnitName{"km", Slot::position, 1000, 1},
@@ -51,7 +51,7 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-// One part, "250 m" or "dE 2", into the number and the unit.
+// Splits one part, "250 m" or "dE 2", into its number and its unit.
 struct Part {
     double number = 0;
     std::string unit;
@@ -71,7 +71,7 @@ Result<Part> split_part(std::string_view text) {
     }
     const std::string_view behind =
         trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-    // Written so that NaN is refused as well, without comparing it.
+    // Written so that NaN is refused too, without comparing it.
     if (error != std::errc{} || !std::isfinite(part.number) || std::signbit(part.number)) {
         return fail(ErrorCode::bad_argument,
                     "\"{}\" of the budget must be a finite number, not negative", printable(text));
@@ -96,7 +96,7 @@ Status take_part(std::string_view text, Budget& budget) {
                     "dE, ms or s",
                     printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
-    // Asked beforehand: floating-point traps must not see an overflow.
+    // This is tested beforehand, because floating-point traps must not see an overflow.
     if (part->number > std::numeric_limits<double>::max() / unit->multiply) {
         return fail(ErrorCode::bad_argument, "\"{}\" of the budget is too large", printable(text));
     }

@@ -17,7 +17,7 @@ Candidate evaluate(const Chain& chain, const Choice& choice) {
     return candidate;
 }
 
-// Measured costs would make the order hang on how busy the machine was.
+// Measured costs would make the order depend on how busy the machine was.
 bool has_efforts(const Chain& chain) {
     for (const Step& step : chain.steps) {
         for (const Effect& effect : step.effects) {
@@ -35,7 +35,7 @@ bool comes_before(const Candidate& a, const Candidate& b, bool by_cost) {
     return a.choice.rungs > b.choice.rungs;
 }
 
-// Whether the choice leaves off what could be on and whose size has no bound.
+// Returns true if the choice leaves off an effect that could be on and whose size has no bound.
 bool is_reckless(const Chain& chain, const Choice& choice, const std::vector<RungRange>& ranges) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         for (std::size_t k = choice.rungs[i]; k < ranges[i].most; ++k) {
@@ -45,7 +45,8 @@ bool is_reckless(const Chain& chain, const Choice& choice, const std::vector<Run
     return false;
 }
 
-// The next choice within the ranges, as a counter with one wheel a step; false after the last.
+// Advances to the next choice within the ranges, like a counter with one wheel for each step.
+// Returns false after the last one.
 bool advance(Choice& choice, const std::vector<RungRange>& ranges) {
     for (std::size_t i = ranges.size(); i > 0; --i) {
         if (choice.rungs[i - 1] < ranges[i - 1].most) {

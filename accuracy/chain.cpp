@@ -29,7 +29,7 @@ Status validate_effect(const Effect& effect) {
     return {};
 }
 
-// An effect that is on needs all below it in its step.
+// An effect that is on needs all effects below it in its step.
 Status validate_settings(const Step& step) {
     const RungRange range = allowed_rungs(step);
     if (range.least <= range.most) return {};
@@ -52,7 +52,8 @@ Status validate_joint_costs(const Chain& chain) {
     return {};
 }
 
-// What the cheapest choice takes, with what each effect that is on and each joint cost adds.
+// Returns the figure of the cheapest choice, plus that of each effect that is on and of each joint
+// cost.
 template <class Figure>
 double sum_over(const Chain& chain, const Choice& choice, double cheapest, const Figure& figure) {
     double sum = cheapest;

@@ -11,7 +11,7 @@ namespace stormcellar::accuracy {
 namespace {
 
 constexpr std::size_t longest_name = 40;
-// Farther from every name than this share of its letters, a word is no misspelling of one.
+// A word that differs from every name by more than this share of its letters is no misspelling.
 constexpr std::size_t letters_per_slip = 3;
 
 tl::unexpected<Error> unknown_name(std::string_view name, const std::vector<std::string>& names) {
@@ -19,7 +19,7 @@ tl::unexpected<Error> unknown_name(std::string_view name, const std::vector<std:
         return fail(ErrorCode::bad_argument, "no effect \"{}\": there are none here",
                     printable(name));
     }
-    // Long ones are no misspellings, and the distance takes time by the product of the lengths.
+    // A long word is no misspelling, and the distance takes time by the product of the lengths.
     if (name.size() <= 2 * longest_name) {
         const auto nearest = std::min_element(
             names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
@@ -89,7 +89,7 @@ Result<EffectOverride> parse_override(std::string_view text,
                 printable(word.substr(0, 2 * longest_name)));
 }
 
-// Optimal string alignment: three rows of the table of prefixes.
+// The distance by optimal string alignment, with three rows of the table of prefixes.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1);
     std::vector<std::size_t> above(b.size() + 1);

@@ -7,7 +7,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Sums of weights and products with q may be off by this much; it must not cost a rank.
+// Sums of weights and products with q may be off by this much, which must not cost a rank.
 constexpr double rounding_slack = 1e-12;
 
 struct Weighted {
@@ -20,7 +20,7 @@ Weighted weigh(double error, double weight) {
     return {std::fabs(error), weight};
 }
 
-// The list is sorted by magnitude and not empty.
+// Returns a quantile of a list that is sorted by magnitude and not empty.
 double quantile(const std::vector<Weighted>& sorted, double total_weight, double q) {
     const double needed = q * total_weight * (1 - rounding_slack);
     double sum = 0;
@@ -42,7 +42,7 @@ std::optional<ErrorSummary> summarize_weighted(std::vector<Weighted> list) {
     double squares = 0;
     for (const Weighted& entry : list) {
         total += entry.weight;
-        // In parts of the largest, so that no square overflows.
+        // Errors are taken relative to the largest, so that no square overflows.
         if (summary.max > 0 && !std::isinf(summary.max)) {
             const double part = entry.magnitude / summary.max;
             squares += entry.weight * part * part;

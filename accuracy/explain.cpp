@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t line_length = 80;
 constexpr std::size_t indent = 5;
 
-// Words, over as many lines as they need, each indented.
+// Wraps words to as many indented lines as they need.
 std::string wrapped(std::string_view words) {
     std::string text;
     std::string line;
@@ -33,7 +33,7 @@ std::string wrapped(std::string_view words) {
     return text;
 }
 
-// A share of the budget; a budget of a time alone has none.
+// Returns a share of the budget as text. A budget of a time alone has no shares.
 std::string percent(const Plan& plan, double share) {
     if (!plan.budget.bounds_errors()) return "-";
     if (std::isinf(share)) return "over";
@@ -46,7 +46,7 @@ struct Line {
     std::string predicted;
     std::string share;
     std::string evidence;
-    std::string below;  // lines that explain it
+    std::string below;  // lines that explain the line above
 };
 
 std::vector<Line> lines_of(const Plan& plan) {

@@ -1,8 +1,11 @@
-// accuracy/explain.h -- the text of `--explain`: each effect's size, the budget, on or off, why.
+// accuracy/explain.h -- the text of `--explain`: the size of each effect, the budget, what is on or
+// off, and why.
 //
-// Lines of at most 80 characters where words allow it, the same text for the same plan on
-// every machine (times that were measured are the plan's, not the writer's). Sizes are rounded
-// up to three digits. Thread contract: a pure function.
+// Lines have at most 80 characters if words allow it. The text of a plan is the same on every
+// machine (measured times belong to the plan and not to the writer). Sizes are rounded up to three
+// digits.
+//
+// Threads   A pure function.
 #pragma once
 
 #include <string>

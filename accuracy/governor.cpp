@@ -9,7 +9,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Whether the sum of what the choice leaves off is known without a sample.
+// Returns true if the sum of what the choice leaves off is known without a sample.
 bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         const std::vector<Effect>& effects = chain.steps[i].effects;
@@ -23,7 +23,7 @@ bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     return true;
 }
 
-// The bounded quantities that are not proven, as errors: what measuring must show.
+// Returns the bounded quantities that are not proven, which measuring must therefore show.
 std::vector<Quantity> unproven(const Chain& chain, const Budget& budget, const Choice& choice) {
     std::vector<Quantity> quantities;
     for (const Quantity quantity : all_quantities) {
@@ -41,7 +41,7 @@ bool shown(const Measured& measured, const Budget& budget, const std::vector<Qua
     });
 }
 
-// What was measured, and the proven sums of quantities that were not.
+// Returns what was measured, with proven sums for the quantities that were not.
 Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured measured) {
     const auto fill = [&](Quantity quantity, std::optional<double>& bound) {
         if (bound || !is_proven(chain, candidate.choice, quantity)) return;
@@ -53,8 +53,8 @@ Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured me
     return measured;
 }
 
-// What the budget has room for by prediction, cheapest first and at most `most`: when there are
-// more, the most accurate takes the place of the last.
+// Returns the candidates that fit the budget by prediction, the cheapest first and at most `most`.
+// If there are more, the most accurate one replaces the last.
 std::vector<Candidate> to_try(const std::vector<Candidate>& candidates, const Budget& budget,
                               std::size_t most) {
     std::vector<Candidate> good;
@@ -88,7 +88,7 @@ std::string describe_measured(const Measured& measured, const Budget& budget, Va
     return text;
 }
 
-// Tries candidates one after the other and keeps what it learnt.
+// Tries one candidate after another and keeps what it has learned.
 class Trial {
   public:
     Trial(const Chain& chain, const Budget& budget, const Measure& measure,
@@ -102,7 +102,7 @@ class Trial {
         return !budget_.time_s || candidate.cost_s + measuring_s_ <= *budget_.time_s;
     }
 
-    // The plan if the candidate meets the budget, none if it does not.
+    // Returns the plan if the candidate meets the budget, and none otherwise.
     Result<std::optional<Plan>> attempt(const Candidate& candidate) {
         const auto needed = unproven(chain_, budget_, candidate.choice);
         if (needed.empty()) return finish(candidate, Outcome::met, std::nullopt);
@@ -118,7 +118,7 @@ class Trial {
         return std::nullopt;
     }
 
-    // After all have failed: the best that was measured, none when nothing was.
+    // Returns the best measured plan after all have failed, or none if nothing was measured.
     [[nodiscard]] std::optional<Plan> best() const {
         if (!best_) return std::nullopt;
         Plan plan = finish(*best_, Outcome::unmet, best_measured_);
@@ -142,7 +142,7 @@ class Trial {
         return plan;
     }
 
-    // Where a bound is missing nothing is known, so that any known error is better.
+    // If a bound is missing, nothing is known, so any known error is better.
     void keep_best(const Candidate& candidate, const Measured& measured,
                    const std::vector<Quantity>& needed) {
         ErrorSize size;
@@ -165,7 +165,7 @@ class Trial {
         best_size_ = size;
     }
 
-    // Every setting but auto narrows what could be tried.
+    // Every setting other than auto narrows what could be tried.
     [[nodiscard]] std::string settings_in_the_way() const {
         std::string text;
         for (const Step& step : chain_.steps) {

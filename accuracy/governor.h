@@ -1,20 +1,23 @@
-// accuracy/governor.h -- a plan whose promise is checked on the scene itself.
+// accuracy/governor.h -- makes a plan and checks its promise on the scene itself.
 //
-// Predictions by sample can be wrong, and effects can act together. So choices whose predicted sums
-// are within the budget are measured, in order of rising effort, by the caller's `measure`; the
-// first that meets the budget wins. A limit is met by a choice
-//   by proof       when every effect left off that touches the quantity is exact or a proven bound
-//   by measuring   when the measured upper bound is within it
-// A choice that leaves nothing off, or is proven in every bounded quantity, is not measured: that
-// costs nothing. Where the sample is too small for a bound, the limit is not met: never by luck.
-// When `most_measured` choices have failed but one, the most accurate of all is tried instead of
-// the rest.
+// Predictions from a sample can be wrong, and effects can act together. So choices whose predicted
+// sums are within the budget are measured by the caller's `measure`, in order of rising effort, and
+// the first that meets the budget wins. A choice meets a limit
+//   by proof       if every effect left off that touches the quantity is exact or has a proven
+//                  bound,
+//   by measuring   if the measured upper bound is within the limit.
+// A choice that leaves nothing off, or is proven in every bounded quantity, is not measured. If the
+// sample is too small for a bound, the limit is not met, so that no choice passes by luck. When all
+// but one of `most_measured` choices have failed, the most accurate choice of all is tried instead
+// of the rest.
 //
-// What measuring takes counts into a budget's time: a choice is taken only if its cost and
-// the time measured so far fit. A budget of a time alone is planned and not measured.
-// Errors: as plan(), and those of `measure`. A budget that is not met is a plan
-// (stormcellar/accuracy/plan.h). Thread contract: calls `measure` from the calling thread, one at a
-// time.
+// The time for measuring counts toward a budget's time: a choice is taken only if its cost and the
+// time measured so far fit. A budget of a time alone is planned and not measured.
+//
+// Units     Those of stormcellar/accuracy/budget.h.
+// Threads   Calls `measure` from the calling thread, one at a time.
+// Errors    Those of plan() and of `measure`. A budget that is not met is not an error but a plan
+//           (stormcellar/accuracy/plan.h).
 #pragma once
 
 #include <functional>

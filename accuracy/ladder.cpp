@@ -11,7 +11,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// What the front is drawn by: less is better in each.
+// The criteria of the Pareto front. Less is better in each.
 std::array<double, 4> criteria(const LadderRow& row, TimeKind kind) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     return {kind == TimeKind::kept ? row.kept_time_s.value_or(row.time_s) : row.time_s,
@@ -47,7 +47,7 @@ std::string text_of(const LadderField& field) {
     return "-";
 }
 
-// Characters, not bytes.
+// Returns the number of characters, not of bytes.
 std::size_t width_of(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;

@@ -35,7 +35,7 @@ Lowered without(const Situation& situation, std::size_t at, std::size_t index) {
     return lowered;
 }
 
-// Of the effect of that index in the step of number `at`.
+// Returns the reason for the effect of that index in the step number `at`.
 std::string reason_on(const Situation& situation, std::size_t at, std::size_t index) {
     const Step& step = situation.chain.steps[at];
     const Effect& effect = step.effects[index];

@@ -13,20 +13,20 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Okabe and Ito (2008), without yellow, which is too pale on white.
+// The colors of Okabe and Ito (2008), without yellow, which is too pale on white.
 constexpr std::array<std::string_view, 7> colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                      "#E69F00", "#56B4E9", "#000000"};
 constexpr int shape_count = 5;
 constexpr double front_width = 1.5;
 
-// Characters of XML made harmless; what XML has no place for made visible.
+// Escapes the special characters of XML, and replaces those that XML does not allow.
 std::string escaped(std::string_view text) {
     std::string safe;
     const std::string clean = printable(text);
     for (std::size_t i = 0; i < clean.size(); ++i) {
         const std::string_view rest = std::string_view(clean).substr(i);
         if (rest.starts_with("\xEF\xBF\xBE") || rest.starts_with("\xEF\xBF\xBF")) {
-            safe += "\xEF\xBF\xBD";  // U+FFFE and U+FFFF are no XML characters
+            safe += "\xEF\xBF\xBD";  // U+FFFE and U+FFFF are not XML characters
             i += 2;
         } else if (rest.front() == '&') {
             safe += "&amp;";
@@ -57,7 +57,7 @@ std::string_view colour_of(std::size_t series) {
     return colours[series % colours.size()];
 }
 
-// A circle, square, diamond, or triangle up or down: 7 colours and 5 shapes meet again after 35.
+// Draws a circle, square, diamond, or triangle up or down. 7 colors and 5 shapes repeat after 35.
 std::string marker_shape(double x, double y, std::size_t series, bool filled) {
     const std::string style =
         fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"1.8\"",
@@ -154,7 +154,7 @@ std::string draw_points(const PlotLayout& layout) {
     for (const PlotMarker& marker : layout.markers) {
         svg += marker_shape(marker.x, marker.y, marker.series, marker.pareto);
     }
-    // A white edge keeps letters legible over lines.
+    // A white edge keeps letters readable over lines.
     const std::string style = fmt::format(
         "font-size=\"{}\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" "
         "paint-order=\"stroke\"",

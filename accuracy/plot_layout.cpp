@@ -15,7 +15,7 @@ constexpr double margin_top = 56;
 constexpr double margin_bottom = 64;
 constexpr double zero_row_height = 36;
 constexpr double character_width =
-    0.58;  // of the size of letters, on the average and a little more
+    0.58;  // as a share of the size of letters, a little more than the average
 constexpr std::size_t most_points = 400;
 constexpr double most_decades = 4;
 
@@ -38,7 +38,7 @@ Status validate(const Plot& plot) {
     return {};
 }
 
-// Four decades below the greatest error where something is below that, else 0.
+// Returns four decades below the greatest error if any error is below that, else 0.
 double least_on_the_axis(const Plot& plot) {
     double greatest = 0;
     for (const PlotPoint& point : plot.points)
@@ -69,7 +69,7 @@ Axis make_axis(const std::vector<double>& numbers, double from, double to) {
         axis.high = first ? log : std::max(axis.high, log);
         first = false;
     }
-    // Room at both ends, and half a decade each way round a single value.
+    // Room at both ends, and half a decade on each side of a single value.
     const double room = std::max(0.08 * (axis.high - axis.low), 0.12);
     axis.low -= room;
     axis.high += room;
@@ -111,7 +111,8 @@ PlotBox marker_box(const PlotMarker& marker) {
     return {marker.x - reach, marker.y - reach, marker.x + reach, marker.y + reach};
 }
 
-// A box of the label's size off the marker in direction (dx, dy), each -1, 0 or 1.
+// Returns a box of the label's size, off the marker in direction (dx, dy), each of which is -1, 0
+// or 1.
 PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, double dy,
                   double distance) {
     const double width = static_cast<double>(characters(text)) * label_size * character_width;
@@ -121,7 +122,7 @@ PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, 
     return {x - width / 2, y - height / 2, x + width / 2, y + height / 2};
 }
 
-// How badly a label would stand there: what it hides, and how far it sticks out of the frame.
+// Returns how bad the place is for a label: what it hides, and how far it sticks out of the frame.
 double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room) {
     double cost = 0;
     for (const PlotLabel& label : layout.labels)
@@ -132,7 +133,8 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
     return cost + 4 * (area - box.overlap(room));
 }
 
-// Beside its marker if there is room, else farther off; the first of the best places is taken.
+// Places a label beside its marker if there is room, else farther off. The first of the best places
+// is taken.
 PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::string& text) {
     struct Direction {
         double dx, dy;

@@ -1,9 +1,11 @@
-// accuracy/plot_layout.h -- where everything of an accuracy plot stands.
+// accuracy/plot_layout.h -- the places of everything in an accuracy plot.
 //
-// Layout and drawing are apart, so that tests can see that nothing overlaps. Pixels, y downwards.
-// Errors of 0, which have no place on a logarithmic axis, stand in a row of their own below it; so
-// do errors more than four decades below the greatest, which are rounding and would squeeze the
-// rest. Thread contract: pure functions.
+// Layout and drawing are separate, so that tests can check that nothing overlaps. Errors of 0,
+// which a logarithmic axis cannot show, have a row of their own below it. So do errors more than
+// four decades below the greatest, which are rounding errors and would squeeze the rest.
+//
+// Units     Pixels, with y downward.
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -31,27 +33,27 @@ struct PlotMarker {
 };
 
 struct PlotLabel {
-    PlotBox box;  // the text lies inside, at the side towards its marker
+    PlotBox box;  // the text lies inside, at the side toward its marker
     enum class Side { left, middle, right } side = Side::middle;
     std::string text;
-    std::size_t marker = 0;  // that it belongs to
-    bool leader = false;     // stands apart from it: a line leads there
+    std::size_t marker = 0;  // the marker that it belongs to
+    bool leader = false;     // it is away from the marker, so a line leads there
 };
 
 struct PlotLayout {
     PlotBox frame;
     std::vector<std::string> series;  // in the order of first appearance
     std::vector<PlotTick> time_ticks, error_ticks;
-    std::optional<double> zero_y;     // the row of exact points, when there are any
-    double zero_below = 0;            // that row holds errors below this too
-    std::vector<PlotMarker> markers;  // one for each point, in their order
+    std::optional<double> zero_y;     // the row of exact points, if there are any
+    double zero_below = 0;            // that row also holds errors below this one
+    std::vector<PlotMarker> markers;  // one for each point, in order
     std::vector<PlotLabel> labels;    // likewise
 };
 
 inline constexpr double marker_radius = 5;
 inline constexpr double label_size = 12;
 
-// Errors: as draw_plot().
+// Errors: those of draw_plot().
 [[nodiscard]] Result<PlotLayout> lay_out_plot(const Plot& plot);
 
 }  // namespace stormcellar::accuracy

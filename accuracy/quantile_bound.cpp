@@ -23,12 +23,13 @@ bool sensible(const BoundRequest& request) {
            request.confidence < 1;
 }
 
-// The most errors of n that may exceed the bound: the largest c for which c or fewer exceed the
-// true quantile with a probability of at most 1 - confidence. None when even 0 is too likely.
+// Returns how many of n errors may exceed the bound: the largest c for which c or fewer errors
+// exceed the true quantile with a probability of at most 1 - confidence. Returns none if even 0 is
+// too likely.
 std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest& request) {
     const auto count = static_cast<double>(n);
     const double log_odds = std::log1p(-request.quantile) - std::log(request.quantile);
-    double log_probability = count * std::log(request.quantile);  // of exactly k, here 0
+    double log_probability = count * std::log(request.quantile);  // for exactly k, which is 0 here
     double sum = std::exp(log_probability);
     if (sum > 1 - request.confidence) return std::nullopt;
     std::size_t k = 0;
@@ -48,10 +49,11 @@ struct Column {
     double weight = 1;
 };
 
-// What is staked on each unit by which the exceedances stay below what is allowed.
+// The number of stakes, each of which is a fraction of the capital that is bet.
 constexpr std::size_t stake_count = 8;
 
-// log of the mean over the stakes of the capital won on "t is at least the quantile". Rises with t.
+// Returns the logarithm of the mean, over the stakes, of the capital won by betting that t is at
+// least the quantile. It rises with t.
 double log_capital(const std::vector<Column>& columns, double t, double largest_stake,
                    double allowed_share) {
     std::array<double, stake_count> logs{};
@@ -109,7 +111,7 @@ std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> cluster
         column.weight /= most_weight;
     std::sort(candidates.begin(), candidates.end());
 
-    // The heaviest cluster, exceeding t with all its errors, must not take all.
+    // The heaviest cluster must not take all capital, even if all its errors exceed t.
     const double largest_stake = 0.99 / request.quantile;
     const double needed = -std::log(1 - request.confidence);
     const auto wins = [&](double t) {

@@ -1,13 +1,15 @@
-// accuracy/quantile_bound.h -- what a sample proves about the errors that were not looked at.
+// accuracy/quantile_bound.h -- what a sample proves about the errors that were not sampled.
 //
-// An upper confidence bound of a quantile: over repeated samples it lies below the true quantile of
-// all errors' magnitudes in at most a share of 1 - confidence of them, whatever the distribution
-// (heavy tails, ties, mixtures). It is one of the sampled magnitudes. None when the sample is too
-// small to bound the quantile at all; nothing is ever extrapolated. The true quantile is the
-// smallest t that at most a share 1 - quantile of the errors exceed. A NaN counts as infinite.
+// The functions return an upper confidence bound of a quantile. Over repeated samples, it lies
+// below the true quantile of the magnitudes of all errors in at most a share of 1 - confidence of
+// the samples, whatever the distribution (heavy tails, ties, mixtures). It is one of the sampled
+// magnitudes. It is none if the sample is too small to bound the quantile at all; nothing is ever
+// extrapolated. The true quantile is the smallest t that at most a share 1 - quantile of the errors
+// exceeds. A NaN counts as infinite.
 //
-// Coverage is enforced by tests/accuracy/quantile_bound_test.cpp on simulations with known truth.
-// Thread contract: pure functions.
+// Accuracy  tests/accuracy/quantile_bound_test.cpp enforces the coverage on simulations with known
+//           truth.
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -22,30 +24,32 @@ struct BoundRequest {
     double confidence = 0.999;  // likewise
 };
 
-// For errors drawn independently of each other: the order statistic of the binomial distribution
-// (exact, e.g. Conover 1999, section 3.2). The 99th percentile at 99.9 % needs 688 errors.
+// For errors that are drawn independently of each other. The bound is the order statistic of the
+// binomial distribution (exact, e.g. Conover 1999, section 3.2). The 99th percentile at 99.9 %
+// needs 688 errors.
 [[nodiscard]] std::optional<double> quantile_upper_bound(std::span<const double> errors,
                                                          const BoundRequest& request);
 
-// For errors in clusters, such as the columns of a grid: only clusters are independent, cells of
-// one may all be off together. Clusters may be empty, differ in size, depend in size on how far
-// they are off, and be drawn without replacement. The sample may favour some of them:
-//   strata        fix beforehand how many clusters each gives; weight = (clusters in the stratum) /
-//                 (clusters drawn from it)
-//   in proportion to a size known for all, such as the cells that the cheap form has a value in,
-//                 with replacement; weight = 1 / size
-// `most_weight` is the most that (weight * errors) of any cluster that could have been drawn can
-// be; it must be known beforehand and not read off the sample. Without weights it is the number of
-// levels. A cluster beyond it: no bound.
+// For errors in clusters, such as the columns of a grid. Only the clusters are independent; all
+// cells of one cluster may be off together. Clusters may be empty, differ in size, depend in size
+// on how far they are off, and be drawn without replacement. The sample may favor some of them:
+//   strata        Fix beforehand how many clusters each stratum gives; weight = (clusters in the
+//                 stratum) / (clusters drawn from it).
+//   proportional  Draw in proportion to a size that is known for all, such as the number of cells
+//                 in which the cheap form has a value, with replacement; weight = 1 / size.
+// `most_weight` is the largest possible (weight * errors) of any cluster that could have been
+// drawn. It must be known beforehand and not taken from the sample. Without weights it is the
+// number of levels. If a cluster exceeds it, there is no bound.
 //
-// Method: a wager that t is at least the quantile. A cluster of m errors of which k exceed t, of
-// weight w, multiplies the stake by 1 - l w (k - (1 - quantile) m). Were t below the quantile, the
-// expected stake would not grow (for strata by the inequality of the means); so by Markov's
-// inequality it reaches 1 / (1 - confidence) with a probability of at most 1 - confidence. The
-// stake is shared among eight values of l. (After Waudby-Smith and Ramdas 2024, "Estimating means
-// of bounded random variables by betting".)
-// The price: the 99th percentile at 99.9 % needs 902 clusters that are as heavy as most_weight, ten
-// times as many when they have a tenth of it. So draw columns in proportion to what they hold.
+// The method is a wager that t is at least the quantile. A cluster with weight w and m errors, k of
+// which exceed t, multiplies the stake by 1 - l w (k - (1 - quantile) m). If t were below the
+// quantile, the expected stake would not grow (for strata by the inequality of the means). So by
+// Markov's inequality it reaches 1 / (1 - confidence) with a probability of at most 1 - confidence.
+// The stake is shared among eight values of l. (After Waudby-Smith and Ramdas 2024, "Estimating
+// means of bounded random variables by betting".)
+//
+// The price: the 99th percentile at 99.9 % needs 902 clusters that are as heavy as most_weight, and
+// ten times as many if they have a tenth of it. So draw columns in proportion to what they hold.
 [[nodiscard]] std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> clusters,
                                                          double most_weight,
                                                          const BoundRequest& request);

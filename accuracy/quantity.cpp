@@ -9,10 +9,10 @@ namespace stormcellar::accuracy {
 namespace {
 
 constexpr int digits = 3;
-// Outside of these a number is written with an exponent.
+// Numbers outside these limits are written with an exponent.
 constexpr double smallest_plain = 1e-4;
 constexpr double largest_plain = 1e7;
-// What binary fractions miss decimal ones by must not round 0.3 up to 0.301.
+// The difference between binary and decimal fractions must not round 0.3 up to 0.301.
 constexpr double rounding_slack = 1e-12;
 
 }  // namespace
@@ -52,7 +52,7 @@ std::string format_number(double number) {
     if (std::isnan(number)) return "unknown";
     if (number == 0) return "0";
     int exponent = static_cast<int>(std::floor(std::log10(std::fabs(number))));
-    // Beyond what a power of ten can scale, rounding up is not worth the trouble.
+    // A power of ten cannot scale such a number, so it is not rounded up.
     if (std::abs(exponent) > 290) return fmt::format("{:.3g}", number);
     const double scale = std::pow(10, digits - 1 - exponent);
     const double rounded = std::ceil(number * scale * (1 - rounding_slack)) / scale;

@@ -1,6 +1,7 @@
-// accuracy/timing.h -- how long work takes, fairly.
+// accuracy/timing.h -- measures how long work takes, in a fair way.
 //
-// Thread contract: runs the work on the calling thread.
+// Units     Seconds.
+// Threads   Runs the work on the calling thread.
 #pragma once
 
 #include <functional>
@@ -9,21 +10,22 @@
 
 namespace stormcellar::accuracy {
 
-// Seconds of a monotonic clock.
+// Returns the seconds of a monotonic clock.
 [[nodiscard]] double monotonic_s();
-// Seconds of the processor that the calling thread has had: what else the machine does is not in
-// it.
+// Returns the processor seconds of the calling thread, which leave out whatever else the machine
+// does.
 [[nodiscard]] double thread_s();
 
 struct Timing {
-    double first_s = 0;   // the first run, with all that it makes and later ones keep
-    double least_s = 0;   // of the later runs; the first when there is no other
-    double median_s = 0;  // likewise; of an even number the mean of the two in the middle
+    double first_s = 0;   // the first run, which makes everything that later runs keep
+    double least_s = 0;   // of the later runs; the first run if there is no other
+    double median_s = 0;  // of the same runs; for an even number the mean of the two in the middle
 };
 
-// Runs each piece of work `rounds` times (0 counts as 1), in rounds: each once, one behind the
-// other, so that what else the machine does and how warm it is falls on all alike; every other
-// round backwards, so that none is always behind the same. First runs are all in the first round.
+// Runs each piece of work `rounds` times (0 counts as 1). In each round every piece runs once, one
+// after the other, so that the load and the temperature of the machine affect all alike. Every
+// other round goes backward, so that no piece always follows the same one. All first runs are in
+// the first round.
 [[nodiscard]] std::vector<Timing> time_in_rounds(
     std::span<const std::function<void()>> works, int rounds,
     const std::function<double()>& now_s = monotonic_s);

@@ -25,13 +25,14 @@ constexpr std::size_t tar_block_bytes = 512;
 constexpr std::size_t read_block_bytes = std::size_t{256} << 10;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
-constexpr std::size_t most_left_out = 100;  // that are named
+constexpr std::size_t most_left_out = 100;  // the most that are named
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
     return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
 }
 
-// By the checksum, which every tar header has: the sum of its bytes, with blanks in its place.
+// Returns true for a tar header, by its checksum: the sum of its bytes, with blanks in place of the
+// checksum.
 bool is_tar_header(std::span<const std::byte> bytes) {
     constexpr std::size_t sum_at = 148;
     constexpr std::size_t sum_bytes = 8;
@@ -56,13 +57,14 @@ bool is_packed(std::span<const std::byte> start) {
     return std::ranges::any_of(magics, [&](std::string_view m) { return begins_with(start, m); });
 }
 
-// Whether it may be an archive, by its first 512 bytes. What is packed must be looked into.
+// Returns true if the first 512 bytes may begin an archive. A packed archive must be unpacked to
+// know.
 bool may_be_archive(std::span<const std::byte> start) {
     return begins_with(start, "PK\x03\x04") || begins_with(start, "PK\x05\x06") ||
            is_tar_header(start) || is_packed(start);
 }
 
-// No filters: what is packed comes through a PackedStream.
+// There are no filters here, because packed data come through a PackedStream.
 Handle new_reader() {
     Handle handle{archive_read_new()};
     const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
@@ -75,7 +77,8 @@ bool is_zip(::archive* handle) {
     return (archive_format(handle) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_ZIP;
 }
 
-// Of a zip's member whose header was read, by the name that the library gives its codec.
+// Returns true if the codec of a zip's member is small, by the name that the library gives it. The
+// member's header must have been read.
 bool is_small_codec(::archive* handle) {
     const char* const text = archive_format_name(handle);
     const std::string_view name = text == nullptr ? std::string_view{} : std::string_view{text};
@@ -89,7 +92,7 @@ std::string name_of(::archive_entry* entry) {
     return name == nullptr ? std::string{} : std::string{name};
 }
 
-// Why the entry is none of the files that are given; empty where it is one.
+// Returns why the entry is not a file that is returned; empty if it is one.
 std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
     if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
         return "is a link";
@@ -107,25 +110,26 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
 
 struct ArchiveReader::Impl {
     Limits limits;
-    std::unique_ptr<PackedStream> packed;  // none: the archive is not packed
-    Handle handle;                         // ends before what it reads
-    std::uint64_t source_bytes = 0;    // of the archive; 0: not known, what was read of it counts
+    std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
+    Handle handle;                         // must end before what it reads from
+    // size of the archive; 0: not known, so what was read of it counts
+    std::uint64_t source_bytes = 0;
     ::archive_entry* first = nullptr;  // the header that opening has read
     std::size_t members = 0;
     std::uint64_t given_bytes = 0;
-    std::map<std::string, int> names;  // and how many had each
+    std::map<std::string, int> names;  // names, and how many members had each
     std::vector<LeftOut> left_out;
     bool is_cut = false;
     bool at_end = false;
-    // The archive's last bytes; a tar that is not packed ends with blocks of zeros.
+    // Returns the last bytes of the archive. A tar that is not packed ends with blocks of zeros.
     std::function<std::vector<std::byte>()> tail;
-    int nesting = 0;  // how deep this one lies
-    // An archive inside this one, while it is gone through.
+    int nesting = 0;  // nesting depth of this archive
+    // An archive inside this one, while its members are read.
     std::string inner_name;
     std::vector<std::byte> inner_bytes;
     std::unique_ptr<Impl> inner;
 
-    // False where it is no archive. Zeros are an empty one to some.
+    // Returns false if it is not an archive. The library may take zeros for an empty archive.
     bool begin(std::span<const std::byte> start, const PackedStream::OpenSource& source) {
         handle = new_reader();
         if (!handle) return false;
@@ -171,7 +175,7 @@ struct ArchiveReader::Impl {
         return nullptr;
     }
 
-    // Whether reading ended since too much came out of what is packed.
+    // Returns true if reading ended because too much came out of a packed archive.
     bool end_at_bound() {
         if (!packed || packed->met_bound() == 0) return false;
         end_with(fmt::format("unpacks to more than {} bytes: the rest is not read",
@@ -188,7 +192,7 @@ struct ArchiveReader::Impl {
         return text.find("PK\x05\x06") != std::string_view::npos;
     }
 
-    // Of formats that mark their end the library sees whether it is there.
+    // For formats that mark their end, the library knows whether the end is there.
     [[nodiscard]] bool has_its_end() const {
         const bool is_plain_tar =
             (archive_format(handle.get()) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_TAR &&
@@ -199,7 +203,7 @@ struct ArchiveReader::Impl {
                std::ranges::all_of(last, [](std::byte b) { return b == std::byte{0}; });
     }
 
-    // What may come out of the archive when so many of its bytes were read.
+    // Returns how much may come out of the archive when this many of its bytes were read.
     [[nodiscard]] std::uint64_t most_bytes(std::uint64_t read) const {
         return std::min(limits.all_bytes,
                         limits.unbounded_bytes + limits.expansion * std::max(source_bytes, read));
@@ -209,8 +213,8 @@ struct ArchiveReader::Impl {
             std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1))));
     }
 
-    // Reads on in the entry's data, at most `room` bytes to `into`; 0: the end. None: they are
-    // not whole or too many, which is named.
+    // Reads more of the entry's data, at most `room` bytes, to `into`. Returns 0 at the end, and
+    // none if the data are not whole or too many, which is recorded.
     std::optional<std::size_t> read_on(const std::string& name, std::byte* into, std::size_t room) {
         const la_ssize_t got = archive_read_data(handle.get(), into, room);
         if (got < 0) {
@@ -229,7 +233,7 @@ struct ArchiveReader::Impl {
         return static_cast<std::size_t>(got);
     }
 
-    // The entry's data; none where they are not whole, which is named.
+    // Returns the data of the entry, or none if they are not whole, which is recorded.
     std::optional<std::vector<std::byte>> data_of(const std::string& name,
                                                   std::uint64_t size_hint) {
         std::vector<std::byte> bytes;
@@ -251,8 +255,8 @@ struct ArchiveReader::Impl {
         }
     }
 
-    // To the end of the entry. In a zip without a directory a member's end is found by unpacking
-    // it: so it is read here, where it is counted.
+    // Skips to the end of the entry. In a zip without a directory, the end of a member is found by
+    // unpacking it, so it is read here, where it is counted.
     void pass_over(const std::string& name) {
         if (!is_zip(handle.get())) return;
         std::vector<std::byte> piece(piece_bytes);
@@ -260,7 +264,7 @@ struct ArchiveReader::Impl {
             got = read_on(name, piece.data(), piece.size());
     }
 
-    // A second member of a name has a number behind it.
+    // The second member with a name gets a number after it.
     std::string own_name(const std::string& name) {
         int& count = names[name];
         if (++count == 1) return name;
@@ -270,7 +274,7 @@ struct ArchiveReader::Impl {
         }
     }
 
-    // Whether what the member holds is an archive, which is gone through next.
+    // Returns true if the member is an archive, whose members are read next.
     bool begin_inner(const std::string& name, std::vector<std::byte>& bytes) {
         if (nesting >= limits.nesting) return false;
         auto reader = make(bytes, limits);
@@ -333,7 +337,7 @@ struct ArchiveReader::Impl {
                 modified = UtcTime{std::chrono::seconds{
                     std::clamp<la_int64_t>(archive_entry_mtime(entry), 0, 7'000'000'000)}};
             }
-            // What the header claims is no more than a hint, and never more than the archive may
+            // The size that the header claims is only a hint, and never more than the archive may
             // hold.
             const std::uint64_t claimed =
                 archive_entry_size_is_set(entry) != 0
@@ -443,7 +447,7 @@ std::optional<Member> find_member(int descriptor, const std::string& name, Limit
 Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& path) {
     const auto name = member_path_of(path);
     if (!name) return read_file(path);
-    // Once on from where the last one was read, and once from the start.
+    // Searches on from where the last member was read, and then once from the start.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!reader_ || archive_ != name->archive || attempt > 0) {
             reader_.reset();

@@ -1,8 +1,10 @@
-// archive/packed_stream.h -- the bytes of a packed archive as they unpack, each of them counted.
+// archive/packed_stream.h -- unpacks the bytes of a packed archive and counts each of them.
 //
-// Inside the archive room only. libarchive passes over members by unpacking them, and counts
-// nothing while it does; here every byte that comes out passes by a bound. What is packed twice
-// is refused: between the two layers nobody counts. Thread contract: one thread at a time.
+// This is used only inside the archive room. libarchive skips members by unpacking them and counts
+// nothing meanwhile; here every unpacked byte is checked against a bound. An archive that is packed
+// twice is refused, because nothing would count the bytes between the two layers.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +23,24 @@ struct CloseArchive {
 };
 using Handle = std::unique_ptr<::archive, CloseArchive>;
 
-// libarchive's own words on what is wrong.
+// Returns libarchive's own words for what is wrong.
 [[nodiscard]] std::string error_text_of(::archive* handle);
 
 class PackedStream {
   public:
-    // Opens a reader on the packed bytes; it is closed with the stream.
+    // Opens a reader on the packed bytes. It is closed with the stream.
     using OpenSource = std::function<bool(::archive* handle)>;
-    // How many bytes may come out when so many of the source were read.
+    // Returns how many bytes may come out when this many bytes of the source were read.
     using Bound = std::function<std::uint64_t(std::uint64_t source_bytes)>;
 
-    // None where the source is not packed once by a filter that is known. `small_codecs`: gzip,
-    // bzip2 and compress, which take a few megabytes of memory whatever the input says; else xz
-    // and zstd as well (up to 1 GiB).
+    // Opens a stream. Returns none if the source is not packed exactly once by a known filter.
+    // `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory whatever
+    // the input says; without it, xz and zstd are allowed too (up to 1 GiB).
     [[nodiscard]] static std::unique_ptr<PackedStream> open(const OpenSource& source,
                                                             bool small_codecs, Bound bound);
-    // Reads `handle`, which must end before this, from what is unpacked.
+    // Lets `handle`, which must end before this object, read the unpacked bytes.
     [[nodiscard]] bool feed(::archive* handle);
-    // How many bytes the bound was, where it was met.
+    // Returns the bound in bytes if it was reached.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
 
   private:

@@ -20,7 +20,7 @@ ErrorCode code_of(int error_number) {
     switch (error_number) {
         case ENOENT:
         case ENOTDIR:
-        case ELOOP:  // a link where a directory or file should be
+        case ELOOP:  // a link instead of a directory or a file
             return ErrorCode::not_found;
         case EACCES:
         case EPERM:
@@ -39,17 +39,17 @@ tl::unexpected<Error> failure(const fs::path& path, int error_number) {
                 std::system_category().message(error_number));
 }
 
-// The directory that a path lies in, and its name there.
+// The directory that holds a path, and the name in it.
 struct Place {
     Descriptor directory{AT_FDCWD};
     fs::path name;
 };
 
-// Which parts of the path come below the root; none where it does not lie there.
+// Returns the parts of the path that are below the root, or none if the path is not below it.
 Result<std::vector<fs::path>> parts_below(const fs::path& root, const fs::path& path) {
     auto part = path.begin();
     for (const fs::path& of_root : root) {
-        if (of_root.empty()) continue;  // of "root/"
+        if (of_root.empty()) continue;  // the empty part of "root/"
         if (part == path.end() || *part != of_root) {
             return fail(ErrorCode::not_found, "{}: lies outside of {}", path.native(),
                         root.native());
@@ -128,8 +128,8 @@ Result<struct stat> look_beneath(const fs::path& root, const fs::path& path) {
 Result<int> open_beneath(const fs::path& root, const fs::path& path) {
     const auto place = find_place(root, path);
     if (!place) return pass_on(place);
-    // To open a device may already do something, so it is looked at first. What is swapped between
-    // the two is met by the flags and seen by the second look.
+    // Opening a device may already have an effect, so the kind of file is checked first. If it is
+    // replaced between the check and the opening, the flags and the second check catch it.
     const int directory = place->directory.number();
     struct stat facts {};
     if (::fstatat(directory, place->name.c_str(), &facts, AT_SYMLINK_NOFOLLOW) != 0)

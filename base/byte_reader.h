@@ -1,8 +1,9 @@
 // base/byte_reader.h -- reads big-endian numbers from bytes that nobody has checked.
 //
-// A read past the end sets failed() and gives zero; the reader then stays failed. So a caller may
-// read a whole structure and check once. Nothing is ever read outside the span.
-// Thread contract: a reader is a value; do not share one between threads.
+// A read past the end sets failed() and gives zero, and the reader then stays failed. So a caller
+// may read a whole structure and check once. Nothing is ever read outside the span.
+//
+// Threads   A reader is a plain value; do not share one between threads.
 #pragma once
 
 #include <bit>
@@ -28,7 +29,7 @@ class ByteReader {
     std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
     float f32() { return std::bit_cast<float>(u32()); }
 
-    // The next n bytes, or an empty span (and failed()) when fewer are left.
+    // Returns the next n bytes, or an empty span (and sets failed()) if fewer are left.
     std::span<const std::byte> bytes(std::size_t n) {
         if (failed_ || n > remaining()) {
             failed_ = true;

@@ -1,4 +1,6 @@
-// base/byte_size.h -- amounts of bytes as people write them.
+// base/byte_size.h -- parses and writes amounts of bytes.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +11,13 @@
 
 namespace stormcellar {
 
-// "20 GB", "1.5GiB", "500000": a number and B, kB, MB, GB, TB (powers of 1000) or KiB, MiB, GiB,
-// TiB (powers of 1024), in letters of either case, with or without a space; no unit: bytes. Parts
-// of a byte are dropped. bad_argument for anything else and for 2^63 bytes or more.
+// Parses "20 GB", "1.5GiB" or "500000": a number and B, kB, MB, GB, TB (powers of 1000) or KiB,
+// MiB, GiB, TiB (powers of 1024), in upper or lower case, with or without a space. Without a unit
+// it is bytes. Fractions of a byte are dropped. Errors: bad_argument for anything else, and for
+// 2^63 bytes or more.
 [[nodiscard]] Result<std::uint64_t> parse_byte_size(std::string_view text);
 
-// "1.25 GB": three digits or more, for reading and not for parsing back.
+// Writes "1.25 GB" with three or more digits, for people and not for parsing.
 [[nodiscard]] std::string format_byte_size(std::uint64_t bytes);
 
 }  // namespace stormcellar

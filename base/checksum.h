@@ -1,4 +1,6 @@
 // base/checksum.h -- the two checksums that this project writes and compares.
+//
+// Threads   Pure functions. An Xxh3Stream may be used by one thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +10,11 @@
 
 namespace stormcellar {
 
-// XXH3, 64 bits, seed 0 (xxHash 0.8): guards our own files and detects changed raw files.
+// Returns XXH3, 64 bits, seed 0 (xxHash 0.8). It guards our own files and detects changed raw
+// files.
 [[nodiscard]] std::uint64_t xxh3_64(std::span<const std::byte> bytes);
 
-// The same of bytes that come one after the other, cut anywhere.
+// Computes the same for bytes that come in pieces of any size.
 class Xxh3Stream {
   public:
     Xxh3Stream();
@@ -20,14 +23,14 @@ class Xxh3Stream {
     ~Xxh3Stream();
 
     void append(std::span<const std::byte> bytes);
-    [[nodiscard]] std::uint64_t value() const;  // of all up to now
+    [[nodiscard]] std::uint64_t value() const;  // of all bytes up to now
 
   private:
     struct State;
     std::unique_ptr<State> state_;
 };
 
-// CRC-32 as in zlib, to be continued from a previous value (start with 0).
+// Returns the CRC-32 of zlib, continued from a previous value (start with 0).
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
 }  // namespace stormcellar

@@ -1,5 +1,6 @@
-// base/counted.h -- numbers of things, as a sentence has them.
-// Thread contract: pure functions.
+// base/counted.h -- writes numbers of things as a sentence has them.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,8 @@
 
 namespace stormcellar {
 
-// "1 file", "0 files", "2 directories" (`things` names what an s alone does not make many).
+// Returns "1 file", "0 files" or "2 directories". `things` gives a plural that is not made with an
+// s.
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view thing,
                                   std::string_view things = {});
 

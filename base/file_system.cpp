@@ -98,7 +98,7 @@ class RealFileSystem final : public FileSystem {
     }
 };
 
-// Unique in this process, and between processes by the process id.
+// The name is unique in this process by a counter, and between processes by the process id.
 std::filesystem::path temporary_name(const std::filesystem::path& final_path) {
     static std::atomic<std::uint64_t> counter{0};
     return final_path.parent_path() /
@@ -109,8 +109,8 @@ std::filesystem::path directory_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : std::filesystem::path{"."};
 }
 
-// The file that a rename may replace: none, a regular one, or the one that a link leads to. A
-// device, a directory or a FIFO would be destroyed by it.
+// Returns the file that a rename may replace: none, a regular file, or the file that a link leads
+// to. A rename would destroy a device, a directory or a FIFO.
 Result<std::filesystem::path> file_behind(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status link = std::filesystem::symlink_status(path, error);
@@ -125,14 +125,14 @@ Result<std::filesystem::path> file_behind(const std::filesystem::path& path) {
     return target;
 }
 
-// The failure of a descriptor operation knows no path: put it in front.
+// Puts the path before the failure of an operation on a descriptor, which knows no path.
 Status name_failure(Status status, const std::filesystem::path& path) {
     if (!status)
         status.error().message = fmt::format("{}: {}", path.native(), status.error().message);
     return status;
 }
 
-// Reads to the end: the file may be growing or shrinking, so its size is only a hint.
+// Reads to the end. The file may be growing or shrinking, so its size is only a hint.
 Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem::path& path,
                                            std::uint64_t size_hint, std::uint64_t limit) {
     std::vector<std::byte> bytes;
@@ -212,7 +212,7 @@ Result<AtomicFile> AtomicFile::create(FileSystem& file_system, std::filesystem::
     std::filesystem::path temporary_path = temporary_name(final_path);
     const Result<int> descriptor = file_system.create_exclusive(temporary_path);
     if (!descriptor) {
-        // The directory's fault, told under the name that the caller knows.
+        // The directory is at fault, but the message has the name that the caller knows.
         const std::string& message = descriptor.error().message;
         return fail(descriptor.error().code, "{}: cannot be made{}", final_path.native(),
                     message.substr(std::min(message.size(), message.rfind(": "))));
@@ -230,7 +230,8 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
 AtomicFile::~AtomicFile() {
     if (descriptor_ < 0) return;
     file_system_->close(descriptor_);
-    (void)file_system_->remove(temporary_path_);  // best effort: the failure that led here counts
+    // best effort, because the failure that led here is what counts
+    (void)file_system_->remove(temporary_path_);
 }
 
 Status AtomicFile::append(std::span<const std::byte> bytes) {
@@ -259,7 +260,7 @@ Status AtomicFile::commit() {
 }
 
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t limit) {
-    // O_NONBLOCK so that a FIFO in the place of a file cannot hold us up.
+    // With O_NONBLOCK, a FIFO in place of a file cannot block us.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.number() < 0) return system_failure(path.native(), errno);
     return read_open_file(file.number(), path, limit);

@@ -1,10 +1,11 @@
-// base/floating_point.h -- arithmetic that keeps quiet where a program has floating-point traps on.
+// base/floating_point.h -- arithmetic for programs that enable floating-point traps.
 //
-// A program may run with traps on invalid operations, division by zero and overflow
-// (feenableexcept, glibc). The rooms neither divide by zero nor compare NaN in earnest, so such a
-// program works as ever; what a caller may hand in as NaN is asked with is_within(), and other
-// libraries, which mind no traps, are called with MaskedTraps about.
-// Threads  traps belong to a thread.
+// A program may enable traps on invalid operations, division by zero and overflow (feenableexcept,
+// glibc). The rooms never divide by zero or compare NaN on purpose, so such a program works as
+// usual. A number that a caller may pass as NaN is tested with is_within(), and other libraries,
+// which ignore traps, are called under MaskedTraps.
+//
+// Threads   Traps belong to a thread.
 #pragma once
 
 #include <cfenv>
@@ -12,14 +13,14 @@
 
 namespace stormcellar {
 
-// False for NaN. An ordinary comparison with NaN is an invalid operation; this is none.
+// Returns false for NaN. An ordinary comparison with NaN is an invalid operation; this is not.
 template <class Real>
 [[nodiscard]] bool is_within(Real value, Real least, Real greatest) noexcept {
     return std::isgreaterequal(value, least) && std::islessequal(value, greatest);
 }
 
-// The traps of this thread are off while it lives; what was raised meanwhile is forgotten. Where
-// none are on it costs one instruction to see that.
+// Disables the traps of this thread while it lives. Exceptions raised meanwhile are forgotten. If
+// no traps are enabled, testing for that costs one instruction.
 class MaskedTraps {
   public:
     MaskedTraps() noexcept : traps_(fegetexcept()) {

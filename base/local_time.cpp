@@ -8,7 +8,7 @@
 
 namespace stormcellar {
 
-// The library throws where there is no database or no such zone.
+// The library throws if there is no database or no such zone.
 Result<std::string> format_local(UtcTime time, std::string_view zone) {
     const date::time_zone* found = nullptr;
     try {

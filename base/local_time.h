@@ -1,8 +1,9 @@
-// base/local_time.h -- UTC as clocks on a wall show it.
+// base/local_time.h -- converts UTC to local time.
 //
-// Zones are those of the system's IANA database (package tzdata), by name: "America/Chicago".
-// Past times go by the rules of their day.
-// Thread contract: may be called from any thread; TZ and the machine's zone are read, never set.
+// Zones are those of the system's IANA database (package tzdata), by name: "America/Chicago". Past
+// times follow the rules of their day.
+//
+// Threads   Any thread may call. TZ and the machine's zone are read and never set.
 #pragma once
 
 #include <string>
@@ -13,12 +14,12 @@
 
 namespace stormcellar {
 
-// "1999-05-03 18:56:21 CDT", whole seconds, rounded down; zones without letters of their own give
-// their distance, as in "-03". bad_argument for a name that is no zone, unsupported where the
-// database is missing.
+// Returns "1999-05-03 18:56:21 CDT", in whole seconds, rounded down. Zones without an abbreviation
+// give their offset, as in "-03". Errors: bad_argument for a name that is not a zone, unsupported
+// if the database is missing.
 [[nodiscard]] Result<std::string> format_local(UtcTime time, std::string_view zone);
 
-// What TZ names, else what /etc/localtime is; empty when neither names a zone.
+// Returns the zone that TZ names, else that of /etc/localtime; empty if neither names a zone.
 [[nodiscard]] std::string machine_time_zone();
 
 }  // namespace stormcellar

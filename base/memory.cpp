@@ -17,7 +17,7 @@ namespace stormcellar {
 void keep_freed_memory() {
 #ifdef __GLIBC__
     constexpr int most_kept_bytes = 128 << 20;
-    // Larger blocks are mapped by themselves, and go back at once.
+    // Larger blocks have mappings of their own, which are returned to the system at once.
     constexpr int mapped_from_bytes = 32 << 20;
     mallopt(M_TRIM_THRESHOLD, most_kept_bytes);
     mallopt(M_MMAP_THRESHOLD, mapped_from_bytes);
@@ -27,7 +27,8 @@ void keep_freed_memory() {
 #ifdef __GLIBC__
 namespace {
 
-// What is resident and no file's: what is in use, what malloc keeps, and stacks.
+// Returns the resident bytes that belong to no file: memory in use, memory that malloc keeps, and
+// stacks.
 std::size_t resident_bytes() {
     std::ifstream statm("/proc/self/statm");
     std::size_t all = 0, resident = 0, of_files = 0;
@@ -40,7 +41,7 @@ std::size_t resident_bytes() {
 
 bool give_back_freed_memory(std::size_t most_kept_bytes) {
 #ifdef __GLIBC__
-    // What is free for malloc may have been given back before.
+    // Memory that malloc counts as free may have been returned to the system before.
     const struct mallinfo2 info = mallinfo2();
     if (resident_bytes() <= info.uordblks + info.hblkhd + most_kept_bytes) return false;
     return malloc_trim(0) != 0;

@@ -1,4 +1,6 @@
-// base/memory.h -- how a process gets its large arrays, and what it does with memory it has freed.
+// base/memory.h -- how a process gets its large arrays, and what it does with freed memory.
+//
+// Threads   Any thread may call; the settings apply to the whole process.
 #pragma once
 
 #include <cstddef>
@@ -6,24 +8,25 @@
 
 namespace stormcellar {
 
-// Keeps freed memory for what comes next, up to 128 MiB at the end of each of malloc's arenas.
-// Otherwise glibc gives the arrays of each volume back to the system, and those of the next one
-// come page by page, which takes up to a tenth of the time of decoding (docs/performance.md). For
-// the main() of a program that decodes one volume after another; a library leaves this to its
-// program. Nothing happens where the C library is another one.
+// Keeps freed memory for later use, up to 128 MiB at the end of each of malloc's arenas. Otherwise
+// glibc returns the arrays of each volume to the system, and those of the next volume come page by
+// page, which takes up to a tenth of the time of decoding (docs/performance.md). This is for the
+// main() of a program that decodes one volume after another; a library leaves it to its program. It
+// does nothing with another C library.
 void keep_freed_memory();
 
-// Gives all freed memory back where more than so many bytes of it are resident, in whatever pieces;
-// says whether it did. For a program that runs for long: memory that many small things have used
-// stays otherwise. Nothing happens where the C library is another one.
+// Returns all freed memory to the system if more than `most_kept_bytes` of it are resident, in
+// pieces of any size. Returns true if it did. This is for a program that runs for long, because
+// memory that many small objects have used would otherwise stay. It does nothing with another C
+// library.
 bool give_back_freed_memory(std::size_t most_kept_bytes);
 
-// Asks the system for large pages where memory is touched from now on: 2 MiB at once instead of 4
-// KiB, which takes a sixth of the time (docs/performance.md). A hint: nothing happens where the
-// system has none, or to what lies beside whole large pages.
+// Asks the system for large pages when this memory is first touched: 2 MiB at once instead of 4
+// KiB, which takes a sixth of the time (docs/performance.md). This is a hint. It does nothing if
+// the system has no large pages, or for parts that do not fill whole large pages.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-// An array of `size` zeros in large pages, for what is written nearly all over.
+// Returns an array of `size` zeros in large pages, for arrays that are written nearly everywhere.
 template <class Value>
 std::vector<Value> zeros_in_large_pages(std::size_t size) {
     std::vector<Value> values;

@@ -1,4 +1,7 @@
-// base/number_list.h -- numbers in one text, with a separator between them: "1,2.5", "0.5:16:0.5".
+// base/number_list.h -- parses numbers in a text with a separator between them: "1,2.5",
+// "0.5:16:0.5".
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -7,7 +10,7 @@
 
 namespace stormcellar {
 
-// At least one number, all finite; none when anything else stands in `text`, spaces included.
+// Returns at least one number, all finite, or none if `text` holds anything else, even a space.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,
                                                                char separator);
 

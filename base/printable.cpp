@@ -8,7 +8,7 @@
 namespace stormcellar {
 namespace {
 
-// Length of the well-formed UTF-8 character at the start of `text`; 0 when there is none.
+// Returns the length of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t utf8_length(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text.front());
     std::size_t length = 0;
@@ -22,7 +22,7 @@ std::size_t utf8_length(std::string_view text) {
         length = 4;
     }
     if (length == 0 || length > text.size()) return 0;
-    // Neither overlong, nor a surrogate, nor beyond U+10FFFF (RFC 3629 section 4).
+    // It must not be overlong, a surrogate, or beyond U+10FFFF (RFC 3629 section 4).
     if (length > 1) {
         const auto second = static_cast<unsigned char>(text[1]);
         if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
@@ -36,7 +36,7 @@ std::size_t utf8_length(std::string_view text) {
     return length;
 }
 
-// The code point of one well-formed character.
+// Returns the code point of one well-formed character.
 char32_t code_point(std::string_view character) {
     const auto lead = static_cast<unsigned char>(character.front());
     if (character.size() == 1) return lead;
@@ -50,9 +50,9 @@ struct CodePoints {
     char32_t first, last;
 };
 
-// The controls; the characters that Unicode calls ignorable by default (those that no glyph shows:
-// DerivedCoreProperties.txt 15.0, Default_Ignorable_Code_Point), among them every control of
-// direction, zero-width characters, variation selectors and tags; the separators of lines and
+// The control characters; the characters that Unicode ignores by default, because no glyph shows
+// them (DerivedCoreProperties.txt 15.0, Default_Ignorable_Code_Point), which include every control
+// of direction, zero-width characters, variation selectors and tags; the separators of lines and
 // paragraphs; and the marks of interlinear annotation.
 constexpr std::array<CodePoints, 20> unseen = {{
     {0x0000, 0x001F}, {0x007F, 0x009F}, {0x00AD, 0x00AD},   {0x034F, 0x034F},   {0x061C, 0x061C},

@@ -1,4 +1,6 @@
-// base/printable.h -- text from outside made fit for a terminal or a log.
+// base/printable.h -- makes text from outside safe for a terminal or a log.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <string>
@@ -6,10 +8,10 @@
 
 namespace stormcellar {
 
-// Control characters, characters that no glyph shows, and bytes that are not UTF-8 are written as
-// \xNN, byte by byte: U+202E, which turns around what follows it, is "\xe2\x80\xae". So a name is
-// always one line and hides nothing. That takes in variation selectors and the joiners of emoji and
-// of some scripts. Letters are left as they are, also those of scripts that run from right to left
+// Writes control characters, characters that no glyph shows, and bytes that are not UTF-8 as \xNN,
+// byte by byte. U+202E, which reverses what follows it, becomes "\xe2\x80\xae". So a name is always
+// one line and hides nothing. This includes variation selectors, and the joiners of emoji and of
+// some scripts. Letters stay as they are, including those of scripts that run from right to left
 // and those that look alike in two alphabets.
 [[nodiscard]] std::string printable(std::string_view text);
 

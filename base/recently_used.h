@@ -1,8 +1,8 @@
-// base/recently_used.h -- values that were made before, by key; the least recently used go
+// base/recently_used.h -- keeps values by key for reuse, and drops the least recently used ones
 // first.
 //
-// Thread contract: may be used by many threads; a value that two threads want at once may be made
-// twice, and one of the two is kept.
+// Threads   Many threads may use it. If two threads want a value at the same time, it may be made
+//           twice, and one of the two is kept.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class RecentlyUsed {
   public:
     explicit RecentlyUsed(std::size_t capacity) : capacity_(capacity) {}
 
-    // None where there is none.
+    // Returns the value, or none if there is none.
     std::optional<Value> find(const Key& key) {
         const std::scoped_lock lock(mutex_);
         for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
@@ -28,7 +28,7 @@ class RecentlyUsed {
         }
         return std::nullopt;
     }
-    // The one that stays: that of another thread that made the same meanwhile.
+    // Keeps a value and returns the one that stays, which another thread may have made meanwhile.
     Value keep(const Key& key, Value value) {
         if (auto found = find(key)) return *std::move(found);
         const std::scoped_lock lock(mutex_);
@@ -40,7 +40,7 @@ class RecentlyUsed {
   private:
     std::size_t capacity_;
     std::mutex mutex_;                          // guards entries_
-    std::list<std::pair<Key, Value>> entries_;  // most recently used first
+    std::list<std::pair<Key, Value>> entries_;  // the most recently used first
 };
 
 }  // namespace stormcellar

@@ -24,7 +24,7 @@ SparseBytes::SparseBytes(std::size_t size) : size_(size) {
                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (mapped == MAP_FAILED) throw std::bad_alloc();
 #ifdef MADV_NOHUGEPAGE
-    // A large page would take memory for what stays empty beside.
+    // A large page would take memory for neighboring bytes that stay empty.
     ::madvise(mapped, size, MADV_NOHUGEPAGE);
 #endif
     bytes_ = static_cast<std::byte*>(mapped);

@@ -1,6 +1,4 @@
-// base/steady_time.h -- instants of the monotonic clock, which nobody sets.
-//
-// Thread contract: any thread.
+// base/steady_time.h -- instants of the monotonic clock, which nobody can set.
 #pragma once
 
 #include <chrono>

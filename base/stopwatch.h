@@ -1,6 +1,6 @@
-// base/stopwatch.h -- how long something took, by the monotonic clock.
+// base/stopwatch.h -- measures how long something takes, with the monotonic clock.
 //
-// Thread contract: one thread at a time.
+// Threads   One thread at a time.
 #pragma once
 
 #include "base/steady_time.h"
@@ -11,7 +11,7 @@ namespace stormcellar {
     return std::chrono::duration<double>(steady_now() - start).count();
 }
 
-// Seconds from one lap to the next.
+// Measures the seconds from one lap to the next.
 class Stopwatch {
   public:
     double lap_s() {

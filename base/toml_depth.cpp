@@ -10,7 +10,7 @@ bool is_quote(char c) {
     return c == '"' || c == '\'';
 }
 
-// Where a string ends that begins at `from`: behind its closing quotes, or at the mistake.
+// Returns the end of a string that begins at `from`: after its closing quotes, or at the mistake.
 std::size_t end_of_string(std::string_view toml, std::size_t from) {
     const char quote = toml[from];
     const std::string three(3, quote);
@@ -18,11 +18,11 @@ std::size_t end_of_string(std::string_view toml, std::size_t from) {
     std::size_t at = from + (has_lines ? 3 : 1);
     for (; at < toml.size(); ++at) {
         if (toml[at] == '\\' && quote == '"') {
-            ++at;  // and what it escapes
+            ++at;  // and the character that it escapes
         } else if (!has_lines && (toml[at] == quote || toml[at] == '\n')) {
             return at + (toml[at] == quote ? 1 : 0);
         } else if (has_lines && toml.substr(at).starts_with(three)) {
-            // Up to two more quotes stand before the three that close it.
+            // Up to two more quotes may come before the three that close it.
             for (at += 3; at < toml.size() && toml[at] == quote; ++at) {
             }
             return at;

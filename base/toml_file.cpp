@@ -47,9 +47,9 @@ bool holds_tables(const toml::node& node) {
     return array != nullptr && !array->empty() && array->is_homogeneous(toml::node_type::table);
 }
 
-// How many letters are to be put in, taken out or replaced to make one of the other.
+// Returns how many letters must be inserted, dropped or replaced to make one text of the other.
 std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> edits(b.size() + 1);  // from so much of `a` to each beginning of `b`
+    std::vector<std::size_t> edits(b.size() + 1);  // from this much of `a` to each beginning of `b`
     std::iota(edits.begin(), edits.end(), std::size_t{0});
     for (const char letter : a) {
         std::size_t corner = edits[0]++;
@@ -99,7 +99,7 @@ struct TomlFile::Document {
         return name.empty() ? printable(key) : fmt::format("{}.{}", name, printable(key));
     }
 
-    // "[storm.hook] width_km", or "width_km" in the root.
+    // Returns "[storm.hook] width_km", or "width_km" in the root.
     [[nodiscard]] std::string full_name(std::size_t index, std::string_view key) const {
         const std::string& name = asked[index].name;
         return name.empty() ? printable(key) : fmt::format("[{}] {}", name, printable(key));
@@ -116,7 +116,7 @@ struct TomlFile::Document {
         const toml::node* node = asked[index].table->get(key);
         const About about = node == nullptr ? About::absent_key : About::value;
         if (node == nullptr) node = asked[index].table;
-        // The root itself is nowhere.
+        // The root itself has no line.
         const unsigned line = node == &root ? 0 : node->source().begin.line;
         complain_at(line, fmt::format("{}: {}", full_name(index, key), why), about, index, key);
     }
@@ -142,11 +142,12 @@ struct TomlFile::Document {
         }
     }
 
-    // What is missing may be there under a misspelt name: then that is the one to name.
+    // A key that seems missing may be there with a misspelled name, which is then the one to
+    // report.
     [[nodiscard]] const Complaint& first_complaint() const {
         const Complaint& first = complaints.begin()->second;
         if (first.about != About::absent_key) return first;
-        // Where the whole section is missing, it or its keys may stand in the root.
+        // If the whole section is missing, it or its keys may be in the root.
         const bool lacks_section = complaints.begin()->first == 0 && first.index != 0;
         for (const auto& [line, other] : complaints) {
             const bool in_root = lacks_section && other.index == 0;

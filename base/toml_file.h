@@ -1,12 +1,13 @@
-// base/toml_file.h -- checked reading of a TOML file: configuration, scenes.
+// base/toml_file.h -- reads a TOML file with checks: configurations, scenes.
 //
-// Every complaint names the file, the line and the key, as in
-// "storm.toml:12: [storm.hook] width_km: must be a number, is text". Reading goes on after a
-// complaint; finish() gives the one on the earliest line, and for a key that is missing an unknown
-// one of the same table that is like it. Keys and tables that nobody asked for are complaints too,
-// so that a misspelt key is not silently its default.
-// Errors: not_found, io ... from reading the file; bad_argument for what is in it.
-// Thread contract: one thread.
+// Every complaint names the file, the line and the key, as in "storm.toml:12: [storm.hook]
+// width_km: must be a number, is text". Reading continues after a complaint; finish() returns the
+// one on the earliest line. For a missing key it returns an unknown key of the same table that is
+// similar, if there is one. Keys and tables that no code has read are complaints too, so that a
+// misspelled key does not silently take its default.
+//
+// Threads   One thread at a time.
+// Errors    not_found, io and others from reading the file; bad_argument for its content.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +39,7 @@ class TomlFile {
     ~TomlFile();
 
     [[nodiscard]] TomlTable root();
-    // The complaint to mend first, unknown keys included.
+    // Returns the complaint to fix first, unknown keys included.
     [[nodiscard]] Status finish();
 
   private:
@@ -51,7 +52,8 @@ class TomlFile {
 // One table of a file, which must outlive it.
 class TomlTable {
   public:
-    // Each gives none when the key is absent or, with a complaint noted, not of the kind.
+    // Each of these returns none if the key is absent, or if its value has another type, which is
+    // recorded as a complaint.
     std::optional<std::string> text(std::string_view key);
     std::optional<bool> flag(std::string_view key);
     std::optional<double> number(std::string_view key, TomlRange range);
@@ -60,12 +62,12 @@ class TomlTable {
     std::optional<std::vector<std::string>> texts(std::string_view key);
     std::optional<TomlTable> table(std::string_view key);  // [key]
     TomlTable section(std::string_view key);               // the same; an absent one is empty
-    std::vector<TomlTable> tables(std::string_view key);   // [[key]], in the file's order
+    std::vector<TomlTable> tables(std::string_view key);   // [[key]], in the order of the file
 
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool is_array(std::string_view key) const;
     [[nodiscard]] bool is_text(std::string_view key) const;
-    // Notes a complaint about the value of a key (about the table when the key is absent).
+    // Records a complaint about the value of a key, or about the table if the key is absent.
     void complain(std::string_view key, std::string_view why);
 
   private:
@@ -74,7 +76,7 @@ class TomlTable {
         : document_(&document), index_(index) {}
 
     TomlFile::Document* document_;
-    std::size_t index_;  // of the table in the document's list of those that were asked for
+    std::size_t index_;  // index in the document's list of tables that were read
 };
 
 }  // namespace stormcellar

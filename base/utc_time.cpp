@@ -11,7 +11,7 @@ namespace {
 using std::chrono::days;
 using std::chrono::milliseconds;
 
-// A number of exactly `width` digits at `position`; none when it is not there.
+// Parses exactly `width` digits at `position`; returns none if they are not there.
 std::optional<int> digits(std::string_view text, std::size_t position, std::size_t width) {
     if (position + width > text.size()) return std::nullopt;
     int number = 0;
@@ -32,7 +32,8 @@ std::optional<UtcTime> make_time(int year, int month, int day, int hour, int min
            std::chrono::minutes{minute} + std::chrono::seconds{second} + milliseconds{millisecond};
 }
 
-// The fraction after the seconds, ".5" or ".596", as milliseconds; further digits are dropped.
+// Parses the fraction after the seconds, ".5" or ".596", as milliseconds. Further digits are
+// dropped.
 std::optional<int> fraction_ms(std::string_view text) {
     if (text.size() < 2 || text[0] != '.') return std::nullopt;
     int number = 0;
@@ -68,7 +69,7 @@ std::optional<UtcTime> parse_iso(std::string_view text) {
     return make_time(*year, *month, *day, *hour, *minute, *second, *millisecond);
 }
 
-// "-90m" as milliseconds before now.
+// Parses "-90m" as milliseconds before now.
 std::optional<milliseconds> parse_relative(std::string_view text) {
     if (text.size() < 3 || text.front() != '-') return std::nullopt;
     const char unit = text.back();

@@ -1,16 +1,16 @@
-// bench_beam: what the rungs of the beam cost, and where they put a gate.
+// bench_beam: measures what the rungs of the beam cost, and where they put a gate.
 //
 // usage: bench_beam [--runs N] [--json] [SOUNDING]      (bench/request.h)
-//   SOUNDING   a file as grid/beam/sounding.h reads it; else the models' own profiles
-// Two kinds of rows, for a site at 35 N, the antenna at sea level:
+//   SOUNDING   a file in the format of grid/beam/sounding.h; else the models' own profiles
+// There are two kinds of rows, for a site at 35 N with the antenna at sea level. For each model:
 //   model           the rung
 //   paths_ms        42 paths: 14 elevations, each with both edges of the beam; least of the runs
 //   over_ns         one point of a path over an arc
-// and for each traced model, elevation and range, the 4/3 earth minus it:
+// For each traced model, elevation and range, the value of the 4/3 earth minus that of the model:
 //   elevation_deg, range_km
 //   gate_height_m   height of the gate
 //   gate_arc_m      arc of the gate
-//   height_m        height of the beam over the arc where the 4/3 earth puts the gate
+//   height_m        height of the beam over the arc at which the 4/3 earth puts the gate
 //   range_m         range there
 #include <algorithm>
 #include <array>
@@ -87,7 +87,7 @@ void add_differences(const grid::BeamModel& traced, Table& table) {
     }
 }
 
-// Of the file, or the models' own; none when the file cannot be read.
+// Uses the file, or the models' own profiles. Returns none if the file cannot be read.
 std::vector<grid::BeamModel> traced_models(const Request& request) {
     using grid::BeamModel;
     using grid::RefractivityProfile;

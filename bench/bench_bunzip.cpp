@@ -1,18 +1,18 @@
-// bench_bunzip: LDM records decompressed by each path of bunzip, beside libbz2.
+// bench_bunzip: measures the decompression of LDM records by each path of bunzip and by libbz2.
 //
 // usage: bench_bunzip [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-// For each file one row for each path that this machine has, one record at a time and all of them
-// in one call, and for each number of threads:
-//   file, path    libbz2, plain, avx2, avx512; lbzip2 where that program is installed
-//   batch         records a call: 1, as they come live, or all
-//   threads       1 for single records: what comes live is one at a time
-//   mb_per_s      10^6 bytes that came out, a second
-//   ratio         libbz2's time on one thread, one record at a time, by this one's
-//   kib_a_record  what comes out of a record, on average
-// Times are the least of the runs, in each of which all are timed one behind the other, libbz2
-// first. Bytes are compared with libbz2's before. lbzip2 reads a file of all records, so its time
-// has its start, some 2 ms. Files without LDM records are left out.
+// For each file there is a row for each path that this machine supports, one record at a time and
+// all records in one call, and for each number of threads:
+//   file, path    libbz2, plain, avx2, avx512; lbzip2 if that program is installed
+//   batch         records a call: 1, as they arrive live, or all
+//   threads       1 for single records, because live records arrive one at a time
+//   mb_per_s      10^6 bytes of output a second
+//   ratio         time of libbz2 on one thread, one record at a time, divided by this time
+//   kib_a_record  mean output of a record
+// Times are the least of the runs. In each run, all are timed one after the other, libbz2 first.
+// All outputs are first compared with those of libbz2. lbzip2 reads a file of all records, so its
+// time includes its start, some 2 ms. Files without LDM records are left out.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,20 +1,20 @@
-// bench_compression: what compressing the bricks of a grid would save and cost.
+// bench_compression: measures what compressing the bricks of a grid saves and costs.
 //
 // usage: bench_compression [--data DIR] [--runs N] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-// Each file is decoded and gridded as the daemon does it by default; of its grid one row for each
-// way of storing bricks:
+// Each file is decoded and gridded as the daemon does by default. For its grid there is a row for
+// each way of storing bricks:
 //   file, codec   none (as the cache stores them), lz4, zstd 1, zstd 3
 //   stored        bricks with codes, of 4,096 bytes each
-//   disk_kib      what the file takes on disk, header, table and states included
-//   share         of that without compression
+//   disk_kib      size of the file on disk, with header, table and states
+//   share         disk_kib as a share of that without compression
 //   pack_ms       compressing all bricks, one after the other, on one thread
-//   write_ms      writing the file with its sync, packing included
-//   read_ms       from the file's name to all codes in memory, on one thread: opening it and, for
-//                 none, reading each stored brick through the map once; else unpacking each brick
-//                 into its place
-// Files are written where TMPDIR says and read back from the page cache: what a read costs on the
-// disk itself is proportional to disk_kib. Times are the least of the runs.
+//   write_ms      writing and syncing the file, packing included
+//   read_ms       from the name of the file to all codes in memory, on one thread: opening it and,
+//                 for none, reading each stored brick through the map once, else unpacking each
+//                 brick into its place
+// Files are written to TMPDIR and read back from the page cache; the cost of reading from the disk
+// itself is proportional to disk_kib. Times are the least of the runs.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -86,7 +86,8 @@ std::vector<Codec> all_codecs() {
             {"zstd 3", [](Span brick) { return pack_zstd(brick, 3); }, unpack_zstd}};
 }
 
-// The grid that the daemon would make of a file's first volume; none where it would make none.
+// Returns the grid that the daemon would make of the first volume of a file; none if it would make
+// none.
 std::optional<grid::Grid> grid_of(const fs::path& file) {
     const auto raw = read_file(file);
     if (!raw) return std::nullopt;
@@ -104,7 +105,7 @@ std::optional<grid::Grid> grid_of(const fs::path& file) {
     return std::move(*made);
 }
 
-// Anonymous memory as a reader would make it: zeros, touched where bricks are put.
+// Anonymous memory as a reader would map it: zeros, touched where bricks are written.
 class Places {
   public:
     explicit Places(std::size_t size)
@@ -166,7 +167,8 @@ class Measurement {
         add(table, "none", plain_bytes_, 0, write_s, read_s);
     }
 
-    // The bricks behind one another, in the place of the codes; all before them stays as it is.
+    // Writes the packed bricks one after the other in the place of the codes; everything before is
+    // unchanged.
     void packed(const Codec& codec, Table& table) {
         const std::uint64_t metadata = plain_bytes_ - stored_.size() * brick_bytes();
         double pack_s = HUGE_VAL, write_s = HUGE_VAL, read_s = HUGE_VAL;

@@ -1,20 +1,20 @@
-// bench_decode: what decoding costs beside the decompression that nobody can avoid.
+// bench_decode: compares the cost of decoding with that of decompression alone.
 //
 // usage: bench_decode [--data DIR] [--threads N] [--runs N] [--json] [--give-back] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-//   --give-back   freed memory goes back to the system, as glibc would have it: see base/memory.h
-// For each file and number of threads one row:
+//   --give-back   freed memory goes back to the system, as is glibc's default: see base/memory.h
+// There is a row for each file and number of threads:
 //   file         its name
 //   threads      for decoding; libbz2 always has one
-//   libbz2_s     seconds that libbz2 alone takes over the same LDM records, into one buffer
+//   libbz2_s     seconds of libbz2 alone over the same LDM records, into one buffer
 //   decode_s     seconds of level2::decode, from bytes in memory to arrays
 //   ratio        decode_s / libbz2_s
 //   mb_per_s     10^6 bytes of messages a second of decode_s
 //   peak_mib     peak resident memory of a process that reads and decodes the file once
-//   arrays_mib   of which the decoded arrays and radials
-//   file_mib     and the file itself
-// Times are the least of the runs, in each of which the three are timed one behind the other. Files
-// without LDM records are left out.
+//   arrays_mib   the part of it that decoded arrays and radials take
+//   file_mib     the part that the file itself takes
+// Times are the least of the runs. In each run, all are timed one after the other. Files without
+// LDM records are left out.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

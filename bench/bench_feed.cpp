@@ -1,17 +1,21 @@
-// bench_feed: the heaviest national hour of Level II before the real stormcellard.
+// bench_feed: plays the heaviest national hour of Level II to the real stormcellard.
 //
 // A national feed (bench/national_feed.h) is made once, untimed, below --work. Then the daemon that
-// was built beside this program is started on directories of its own there, with grids of every
-// volume at 1 km and 32 levels; what every site has sent of its volume so far lies there already.
-// The feed is played at each speed, one row each, behind one another before the same daemon.
-// Columns: speed: asked for; sustained_x: heaviest hours an hour (bench/feed_run.h); latency_*:
-// from
-//   last chunk to grid; bzip2_share: CPU time of bunzip alone for the bytes that were fed, timed
-//   before and after each row, by that of the daemon; peak_mib: resident memory (VmHWM), of which
-//   file_mib at most is the page cache's (mapped files) and anonymous_mib at most its own;
-//   daemon_cores and feeder_cores: CPU time by wall time; volumes: whose last chunk was sent;
-//   ungridded: of them without a grid in the end; held: share of the time that the feed stood
-//   still; cache_mib: the most that the cache took.
+// was built with this program is started with its own directories there, gridding every volume at 1
+// km and 32 levels. What every site has already sent of its current volume is there from the start.
+// The feed is played at each speed in turn to the same daemon. A row for each speed:
+//   speed          the requested speed
+//   sustained_x    heaviest hours an hour (bench/feed_run.h)
+//   latency_*      from the last chunk to the grid
+//   bzip2_share    CPU time of bunzip alone for the same bytes, timed before and after each row,
+//                  divided by that of the daemon
+//   peak_mib       peak resident memory (VmHWM); at most file_mib of it is page cache (mapped
+//                  files), and at most anonymous_mib is the daemon's own
+//   daemon_cores, feeder_cores  CPU time divided by wall time
+//   volumes        volumes whose last chunk was sent
+//   ungridded      those of them that have no grid in the end
+//   held           share of the time during which the feed was paused
+//   cache_mib      the largest size of the cache
 // --full: the whole hour at speed 1, then a long run of 16 sites over 24 hours of the feed's clock.
 #include <algorithm>
 #include <array>
@@ -46,7 +50,7 @@ constexpr const char* daemon_configuration =
     "[cache]\nbytes = \"2 GiB\"\n[ingest]\nspacing_km = 1.0\nextent_km = [460, 460]\n"
     "levels_km = \"0.5:16:0.5\"\n[log]\nlevel = \"warning\"\n";
 
-// CPU seconds that bunzip alone takes for a byte of each kind.
+// CPU seconds of bunzip alone for a byte of each kind.
 class BzipCost {
   public:
     explicit BzipCost(const NationalFeed& feed) {
@@ -128,7 +132,7 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
     if (stretch.most_cache_bytes > cache_budget) fmt::print(stderr, "THE CACHE IS OVER BUDGET\n");
 }
 
-// The daemon has read what lay there; the feed's clock stands at 0.
+// Returns when the daemon has read what was there from the start; the feed's clock is then at 0.
 Status begin(const NationalFeed& feed, DaemonProcess& daemon, FeedRun& run) {
     if (auto sent = run.send_beginnings(); !sent) return sent;
     if (auto watched = run.watch(feed); !watched) return watched;

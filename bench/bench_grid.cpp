@@ -1,23 +1,23 @@
-// bench_grid: what gridding costs, beside the decompression that nobody can avoid.
+// bench_grid: compares the cost of gridding with that of decompression alone.
 //
 // usage: bench_grid [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
 //   (bench/request.h; every real volume in LDM records, unless files are named)
-// For each file, grid spec and number of threads one row:
+// There is a row for each file, grid spec and number of threads:
 //   file          its name
 //   spec          columns x rows x levels @ spacing, about the site
 //   threads       for decoding and gridding; libbz2 always has one
-//   decode_s      seconds of level2::decode, the moment alone (REF)
-//   geometry_s    azimuth and arc to every column
-//   first_grid_s  gridding a decoded volume when there is no geometry yet: geometry and grid
+//   decode_s      seconds of level2::decode, of one moment (REF)
+//   geometry_s    azimuth and arc of every column
+//   first_grid_s  gridding a decoded volume without a kept geometry: geometry and grid
 //   grid_s        gridding a decoded volume with the geometry kept
 //   write_s       the netCDF file
 //   whole_s       the program `stormcellar grid` from its start to its end
 //   libbz2_s      libbz2 alone over the same LDM records
-//   ratio         (whole_s - what its own netCDF write took) / libbz2_s
+//   ratio         (whole_s - its own time for writing netCDF) / libbz2_s
 //   mcells_per_s  10^6 cells a second of grid_s
 //   peak_mib      peak resident memory of a process that decodes and grids the file once
-// Times are the least of the runs, in each of which all are timed one behind the other. Files
-// without LDM records have no libbz2_s and no ratio; without the moment they are left out.
+// Times are the least of the runs. In each run, all are timed one after the other. Files without
+// LDM records have no libbz2_s and no ratio; files without the moment are left out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -82,7 +82,7 @@ Result<level2::Volume> decode_ref(const fs::path& file, const Bytes& bytes, int 
     return std::move(decoded->volume);
 }
 
-// Least seconds of each phase.
+// The least seconds of each phase.
 struct Phases {
     double decode_s = HUGE_VAL, geometry_s = HUGE_VAL, first_grid_s = HUGE_VAL, grid_s = HUGE_VAL;
     double write_s = HUGE_VAL, whole_s = HUGE_VAL, libbz2_s = HUGE_VAL;
@@ -93,7 +93,7 @@ struct Phases {
     }
 };
 
-// What `"key": number` of a JSON text says.
+// Returns the number of `"key": number` in a JSON text.
 double seconds_said(std::string_view json, std::string_view key) {
     const std::size_t at = json.find(fmt::format("\"{}\": ", key));
     if (at == std::string_view::npos) return 0;
@@ -128,7 +128,7 @@ void run_once(const fs::path& file, const Bytes& bytes, const NamedSpec& named, 
     const double write_s = seconds_of([&] {
         if (!netcdf::write_grid(real_file_system(), netcdf, *grid)) std::abort();
     });
-    grid = fail(ErrorCode::empty, "");  // its memory is there for the next one
+    grid = fail(ErrorCode::empty, "");  // frees its memory for the next one
     keep_least_seconds(least.grid_s, make);
     least.decode_s = std::min(least.decode_s, decode_s);
     least.geometry_s = std::min(least.geometry_s, geometry_s);

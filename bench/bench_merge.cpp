@@ -1,24 +1,24 @@
-// bench_merge: what a mosaic costs, and bringing it up to date with one site's new volume.
+// bench_merge: measures what a mosaic costs, and an update of it with one site's new volume.
 //
 // usage: bench_merge [--data DIR] [--threads N] [--runs N] [--json]      (bench/request.h)
-// The neighbouring sites of DIR/mosaic-northeast on one grid of 1 km, 32 levels. (bench_mosaic has
-// the same row of 160 sites on the grid of the United States.) A row:
+// The neighboring sites of DIR/mosaic-northeast are merged on one grid of 1 km and 32 levels.
+// (bench_mosaic has the same row for 160 sites on the grid of the United States.) A row:
 //   case        northeast
-//   sites       how many partials there are
+//   sites       number of partials
 //   overlap     the rule
 //   threads     for all phases
-//   decode_cpu, grid_cpu, bricks_cpu   the new volume: decoded (REF alone), gridded on its window
-//               with the geometry kept, turned into bricks
-//   update_cpu  its partial merged into the mosaic, in place: the bricks of its window
-//   sum_cpu     all of that: seconds of CPU time by all threads, least of the runs
-//   merge_cpu   the mosaic merged anew from all partials
-//   update_s, merge_s   wall-clock seconds of both
-//   once_cpu    kept for a site: azimuths and arcs of its window, and distances
-//   touched     columns of bricks merged by the update, of how many there are
-//   stored      part of the updated site's bricks that hold values
-//   others_stored  the same of all partials, on average
+//   decode_cpu, grid_cpu, bricks_cpu  the new volume: decoded (REF alone), gridded on its window
+//                                     with the geometry kept, and converted to bricks
+//   update_cpu  merging its partial into the mosaic, in place: the bricks of its window
+//   sum_cpu     the sum: seconds of CPU time of all threads, least of the runs
+//   merge_cpu   merging the mosaic anew from all partials
+//   update_s, merge_s  wall-clock seconds of both
+//   once_cpu    what is kept for a site: azimuths and arcs of its window, and distances
+//   touched     columns of bricks that the update merged, and the number of all
+//   stored      share of the updated site's bricks that hold values
+//   others_stored  the same for all partials, on average
 //   mosaic_mib  memory of the mosaic's written pages, table and states
-//   peak_mib    most memory of the process so far, all partials included
+//   peak_mib    peak memory of the process so far, all partials included
 #include <algorithm>
 #include <deque>
 #include <filesystem>

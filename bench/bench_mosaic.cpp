@@ -1,28 +1,28 @@
-// bench_mosaic: five hours of 1 to 100 radars, raw files to merged volumes that can be rendered.
+// bench_mosaic: turns raw files of five hours of 1 to 100 radars into merged volumes for rendering.
 //
 // usage: bench_mosaic [--data DIR] [--work DIR] [--threads N] [--runs N] [--full]
 //        [--sites | --us | --only SITES] [--hours H] [--json] (bench/request.h)
-// The experiment of the paper of 2008: 100 sites, 5 hours, 27 GB uncompressed, on a grid of
-// 256 x 256 x 128 cells over the sites' common box. What the files are: bench/mosaic_feed.h; what
-// is timed: bench/mosaic_run.h. Files are made once, untimed, into the directory of --work (by
+// This is the experiment of the paper of 2008: 100 sites, 5 hours, 27 GB uncompressed, on a grid of
+// 256 x 256 x 128 cells over the common box of the sites. bench/mosaic_feed.h describes the files,
+// bench/mosaic_run.h what is timed. Files are made once, untimed, in the directory of --work (by
 // default stormcellar-bench-mosaic in the system's directory for temporary files; 0.7 GB for 100
-// sites) and used again. Merged volumes (60, one for each 5 minutes) go into a cache there, removed
-// at the end. A row, each in a process of its own:
+// sites) and used again. Merged volumes (60, one for each 5 minutes) go into a cache there, which
+// is removed at the end. Each row is measured in a process of its own:
 //   sites      1, 10, 30, 50, 100
-//   threads    of everything timed
+//   threads    for everything timed
 //   total_s    from raw files to merged volumes
-//   libbz2_s   libbz2 alone over the same files, in turns with the former, as many threads
+//   libbz2_s   libbz2 alone over the same files with as many threads, alternating with the former
 //   ratio      total_s / libbz2_s
 //   expansion  bytes of messages / bytes of files
-//   peak_mib   most memory of the process
-//   paper_min  the paper's minutes, known of 100 sites: 46.87 one after the other (beside one
-//              thread), 8.92 on its pool of 512 nodes (beside more)
-// Then the rows of the United States at 0.01 degrees, with bench_merge's columns, the least of the
-// runs (bench/us_mosaic.h). --sites or --us: one of the two alone; --only: that many sites alone.
-// --hours: the first H of the five hours, for a trial.
-// Without --full only rows of which all is expected to end within 9 minutes are run, by the bytes
-// and the seconds of those before. On stderr: what was read, what was left out, and CPU times,
-// which say more than total_s where others use the same cores. Runs of this program by itself:
+//   peak_mib   peak memory of the process
+//   paper_min  the paper's minutes, which are known for 100 sites: 46.87 in sequence (shown for one
+//              thread), 8.92 on its pool of 512 nodes (shown for more)
+// Then the rows of the United States at 0.01 degrees follow, with the columns of bench_merge, the
+// least of the runs (bench/us_mosaic.h). --sites or --us: one of the two alone; --only: this number
+// of sites alone; --hours: the first H of the five hours, for a trial. Without --full only those
+// rows are run that are expected to end within 9 minutes, judged by the bytes and seconds of the
+// rows before. stderr shows what was read, what was left out, and CPU times, which are more
+// reliable than total_s if other programs use the same cores. The program runs itself with
 // --sites-once SITES THREADS FEED CACHE HOURS.
 #include <algorithm>
 #include <chrono>
@@ -116,7 +116,7 @@ void add_row(int sites, int threads, const SitesRow& row, Table& table) {
         run.volumes_s, run.total_s - run.volumes_s, run.cpu_s, run.libbz2_cpu_s);
 }
 
-// The rows of sites, in the order in which they are run.
+// Measures the rows of sites in the order in which they are run.
 Status measure_sites(const Request& request, const fs::path& work, std::chrono::hours hours,
                      Table& table) {
     double elapsed_s = 0;
@@ -125,8 +125,8 @@ Status measure_sites(const Request& request, const fs::path& work, std::chrono::
     for (const int sites : {1, 10, 30, 50, 100}) {
         if (only && number_in(*only) != sites) continue;
         for (const int threads : request.threads) {
-            // Some 1.6 times as long as libbz2 alone, which runs beside it; making files of new
-            // sites takes half as long as libbz2.
+            // A row takes some 1.6 times as long as libbz2 alone, which is timed as well. Making
+            // files of new sites takes half as long as libbz2.
             const double expected_s = libbz2_a_site_s * sites * (0.5 + 2.6 / std::min(threads, 2));
             if (!request.has("--full") && elapsed_s + expected_s > most_default_s) {
                 fmt::print(stderr, "left out: {} sites, {} threads, some {:.0f} s (--full)\n",

@@ -1,21 +1,22 @@
-// bench_plan: what the planner says that gridding will take, beside what it takes.
+// bench_plan: compares the time that the planner predicts for gridding with the time that it takes.
 //
 // usage: bench_plan [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-// For each file, moment, number of threads and choice of rungs one row:
+// There is a row for each file, moment, number of threads and choice of rungs:
 //   file         its name
 //   moment       REF or VEL
 //   threads      for gridding
-//   choice       the rungs that are not the default chain's
+//   choice       the rungs that are not those of the default chain
 //   predicted_s  by grid::predict()
-//   grid_s       gridding with the geometry kept, the least of the runs; with exact geodesics (no
-//                chain but those needs them) making the geometry counts too. One thread: seconds
-//                of the processor, so that what else runs does not count; more: of the clock
+//   grid_s       gridding with the geometry kept, the least of the runs. With exact geodesics
+//                (which no other chain needs) making the geometry counts too. For one thread it is
+//                processor time, so that other programs do not count; for more, time by the clock
 //   ratio        predicted_s / grid_s
-//   predict_s    that predicting took, once for all choices
-// 460 x 460 x 32 cells at 1 km, 0.4 degrees east of the site so that frames differ. Choices: each
-// rung of each step with the others at their default, every interpolation with either extent of
-// cells, and the chain's exact form. Files without the moment are left out.
+//   predict_s    the time that predicting took, once for all choices
+// The grid has 460 x 460 x 32 cells at 1 km, 0.4 degrees east of the site so that the frames
+// differ. The choices are: each rung of each step with the others at their default, every
+// interpolation with either extent of cells, and the chain's exact form. Files without the moment
+// are left out.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -68,7 +69,7 @@ std::vector<Choice> choices_of(const accuracy::Chain& chain, const Choice& usual
         for (std::size_t rung = 0; rung < step.rung_count(); ++rung) {
             Choice choice = usual;
             choice.rungs[i] = rung;
-            // Beside the sphere and the geodesic, gridding hardly shows.
+            // Compared with the sphere and the geodesic, the time of gridding is small.
             if (step.name != "frame" || rung == usual.rungs[i]) add(choice);
         }
     }
@@ -98,7 +99,7 @@ double now_s(int threads) {
     return threads > 1 ? accuracy::monotonic_s() : accuracy::thread_s();
 }
 
-// The least of the runs; negative where there is no grid.
+// Returns the least of the runs; negative if there is no grid.
 double seconds_of_gridding(grid::GridScene& scene, const grid::SceneChoice& choice, int runs) {
     grid::GridderOptions options;
     options.moment = scene.options().moment;
@@ -114,7 +115,7 @@ double seconds_of_gridding(grid::GridScene& scene, const grid::SceneChoice& choi
         if (!geometry) return -1;
         if (!grid::make_grid(scene.volume(), scene.site(), **geometry, options)) return -1;
         least_s = std::min(least_s, now_s(options.threads) - start_s);
-        if (least_s > 1 && run > 0) break;  // the costly ones are steady
+        if (least_s > 1 && run > 0) break;  // long times vary little
     }
     return least_s;
 }

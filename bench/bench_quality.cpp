@@ -1,22 +1,23 @@
-// bench_quality: what each method of gridding does to a point, an edge and a wave, and whether it
-// conserves reflectivity.
+// bench_quality: measures what each method of gridding does to a point, an edge and a wave, and
+// whether it conserves reflectivity.
 //
 // usage: bench_quality [--json] [--beams]
-// For each range and method one row, tab-separated under a head of keys; --json prints {"machine":
-// ..., "rows": [...]} with the same keys. What is observed, and how, is in bench/quality_chart.h;
-// gates are samples at their centres, so that what shows is the grid's doing; --beams takes them
-// over the beam and the pulse, which takes minutes a range.
+// There is a row for each range and method, tab-separated under a head of keys; --json prints
+// {"machine": ..., "rows": [...]} with the same keys. bench/quality_chart.h describes what is
+// observed and how. Gates are samples at their centers, so that only the effect of the grid shows;
+// with --beams they are means over the beam and the pulse, which takes minutes for each range.
 //   range_km            of the feature from the radar
 //   method, averaging   as in the provenance of a grid
-//   along_km, across_km, height_km   width of a point between half powers
-//   true_...            the same of the truth
-//   shift_km, shift_height_km        of its centroid
+//   along_km, across_km, height_km  width of a point between half powers
+//   true_...            the same for the truth
+//   shift_km, shift_height_km  shift of its centroid
 //   peak_dbz            of 50
-//   rise_km, edge_shift_km           of an edge, 10 to 90 % of Z, and where 50 % lies beyond it
-//   wave4_across, wave8_across, wave8_along   amplitude left of waves in dBZ, lengths in km
-//   wave8_shift_km      of the phase across the beam
-//   total_z             of the point, over the truth's, in the cells that are seen
-//   echo_volume         of 20 dBZ and more, the same
+//   rise_km, edge_shift_km  of an edge: the distance from 10 to 90 % of Z, and how far beyond it 50
+//                           % is
+//   wave4_across, wave8_across, wave8_along  remaining amplitude of waves in dBZ; lengths in km
+//   wave8_shift_km      shift of the phase across the beam
+//   total_z             of the point, divided by that of the truth, in the cells that are seen
+//   echo_volume         the same for the volume of 20 dBZ and more
 // It reads no volumes.
 #include <cstring>
 #include <string>
@@ -58,7 +59,7 @@ std::vector<Method> methods() {
     return all;
 }
 
-// One row: keys with numbers, behind the names.
+// One row: keys with numbers, after the names.
 using Row = std::vector<std::pair<const char*, double>>;
 
 struct Features {

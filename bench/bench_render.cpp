@@ -1,25 +1,25 @@
-// bench_render: the paper's table of frames a second, with what each costs in accuracy.
+// bench_render: measures the paper's table of frames a second, and the accuracy of each row.
 //
 // usage: bench_render [--data DIR] [--threads N] [--runs N] [--json]      (bench/request.h)
-// The five volumes of sequence-kbgm, gridded over 300 x 300 x 11.5 km in three sizes, drawn at 796
-// x 532 from 20 degrees off the vertical, each frame a new time step from its file. For each size,
-// number of slices, method (render/volume/transfer_function.h; "smooth": pre-integrated, and
-// interpolated between rays within 2 of 255 levels) and number of threads one row:
+// The five volumes of sequence-kbgm are gridded over 300 x 300 x 11.5 km in three sizes and drawn
+// at 796 x 532 from 20 degrees off the vertical, each frame a new time step from its file. There is
+// a row for each size, number of slices, method (render/volume/transfer_function.h; "smooth":
+// pre-integrated, and interpolated between rays within 2 of 255 levels) and number of threads:
 //   volume    columns x rows x levels
 //   slices    parallel to the picture
 //   method    riemann, pre-integrated, pre-integrated-2 or smooth
-//   threads   that draw
+//   threads   for drawing
 //   fps       1 / (t1 + t2 + t3)
-//   t1_s      opening and validating the file, mapping it
-//   t2_s      what the rays need of the grid: which steps may show anything, codes put together
-//   t3_s      the rays, and compositing over the page's colour: 8 bits a channel
-//   de_mean, de_p99   CIEDE2000 against the reference marcher in double precision with 8,192
-//                     steps, over every fifth pixel both ways of the first time step
-//   de_echo_mean, de_echo_p99   the same over the pixels where the reference has echo
-//   paper_fps what the paper's renderer had, with a graphics card of 2008; 0 for numbers of slices
-//             that it had not
-// What view and colours alone need is made once for all frames, as in a loop. Times are the least
-// of the runs, each the mean of five frames. The files come from the page cache.
+//   t1_s      opening, validating and mapping the file
+//   t2_s      what the rays need of the grid: which steps may show anything, and packed codes
+//   t3_s      the rays, and compositing over the color of the page: 8 bits a channel
+//   de_mean, de_p99  CIEDE2000 against the reference marcher in double precision with 8,192 steps,
+//                    over every fifth pixel both ways of the first time step
+//   de_echo_mean, de_echo_p99  the same over the pixels where the reference has echo
+//   paper_fps  the paper's renderer, with a graphics card of 2008; 0 for numbers of slices that the
+//              paper does not give
+// What depends on view and colors alone is made once for all frames, as in a loop. Times are the
+// least of the runs, each the mean of five frames. The files come from the page cache.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,7 +52,7 @@ constexpr std::array<Method, 4> methods = {{
     {"smooth", Integration::first_order, 2.0 / 255},
 }};
 
-// The paper's, and some between.
+// the paper's numbers, and some between
 constexpr std::array<int, 7> measured_slices = {64, 128, 160, 192, 256, 512, 1024};
 
 struct Phases {
@@ -66,7 +66,7 @@ struct Case {
     int threads = 1;
 };
 
-// Pictures of time steps, as a loop makes them.
+// Draws pictures of time steps, as a loop does.
 class Drawing {
   public:
     Drawing(const Case& drawn, const grid::Quantization& quantization)
@@ -74,7 +74,7 @@ class Drawing {
           slicer_(render::nws_reflectivity(), quantization, geometry_, drawn.options),
           threads_(drawn.threads) {}
 
-    // From its file; finished in `picture`.
+    // Draws a file and puts the finished picture into `picture`.
     void draw(const fs::path& path, Phases& phases, render::Image& picture) {
         std::optional<cache::GridFile> file;
         phases.read_s += seconds_of([&] { file.emplace(std::move(*cache::GridFile::open(path))); });

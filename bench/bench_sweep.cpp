@@ -1,13 +1,15 @@
-// bench_sweep: how long a sweep takes from the close of its last chunk into the cached grid.
+// bench_sweep: measures the time from the close of the last chunk of a sweep to the cached grid.
 //
-// Real volumes are sent to the real stormcellard record by record, on a machine that has nothing
-// else to do; behind each chunk the program waits until the daemon rests. A chunk behind which the
-// station's grid appears anew has completed a sweep (or the volume).
-// Columns: as: appended to one file, closed each time, or one file a chunk; sweeps: with a grid, of
-// those with the moment in the volume; latency_*: from the close of the chunk to the rename of the
-// grid, by this program's clock; bzip2_*: bunzip alone for that chunk, in this process; beyond_*:
-// the one less the other, chunk by chunk. End of volume: the last one, whose grid is made of all
-// and synced, stands apart.
+// Real volumes are sent to the real stormcellard record by record, on a machine that does nothing
+// else. After each chunk the program waits until the daemon is idle. A chunk after which the grid
+// of the station appears anew has completed a sweep (or the volume).
+//   as         appended to one file that is closed each time, or one file for each chunk
+//   sweeps     those with a grid, and those of the volume that have the moment
+//   latency_*  from the close of the chunk to the rename of the grid, by this program's clock
+//   bzip2_*    bunzip alone for that chunk, in this process
+//   beyond_*   the difference of the two, chunk by chunk
+// The last grid, at the end of the volume, is made of everything and synced; it is listed
+// separately.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -43,7 +45,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// By nearest rank, of values in any order; NaN where there are none.
+// By nearest rank, of values in any order; NaN if there are none.
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) return std::nan("");
     std::sort(values.begin(), values.end());
@@ -76,7 +78,8 @@ Result<Volume> read_volume(const fs::path& path) {
 }
 
 std::string chunk_name(const Volume& volume, std::size_t number, bool is_last) {
-    const std::string time = format_utc(volume.decoded.header->time());  // 2022-03-17T00:08:42Z
+    // format_utc() gives 2022-03-17T00:08:42Z
+    const std::string time = format_utc(volume.decoded.header->time());
     return fmt::format("{}{}{}-{}{}{}-{:03}-{}", time.substr(0, 4), time.substr(5, 2),
                        time.substr(8, 2), time.substr(11, 2), time.substr(14, 2),
                        time.substr(17, 2), number,
@@ -85,7 +88,7 @@ std::string chunk_name(const Volume& volume, std::size_t number, bool is_last) {
                                    : "I");
 }
 
-// The time of the close.
+// Writes the bytes and returns the time of the close.
 Clock::time_point write(const fs::path& path, std::span<const std::byte> bytes) {
     std::ofstream file(path, std::ios::binary | std::ios::app);
     file.write(reinterpret_cast<const char*>(bytes.data()),
@@ -106,7 +109,7 @@ double bzip2_of(std::span<const std::byte> piece) {
     return least_s;
 }
 
-// Until nothing has appeared for a while; when the last grid did, if any.
+// Waits until nothing has appeared for a while. Returns the time of the last grid, if any.
 std::optional<double> wait_for_grid(const GridWatch& watch, Clock::time_point closed) {
     std::optional<double> first_s;
     while (seconds_since(closed) < (first_s ? *first_s + rest_s : longest_wait_s)) {

@@ -38,7 +38,7 @@ double mib_in(std::string_view line) {
     return static_cast<double>(number_in(line.substr(line.find(':') + 1))) / 1024;
 }
 
-// Only calls that are safe in the child of a process with threads. -1: there is none.
+// Uses only calls that are safe in the child of a process with threads. Returns -1 if it fails.
 pid_t fork_daemon(const std::string& program, const std::string& configuration,
                   const std::string& log) {
     std::string path = program, option = "--config", file = configuration;
@@ -47,7 +47,7 @@ pid_t fork_daemon(const std::string& program, const std::string& configuration,
     const pid_t child = ::fork();
     if (child != 0) return child;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // It may have ended before that was said; then nobody would.
+    // The parent may have ended before this call; then no signal would come.
     if (::getppid() != parent) ::_exit(127);
     const int said = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (said < 0 || ::dup2(said, 2) < 0) ::_exit(127);
@@ -131,8 +131,8 @@ double DaemonProcess::cpu_s() const {
     std::ifstream file(fmt::format("/proc/{}/stat", child_));
     std::string text;
     std::getline(file, text);
-    // Behind the name, which may hold anything: the state, then ten numbers, then the two
-    // (proc(5)).
+    // After the name, which may contain anything, there are the state, ten numbers, and then the
+    // two numbers (proc(5)).
     std::istringstream words(text.substr(std::min(text.size(), text.rfind(')') + 1)));
     std::string skipped;
     for (int i = 0; i < 11; ++i)

@@ -23,7 +23,7 @@ tl::unexpected<Error> system_failure(const fs::path& path) {
                 std::system_category().message(errno));
 }
 
-// The 24 bytes with which the volume begins.
+// the 24 bytes at the start of a volume
 using Header = std::array<std::byte, level2::archive_header_bytes>;
 
 Status put_header(int source, int target, const fs::path& path, UtcTime start) {

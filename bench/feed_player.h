@@ -1,8 +1,9 @@
 // bench/feed_player.h -- writes a national feed into a drop directory, chunk by chunk, as LDM does.
 //
-// The feed has a clock of its own, in seconds: chunk j of n comes at start + (j + 1) / n * period.
-// Files are copied inside the kernel, so that the player takes little from who reads them.
-// Threads: one.
+// The feed has its own clock in seconds: chunk j of n comes at start + (j + 1) / n * period. Files
+// are copied inside the kernel, so that the player takes little time from the daemon.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -21,9 +22,9 @@ namespace stormcellar::bench {
 
 enum class Delivery : std::uint8_t {
     growing,  // appended and closed for each chunk: FILE -close
-    open,     // appended and kept open until the volume's last: FILE
+    open,     // appended and kept open until the last chunk of the volume: FILE
     whole,    // a dot-file that grows and is renamed at the last chunk
-    chunks    // one file a chunk, DROP/KTLX/NUMBER/DATE-TIME-NNN-S|I|E
+    chunks    // one file for each chunk, DROP/KTLX/NUMBER/DATE-TIME-NNN-S|I|E
 };
 
 // A volume whose last chunk was written.
@@ -41,12 +42,12 @@ class FeedPlayer {
     FeedPlayer& operator=(const FeedPlayer&) = delete;
     ~FeedPlayer();
 
-    // The feed's time of the next chunk.
+    // Returns the feed's time of the next chunk.
     [[nodiscard]] double next_s() const { return due_.top().first; }
-    // Writes the next chunk; `sent` hears of its volume when it was the last.
+    // Writes the next chunk. Calls `sent` with its volume if it was the last one.
     [[nodiscard]] Status write_next(const std::function<void(SentVolume)>& sent);
 
-    // Deletes the file of a volume, as LDM's scour does when it is old.
+    // Deletes the file of a volume, as LDM's scour deletes old files.
     void scour(std::size_t site, int volume) const;
 
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }

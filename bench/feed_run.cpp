@@ -46,7 +46,7 @@ Status FeedRun::watch(const NationalFeed& feed) {
 void FeedRun::note_grids() {
     watch_.read([this](std::string_view name) {
         const auto sent = sent_.find(std::string(name));
-        if (sent == sent_.end()) return;  // of what has not ended yet
+        if (sent == sent_.end()) return;  // of a volume that has not ended yet
         if (sent->second.latency_s < 0) {
             --unfinished_;
             int& before = gridded_[sent->second.site];
@@ -73,7 +73,7 @@ void FeedRun::look(Stretch& stretch, Clock::time_point begin) {
 
 bool FeedRun::drain(double most_s) {
     const auto begin = Clock::now();
-    // What was written a moment ago stands in the status a second later.
+    // A file written a moment ago appears in the status a second later.
     double idle_since_s = 0;
     while (seconds_between(begin, Clock::now()) < most_s && daemon_.is_running()) {
         watch_.wait(longest_wait_s);
@@ -86,7 +86,7 @@ bool FeedRun::drain(double most_s) {
     return false;
 }
 
-// The feed's clock stands still while too much is unfinished.
+// The feed's clock stops while too much is unfinished.
 Status FeedRun::play(const StretchOptions& options, Stretch& stretch) {
     const auto begin = Clock::now();
     const double begin_s = feed_s_;
@@ -139,7 +139,7 @@ Result<Stretch> FeedRun::run(const StretchOptions& options) {
     const auto end = Clock::now();
     stretch.player_cpu_s = cpu_s() - own_before_s;
 
-    // Grids of what was sent, then what else waits to be read.
+    // Waits for grids of what was sent, then for everything else to be read.
     auto busy_until = end;
     for (auto now = end; seconds_between(end, now) < options.most_drain_s; now = Clock::now()) {
         watch_.wait(longest_wait_s);

@@ -1,12 +1,13 @@
-// bench/feed_run.h -- a stretch of a national feed before a running daemon, and what was measured.
+// bench/feed_run.h -- plays a part of a national feed to a running daemon, and measures it.
 //
-// Latency  from the close of a volume's last chunk (or its rename) to the appearance of the last
-//          grid of it in the cache, by this program's clock.
-// Sustained  the feed's time over the wall time, from the first chunk until the daemon has nothing
-//          left to read. Where more than `most_unfinished` volumes were sent and not gridded the
-//          feed stands still; where that lasts for most_drain_s the stretch is over.
-// Files are deleted when a later volume of their station has its grid, and they have theirs.
-// Threads: one.
+// Latency    From the close of the last chunk of a volume (or its rename) to the appearance of its
+//            last grid in the cache, by this program's clock.
+// Sustained  The feed's time divided by the wall time, from the first chunk until the daemon has
+//            nothing left to read. If more than `most_unfinished` volumes were sent and not
+//            gridded, the feed pauses; if that lasts for most_drain_s, the part ends.
+// Files are deleted when both they and a later volume of their station have their grids.
+//
+// Threads    One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -36,16 +37,16 @@ struct MemorySample {
 };
 
 struct Stretch {
-    double feed_s = 0, wall_s = 0;  // the second with the drain
+    double feed_s = 0, wall_s = 0;  // wall_s includes the drain
     double drain_s = 0, held_s = 0;
-    bool drained = false;             // else the daemon had more to read: the figures flatter it
-    std::vector<double> latencies_s;  // rising
-    std::size_t volumes = 0;          // whose last chunk was sent
-    std::size_t ungridded = 0;        // of them, when the drain was over
+    bool drained = false;  // if false, the daemon had more to read, and the figures are too good
+    std::vector<double> latencies_s;  // ascending
+    std::size_t volumes = 0;          // volumes whose last chunk was sent
+    std::size_t ungridded = 0;        // those of them without a grid at the end of the drain
     double daemon_cpu_s = 0, player_cpu_s = 0;
     std::vector<std::uint64_t> bytes_of_kind;
     std::uint64_t bytes = 0, chunks = 0;
-    DaemonMemory memory;  // the most of each
+    DaemonMemory memory;  // the maximum of each
     std::uint64_t most_cache_bytes = 0;
     std::size_t most_waiting = 0;
     std::vector<MemorySample> samples;
@@ -63,10 +64,11 @@ class FeedRun {
           player_(feed, daemon.drop(), delivery),
           gridded_(feed.sites().size(), -1) {}
 
-    // What every site sent before the feed's clock began; before the daemon starts.
+    // Sends what every site sent before the feed's clock began. Call it before the daemon starts.
     [[nodiscard]] Status send_beginnings();
     [[nodiscard]] Status watch(const NationalFeed& feed);
-    // Until the daemon has read what is there; false where it takes longer than that.
+    // Waits until the daemon has read what is there. Returns false if that takes longer than
+    // `most_s`.
     [[nodiscard]] bool drain(double most_s);
     [[nodiscard]] Result<Stretch> run(const StretchOptions& options);
     [[nodiscard]] const FeedPlayer& player() const { return player_; }
@@ -87,8 +89,8 @@ class FeedRun {
     FeedPlayer player_;
     GridWatch watch_;
     double feed_s_ = 0;                           // the feed's clock
-    std::unordered_map<std::string, Sent> sent_;  // in this stretch, by grid
-    std::vector<int> gridded_;  // by site: of which the last grid came; -1: none yet
+    std::unordered_map<std::string, Sent> sent_;  // in this part, by grid
+    std::vector<int> gridded_;  // by site: the volume of the last grid that appeared; -1: none yet
     std::size_t unfinished_ = 0;
     Clock::time_point next_look_;
 };

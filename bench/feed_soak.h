@@ -1,6 +1,6 @@
-// bench/feed_soak.h -- what a long run leaves: memory, and whether files, rows and grids agree.
+// bench/feed_soak.h -- checks after a long run: memory, and whether files, rows and grids agree.
 //
-// Threads: pure functions.
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,20 @@
 
 namespace stormcellar::bench {
 
-// Least squares through the samples behind the first tenth: MiB an hour. NaN for fewer than two.
+// Returns the slope of a least-squares line through the samples after the first tenth, in MiB an
+// hour. NaN for fewer than two.
 [[nodiscard]] double memory_slope_mib_h(std::span<const MemorySample> samples);
 
 struct SoakCheck {
     std::size_t files = 0;          // below the drop directory
     std::size_t rows = 0;           // of the catalog: volumes of whole files, deleted ones included
-    std::size_t missing_rows = 0;   // volumes that were sent and are in no such row
-    std::size_t wrong_rows = 0;     // that say "gone" of a file that is there, or the reverse
+    std::size_t missing_rows = 0;   // volumes that were sent and have no such row
+    std::size_t wrong_rows = 0;     // rows that say "gone" of an existing file, or the reverse
     std::size_t grids = 0;          // in the cache
-    std::size_t missing_grids = 0;  // stations whose newest whole volume has none
+    std::size_t missing_grids = 0;  // stations whose newest whole volume has no grid
     [[nodiscard]] bool agrees() const { return missing_rows + wrong_rows + missing_grids == 0; }
 };
-// After the daemon has ended. Errors: those of the catalog and the cache.
+// Call it after the daemon has ended. Errors: those of the catalog and the cache.
 [[nodiscard]] Result<SoakCheck> check_soak(const NationalFeed& feed,
                                            const std::vector<int>& volumes_sent,
                                            const DaemonProcess& daemon);

@@ -1,6 +1,6 @@
-// bench/grid_watch.h -- hears of each grid of a station that appears in a cache (inotify).
+// bench/grid_watch.h -- reports each grid of a station that appears in a cache (inotify).
 //
-// Threads: one.
+// Threads   One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -21,13 +21,13 @@ class GridWatch {
     GridWatch& operator=(const GridWatch&) = delete;
     ~GridWatch();
 
-    // Makes and watches CACHE/STATION/REF/DAY for each of the two, so that no grid is missed.
+    // Makes and watches CACHE/STATION/REF/DAY for each station and day, so that no grid is missed.
     [[nodiscard]] Status watch(const std::filesystem::path& cache,
                                std::span<const std::string> stations,
                                std::span<const std::string> days);
-    // Gives the names of the files that appeared under their final names since the last call.
+    // Passes on the names of the files that appeared under their final names since the last call.
     void read(const std::function<void(std::string_view)>& appeared) const;
-    // Until something appears, at most so long.
+    // Waits until something appears, at most for `seconds`.
     void wait(double seconds) const;
 
   private:

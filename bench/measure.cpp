@@ -35,7 +35,7 @@ Bytes without_gzip(const Bytes& bytes) {
 void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
     bz_stream stream{};
     if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) std::abort();
-    // libbz2 does not write through next_in; its C interface merely lacks the const.
+    // libbz2 does not write through next_in; its C interface only lacks the const.
     stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(record.data()));
     stream.avail_in = static_cast<unsigned>(record.size());
     int code = BZ_OK;
@@ -43,7 +43,8 @@ void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
         stream.next_out = buffer.data();
         stream.avail_out = static_cast<unsigned>(buffer.size());
         code = BZ2_bzDecompress(&stream);
-        if (code == BZ_OK && stream.avail_in == 0 && stream.avail_out > 0) break;  // cut
+        // the stream is cut
+        if (code == BZ_OK && stream.avail_in == 0 && stream.avail_out > 0) break;
     }
     BZ2_bzDecompressEnd(&stream);
 }
@@ -149,7 +150,7 @@ std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments) {
     });
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
-    run.said.resize(std::size_t{1} << 16);  // what a pipe holds
+    run.said.resize(std::size_t{1} << 16);  // the capacity of a pipe
     const ssize_t length = ::read(ends[0], run.said.data(), run.said.size());
     ::close(ends[0]);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length < 0) return {};

@@ -22,7 +22,7 @@ double seconds_of(Work work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// CPU time of this process, by all threads.
+// Returns the CPU time of all threads of this process.
 [[nodiscard]] double cpu_s();
 
 template <class Work>
@@ -30,32 +30,32 @@ void keep_least_seconds(double& least, Work work) {
     least = std::min(least, seconds_of(work));
 }
 
-// The streams of the LDM records in a file, which may be a gzip file; `peeled` then holds what they
-// point into. Empty where there are none.
+// Returns the streams of the LDM records in a file; empty if there are none. If it is a gzip file,
+// they point into `peeled`.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled);
 
-// libbz2 alone over all records, one stream each, into pieces of one buffer.
+// Decompresses all records with libbz2 alone, one stream each, into parts of one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);
-// The same by bunzip's usual path, as level2 does it.
+// Does the same by bunzip's usual path, as level2 does.
 void bunzip_all(std::span<const std::span<const std::byte>> records);
 
-// Runs this program with these arguments in a process of its own and gives what it prints, up to 64
-// KiB. None where it failed.
+// Runs this program with these arguments in a process of its own. Returns what it prints, up to 64
+// KiB; none if it failed.
 [[nodiscard]] std::optional<std::string> run_self(std::vector<std::string> arguments);
-// The same where what it prints is high_water_kib().
+// Does the same if it prints high_water_kib().
 [[nodiscard]] std::optional<double> peak_mib(std::vector<std::string> arguments);
-// What this process held at most, in KiB; the kernel's own count (proc(5)).
+// Returns the peak memory of this process in KiB, as the kernel counts it (proc(5)).
 [[nodiscard]] long high_water_kib();
 
-// What the program `stormcellar` that was built beside the benchmarks takes, from its start to its
-// end, and what it said on stdout, up to 64 KiB. None where it failed or is not there.
+// The time of the program `stormcellar` built with the benchmarks, from its start to its end, and
+// what it printed on stdout, up to 64 KiB. None if it failed or does not exist.
 struct ProgramRun {
     double seconds = 0;
     std::string said;
 };
 [[nodiscard]] std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments);
 
-// A whole number at the start of a text, behind spaces; -1 when there is none.
+// Returns the whole number at the start of a text, after spaces; -1 if there is none.
 [[nodiscard]] long number_in(std::string_view text);
 
 }  // namespace stormcellar::bench

@@ -66,7 +66,7 @@ double memory_mib(const grid::BrickView& view) {
     return static_cast<double>(bytes) / mebibyte;
 }
 
-// In stripes of whole bricks.
+// Merges in stripes of whole bricks.
 Result<grid::Mosaic> build(const MergeCase& merged, const grid::MosaicOptions& options) {
     const GridSpec& domain = merged.domain;
     if (merged.stripes == 1) {
@@ -88,7 +88,7 @@ Result<grid::Mosaic> build(const MergeCase& merged, const grid::MosaicOptions& o
     return mosaic;
 }
 
-// The newcomer's volume in place of what its site had.
+// Merges the new volume in place of the previous one of its site.
 Status update(const MergeCase& merged, const grid::BrickView& bricks,
               const grid::MosaicOptions& options, grid::Mosaic& mosaic) {
     const Newcomer& newcomer = merged.newcomer;

@@ -32,7 +32,7 @@ const FeedKind& kind_of(int site) {
     return kinds[static_cast<std::size_t>(site) % kinds.size()];
 }
 
-// Sites run at their own pace.
+// Sites start at different times and intervals.
 UtcTime start_of(int site, int slot) {
     const std::chrono::seconds interval = kind_of(site).interval;
     const std::chrono::seconds late = std::chrono::seconds{37} * site % interval;
@@ -49,7 +49,7 @@ fs::path file_of(const fs::path& directory, const Station& station, UtcTime star
     return directory / fmt::format("{}{}_V06", station.icao, format_compact(start));
 }
 
-// By the volume that they are made of.
+// Returns the missing files by the volume that they are made of.
 std::map<std::string, std::vector<Stamp>> missing_files(int sites, const fs::path& directory) {
     std::map<std::string, std::vector<Stamp>> missing;
     const std::vector<Station> stations = feed_sites(sites);

@@ -1,16 +1,16 @@
 // bench/mosaic_feed.h -- five hours of Level II files of up to 100 sites, for bench_mosaic.
 //
-// Sites    the first N by ICAO of the WSR-88Ds between 105 and 67 degrees west and 24 and 49.5
-//          north: alphabetical, so ten of them lie as far apart as a hundred.
-// Volumes  each site sends one of ten kinds, in turn: real volumes of the data directory and a
-//          simulated line of storms, re-stamped (bench/restamp.h) and written by level2::encode():
-//          every radial has the site's name, position and its own time. Starts are 5 (simulated), 6
-//          or 10 minutes apart, as the patterns take, and no two sites start together.
-// On disk  the files of the first hour, distinct for each site and start. Those of later hours are
-//          the same files: when one is read for hour h, its decoded volume's times are moved by h
-//          hours (`moved`). So what is read, decompressed, decoded, gridded and merged is five
-//          hours; what is saved is compressing 27 GB, and disk.
-// Threads  plain data and pure functions; make_feed() uses threads of its own.
+// Sites     The first N by ICAO of the WSR-88Ds between 105 and 67 degrees west and 24 and 49.5
+//           north. The order is alphabetical, so ten sites cover as large an area as a hundred.
+// Volumes   Each site sends one of ten kinds, in turn: real volumes of the data directory and a
+//           simulated line of storms, re-stamped (bench/restamp.h) and written by level2::encode():
+//           every radial has the site's name, position and its own time. Starts are 5 (simulated),
+//           6 or 10 minutes apart, as their patterns take, and no two sites start together.
+// On disk   The files of the first hour, different for each site and start. The files of later
+//           hours are the same: when one is read for hour h, the times of the decoded volume are
+//           moved by h hours (`moved`). So five hours are read, decompressed, decoded, gridded and
+//           merged; only the compression of 27 GB and disk space are saved.
+// Threads   Plain data and pure functions; make_feed() starts its own threads.
 #pragma once
 
 #include <chrono>
@@ -34,18 +34,18 @@ struct FeedVolume {
     int site = 0;   // its number
     UtcTime start;  // when it was sent
     std::filesystem::path file;
-    std::chrono::hours moved{0};  // from the times in the file
+    std::chrono::hours moved{0};  // relative to the times in the file
 };
 
 [[nodiscard]] std::vector<Station> feed_sites(int count);
-// In order of start, then site. 1 to most_sites sites; of the first `hours`.
+// Returns the volumes of the first `hours`, ordered by start, then site. 1 to most_sites sites.
 [[nodiscard]] std::vector<FeedVolume> feed_of(int sites, const std::filesystem::path& directory,
                                               std::chrono::hours hours = feed_length);
-// 256 x 256 columns over the box that the sites' positions and their reach (460 km) span, 128
-// levels from 125 m to 16 km. Of 100 sites cells are some 15 km wide.
+// Returns a grid of 256 x 256 columns over the box of the sites' positions and their reach (460
+// km), with 128 levels from 125 m to 16 km. For 100 sites, cells are some 15 km wide.
 [[nodiscard]] grid::GridSpec feed_domain(int sites);
 
-// What files hold, counted by their records.
+// Sizes of files, counted by their records.
 struct FeedSize {
     std::uint64_t compressed = 0, uncompressed = 0;
     std::uint64_t dense =
@@ -60,8 +60,8 @@ struct FeedSize {
     void add(std::uint64_t compressed_bytes, std::uint64_t uncompressed_bytes);
 };
 
-// Writes the files that are not there yet. `data` is where the real volumes are.
-// Errors: a real volume that is not there or cannot be read; those of encode() and of writing.
+// Writes the files that are missing. `data` is the directory of the real volumes. Errors: a real
+// volume is missing or cannot be read; those of encode() and of writing.
 [[nodiscard]] Status make_feed(int sites, const std::filesystem::path& data,
                                const std::filesystem::path& directory, int threads);
 

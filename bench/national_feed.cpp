@@ -25,7 +25,7 @@ constexpr std::array<const char*, 3> kind_paths = {
     "chunks/L2D_230", "volumes/KLBB20160601_150025_V06", "chunks/OPENRADAR_KLOT"};
 constexpr std::array<int, 8> kind_of_site = {0, 0, 1, 0, 0, 0, 2, 0};
 
-// A file, or the chunks of a directory in their order.
+// Reads a file, or the chunks of a directory in their order.
 Result<Bytes> read_joined(const fs::path& path) {
     std::error_code problem;
     if (!fs::is_directory(path, problem)) return read_file(path);
@@ -41,8 +41,8 @@ Result<Bytes> read_joined(const fs::path& path) {
     return joined;
 }
 
-// In the midst of the hour: headers of its volumes lie at most so far from it that the decoder
-// believes them (an hour).
+// In the middle of the hour, so that the headers of its volumes are close enough to it for the
+// decoder to believe them (an hour).
 UtcTime stamp_of(int hour) {
     return national_start() + std::chrono::minutes{60 * hour + 28};
 }

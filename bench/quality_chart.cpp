@@ -16,7 +16,7 @@ namespace {
 
 using grid::CellStatus;
 
-constexpr double azimuth_deg = 40.2;  // no radial's, no axis of a grid's
+constexpr double azimuth_deg = 40.2;  // neither that of a radial nor along an axis of a grid
 constexpr double cell_m = 1000;
 constexpr double level_m = 500;
 constexpr double plateau_dbz = 40;
@@ -63,7 +63,7 @@ synth::Footprint footprint_at(double range_m, double along_m, double across_m) {
     return footprint;
 }
 
-// About a place `ahead_m` beyond the feature, its lattice shifted.
+// Makes a grid about a place `ahead_m` beyond the feature, with its lattice shifted.
 grid::Grid grid_about(const Observed& given, const grid::Method& method, double ahead_m, int side,
                       double shift_m) {
     const synth::Site& at = given.scene.site;
@@ -86,7 +86,8 @@ grid::Grid grid_about(const Observed& given, const grid::Method& method, double 
     return made ? std::move(*made) : grid::Grid{};
 }
 
-// A column's place in the scene's plane, and from the feature along and across the beam.
+// The place of a column in the scene's plane, and relative to the feature along and across the
+// beam.
 struct Place {
     double x_m = 0, y_m = 0, along_m = 0, across_m = 0;
 };
@@ -138,7 +139,7 @@ struct PointSums {
     double peak_dbz = -100;
 };
 
-// A cell's truth is taken at 4 x 4 x 4 points.
+// The truth of a cell is the mean over 4 x 4 x 4 points.
 constexpr int parts = 4;
 
 double offset(int part) {
@@ -266,7 +267,7 @@ EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
                 const Place place = places.at(ix, iy);
                 if (std::abs(place.along_m) >= reach_m || std::abs(place.across_m) > 12e3) continue;
                 const auto bin = static_cast<std::size_t>((place.along_m + reach_m) / bin_m);
-                // 4 to 8 km: seen at every range, and far from the plateau's top.
+                // 4 to 8 km: seen at every range, and far from the top of the plateau.
                 for (int level = 7; level < 16; ++level) {
                     const std::size_t cell = made.spec.index(ix, iy, level);
                     if (made.status[cell] == CellStatus::not_seen) continue;
@@ -277,7 +278,7 @@ EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
             }
         }
     }
-    // Where the share passes a limit for the first time, linear between bins.
+    // Returns where the share first passes a limit, linear between bins.
     const auto passes_m = [&](double limit) {
         double before = 0;
         for (std::size_t bin = 0; bin < bins; ++bin) {

@@ -93,7 +93,8 @@ render::ViewGeometry RenderScene::view() const {
     return {spec_, camera, exaggeration, picture_width, picture_height};
 }
 
-// Pixels under which the upper or the lower side of the box lies; its walls lie between the two.
+// Returns the number of pixels under the upper or the lower side of the box; its walls are between
+// the two.
 double RenderScene::footprint() const {
     const auto geometry = view();
     std::size_t inside = 0;

@@ -1,6 +1,6 @@
 // bench/render_scene.h -- the paper's scene from a real sequence: grids in files, view, reference.
 //
-// Threads: build on one thread; const is safe.
+// Threads   Build it on one thread; const functions may be called from any thread.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace stormcellar::bench {
 
 inline constexpr int picture_width = 796, picture_height = 532;
 
-// The grid's sizes of the paper, and the frames a second that it had by slices.
+// The size of one of the paper's grids, and the paper's frames a second by number of slices.
 struct PaperVolume {
     const char* name;
     int side, levels;
@@ -28,8 +28,8 @@ inline constexpr std::array<PaperVolume, 3> paper_volumes = {{
     {"512x512x256", 512, 256, {4, 4, 3.5, 2.5, 1.5}},
 }};
 
-// Five volumes of KBGM (2005-08-22, a line of storms), gridded over the same box whatever the
-// number of cells, each a file of its own.
+// Five volumes of KBGM (2005-08-22, a line of storms), gridded over the same box for any number of
+// cells, each in a file of its own.
 class RenderScene {
   public:
     static Result<RenderScene> make(const PaperVolume& volume, const std::filesystem::path& data,
@@ -37,9 +37,9 @@ class RenderScene {
 
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
     [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
-    // 20 degrees from the vertical.
+    // 20 degrees from the vertical
     [[nodiscard]] render::ViewGeometry view() const;
-    // Of all cells; of all pixels.
+    // shares of all cells and of all pixels
     [[nodiscard]] double echo_share() const { return echo_share_; }
     [[nodiscard]] double footprint() const;
 
@@ -49,10 +49,10 @@ class RenderScene {
     double echo_share_ = 0;
 };
 
-// Over the page's colour, as every frame of the benchmark is.
+// Composites over the color of the page, as every frame of the benchmark.
 [[nodiscard]] render::Image finished(const render::Layer& layer, int threads);
 
-// Every `stride`-th pixel of the picture as the reference has it. Odd, so that pixels on and
+// Every `stride`-th pixel of the reference picture. The stride is odd, so that pixels on and
 // between the coarser grids of rays count alike.
 struct ReferencePixels {
     static constexpr int stride = 5;
@@ -63,7 +63,7 @@ struct ReferencePixels {
 };
 
 struct PictureError {
-    double mean = 0, p99 = 0;            // CIEDE2000 over all pixels looked at
+    double mean = 0, p99 = 0;            // CIEDE2000 over all pixels compared
     double echo_mean = 0, echo_p99 = 0;  // over those where the reference has echo
 };
 [[nodiscard]] PictureError compare(const ReferencePixels& reference, const render::Image& picture);

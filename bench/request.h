@@ -1,7 +1,9 @@
-// bench/request.h -- what the command line of a benchmark asks for.
+// bench/request.h -- reads the command line of a benchmark.
 //
-// All benchmarks take the same options: --data DIR, --threads N, --runs N, --json, --help, and
-// files. An option that is none of them, or of the program's own, is bad usage.
+// All benchmarks take the options --data DIR, --threads N, --runs N, --json, --help, and files. Any
+// other option, except the program's own, is bad usage.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +19,15 @@ namespace stormcellar::bench {
 
 struct Program {
     std::string_view name;
-    std::string_view files;                     // what its positional words are, as "[FILE ...]"
+    std::string_view files;                     // the positional words, as "[FILE ...]"
     std::string_view purpose;                   // one line
-    std::vector<std::string_view> flags = {};   // of its own
-    std::vector<std::string_view> values = {};  // options of its own that take a value
+    std::vector<std::string_view> flags = {};   // the program's own flags
+    std::vector<std::string_view> values = {};  // the program's own options with a value
 };
 
 struct Request {
     int runs = 5;
-    std::vector<int> threads = {1, 2};  // to measure with, one behind the other
+    std::vector<int> threads = {1, 2};  // numbers of threads to measure with, in turn
     bool json = false;
     std::optional<std::filesystem::path> data;  // --data, a directory
     std::vector<std::filesystem::path> files;
@@ -34,14 +36,14 @@ struct Request {
 
     [[nodiscard]] bool has(std::string_view flag) const;
     [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
-    // --data, or $STORMCELLAR_DATA, or ../shared/data.
+    // Returns --data, or $STORMCELLAR_DATA, or ../shared/data.
     [[nodiscard]] std::filesystem::path data_directory() const;
-    // Those named, else every volume of the data directory, sorted by path.
+    // Returns the files named, else every volume of the data directory, sorted by path.
     [[nodiscard]] std::vector<std::filesystem::path> volumes() const;
 };
 
-// None when there is nothing to do: `status` is then what to exit with (0 after --help, 2 after bad
-// usage), and what there is to say has been printed.
+// `request` is none if there is nothing to do. Then `status` is the exit status (0 after --help, 2
+// after bad usage), and everything has been printed.
 struct ReadRequest {
     std::optional<Request> request;
     int status = 0;
@@ -50,8 +52,8 @@ struct ReadRequest {
 
 class Table;
 
-// The body of a benchmark over files: reads the request, has each file measured into a table, and
-// prints it. What main() is to return: 2 after bad usage, 3 where there are no files.
+// The body of a benchmark over files: reads the request, measures each file into a table, and
+// prints it. Returns the exit status of main(): 2 after bad usage, 3 if there are no files.
 [[nodiscard]] int run_over_files(
     const Program& program, std::span<char* const> arguments,
     const std::function<void(const std::filesystem::path&, const Request&, Table&)>& measure);

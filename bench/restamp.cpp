@@ -11,8 +11,8 @@ bool is_legacy(const level2::Volume& volume) {
 
 }  // namespace
 
-// The feed horn's altitude is what both heights add up to. Equal ones would be read as a TDWR's,
-// which are not added.
+// The altitude of the feed horn is the sum of both heights. If they were equal, they would be read
+// as those of a TDWR, which are not added.
 void move_to(const Station& station, level2::VolumeBlock& block) {
     constexpr int tower_m = 20;
     const auto altitude_m = static_cast<int>(std::lround(station.antenna_altitude_m));

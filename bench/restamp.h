@@ -1,6 +1,8 @@
-// bench/restamp.h -- a volume as if another radar had sent it at another time.
+// bench/restamp.h -- changes a volume as if another radar had sent it at another time.
 //
-// Gates, angles, the pattern and all that is measured stay as they are. Threads: pure functions.
+// Gates, angles, the pattern and everything measured are unchanged.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <chrono>
@@ -11,15 +13,16 @@
 
 namespace stormcellar::bench {
 
-// The header's time and that of every radial that says one that a radar can have meant.
+// Moves the time of the header and of every radial whose time is plausible.
 void move_times(level2::Volume& volume, std::chrono::milliseconds by);
 
-// The volume starts at `start` (whole milliseconds) and is that station's: the ICAO of the header
-// (one is made where there is none), of the radials, and the position in message 31's volume block.
-// Message 1 holds no position: its reader takes that of the station table.
+// The volume then starts at `start` (whole milliseconds) and belongs to the station: the ICAO of
+// the header (one is made if there is none) and of the radials, and the position in the volume
+// block of message 31, are those of the station. Message 1 has no position; its reader takes that
+// of the station table.
 void restamp(level2::Volume& volume, const Station& station, UtcTime start);
 
-// The position in a volume block that has that station's antenna.
+// Gives the volume block the position of the station's antenna.
 void move_to(const Station& station, level2::VolumeBlock& block);
 
 }  // namespace stormcellar::bench

@@ -22,8 +22,8 @@ namespace {
 using level2::message_header_bytes;
 using level2::terminal_manager_bytes;
 
-// Places in the 24-byte header (ICD 2620010 section 7.3.3), in a message's header and in the body
-// of message 31 (ICD 2620002 tables II, XVII-A, XVII-E).
+// Positions in the 24-byte header (ICD 2620010 section 7.3.3), in the header of a message and in
+// the body of message 31 (ICD 2620002 tables II, XVII-A, XVII-E).
 constexpr std::size_t header_day_at = 12, header_ms_at = 16, header_icao_at = 20;
 constexpr std::size_t message_day_at = terminal_manager_bytes + 6;
 constexpr std::size_t message_ms_at = terminal_manager_bytes + 8;
@@ -104,7 +104,7 @@ void stamp_messages(std::span<std::byte> messages, const Station& station,
 }
 
 Bytes compressed(Bytes& messages) {
-    // libbz2's own bound on what it can need.
+    // libbz2's own bound on the size of its output.
     Bytes stream(messages.size() + messages.size() / 100 + 600);
     auto length = static_cast<unsigned>(stream.size());
     const int code = BZ2_bzBuffToBuffCompress(reinterpret_cast<char*>(stream.data()), &length,
@@ -115,7 +115,7 @@ Bytes compressed(Bytes& messages) {
     return stream;
 }
 
-// Empty where it is no stream.
+// Returns an empty result if it is no stream.
 Bytes decompressed(std::span<const std::byte> stream) {
     Bytes messages;
     bunzip::Workspace workspace;

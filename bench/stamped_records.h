@@ -1,10 +1,12 @@
-// bench/stamped_records.h -- a file of LDM records as another radar would have sent it, record for
+// bench/stamped_records.h -- a file of LDM records as another radar would have sent it, record by
 // record.
 //
-// What restamp.h does to a decoded volume, done to the messages themselves: the records stay as the
-// RDA cut them, with all that a Volume does not hold, and are compressed again. Of messages 31 the
-// station, both times and the position are changed; all other messages stay as they are.
-// Threads: const functions may be used by many.
+// It does to the messages themselves what restamp.h does to a decoded volume. The records remain as
+// the RDA cut them, with everything that a Volume does not hold, and are compressed again. In
+// messages 31 the station, both times and the position are changed; all other messages are
+// unchanged.
+//
+// Threads   Const functions may be called from any thread.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +23,11 @@ namespace stormcellar::bench {
 
 class StampedRecords {
   public:
-    // Errors: not_level2 for anything but a header and whole LDM records behind it, corrupt for a
+    // Errors: not_level2 for anything but a header and whole LDM records after it; corrupt for a
     // record that is no bzip2 stream.
     [[nodiscard]] static Result<StampedRecords> read(std::span<const std::byte> file);
 
-    // Starts at `start` (whole milliseconds).
+    // Returns the file with the start at `start` (whole milliseconds).
     [[nodiscard]] Bytes stamped(const Station& station, UtcTime start) const;
     [[nodiscard]] std::uint64_t message_bytes() const;
 
@@ -39,7 +41,7 @@ class StampedRecords {
     std::vector<Record> records_;
 };
 
-// The header's 24 bytes with another time.
+// Writes another time into the header's 24 bytes.
 void stamp_header_time(std::span<std::byte> header, UtcTime start);
 
 }  // namespace stormcellar::bench

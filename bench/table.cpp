@@ -90,7 +90,7 @@ void Table::finish() const {
             if (!cell.is_number()) {
                 object[key] = cell.text();
             } else {
-                // The number that the table shows.
+                // the number as the table shows it
                 object[key] = cell.text() == "-" ? Json() : Json::parse(cell.text());
             }
         }

@@ -1,8 +1,8 @@
 // bench/table.h -- rows of measurements, printed as a table or as one JSON document.
 //
-// A row is a list of keys and values, and both forms come from it: as text, values are separated by
-// tabs under a head of keys (a new head where the keys change), printed as soon as they are known;
-// as JSON, {"machine": {...}, "rows": [{...}]}, printed by finish().
+// A row is a list of keys and values, from which both forms are made. As text, values are separated
+// by tabs under a head of keys (a new head if the keys change) and printed as soon as they are
+// known. As JSON, finish() prints {"machine": {...}, "rows": [{...}]}.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ class Cell {
     Cell(const char* text) : Cell(std::string_view{text}) {}
     Cell(const std::string& text) : Cell(std::string_view{text}) {}
     Cell(int number) : text_(std::to_string(number)), is_number_(true) {}
-    // In both forms with that many places behind the point; "-" and null where it is not finite.
+    // In both forms with this many decimals; "-" and null if it is not finite.
     Cell(double number, int places);
 
     [[nodiscard]] const std::string& text() const { return text_; }

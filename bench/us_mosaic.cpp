@@ -28,7 +28,7 @@ struct PlacedSite {
     grid::GridWindow window;
 };
 
-// The newcomer's first, then those that stand within the domain.
+// The site of the new volume first, then those within the domain.
 std::vector<PlacedSite> sites_of(const grid::GridSpec& domain, const Newcomer& newcomer) {
     std::vector<PlacedSite> sites = {{newcomer.site, newcomer.window}};
     const grid::GridProjection projection(domain);
@@ -45,7 +45,7 @@ std::vector<PlacedSite> sites_of(const grid::GridSpec& domain, const Newcomer& n
     return sites;
 }
 
-// The partials of all sites as files, open as long as they are asked for.
+// The partials of all sites as files, which are open while they are in use.
 class PartialFiles {
   public:
     PartialFiles(const grid::GridSpec& domain, const fs::path& directory,
@@ -57,7 +57,7 @@ class PartialFiles {
         }
     }
 
-    // Makes those that are not there. The mean of what they hold.
+    // Makes the missing files. Returns the mean share of bricks with values.
     Result<double> make() {
         double stored = 0;
         for (std::size_t at = 0; at < sites_.size(); ++at) {

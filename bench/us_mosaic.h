@@ -1,7 +1,7 @@
-// bench/us_mosaic.h -- one mosaic of the United States from 160 made-up radars, for bench_mosaic.
+// bench/us_mosaic.h -- one mosaic of the United States from 160 synthetic radars, for bench_mosaic.
 //
-// The grid and the storms: bench/us_storms.h. Partials are grid files of the cache, made once and
-// mapped, as the daemon has them; the new volume is a real one, moved to Des Moines.
+// bench/us_storms.h describes the grid and the storms. Partials are grid files of the cache, made
+// once and mapped, as in the daemon. The new volume is a real one, moved to Des Moines.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,8 @@
 
 namespace stormcellar::bench {
 
-// A row of bench_merge for each number of threads; `work` has the partials (some 1 GiB) afterwards.
+// Measures a row of bench_merge for each number of threads. Afterward `work` contains the partials
+// (some 1 GiB).
 [[nodiscard]] Status measure_us(const Request& request, const std::filesystem::path& work,
                                 Table& table);
 

@@ -7,7 +7,7 @@
 namespace stormcellar::bench {
 namespace {
 
-// How high storms stand over a column, in metres; none below 0. The same for all sites.
+// Returns how high storms reach over a column, in meters; none below 0. The same for all sites.
 double storm_top_m(int ix, int iy) {
     const auto wave = [](double at) { return std::sin(at); };
     const double field = wave(ix / 97.0) * wave(iy / 71.0) + 0.6 * wave(ix / 31.0 + iy / 43.0) +
@@ -25,7 +25,7 @@ Seen seen_at(double arc_m, double altitude_m) {
     return {arc_m * 0.0087 + fall_m, arc_m * 0.354 + fall_m};
 }
 
-// Of all columns of a brick.
+// Facts of all columns of a brick.
 struct Column {
     double arc_m = 0;
     double top_m = 0;  // of the storm over it
@@ -61,7 +61,7 @@ grid::GridSpec us_grid() {
     spec.spacing_deg = 0.01;
     spec.nx = 7000;
     spec.ny = 3500;
-    // Of MRMS: 0.5 to 3 km by 0.25, to 9 km by 0.5, to 19 km by 1.
+    // as in MRMS: 0.5 to 3 km by 0.25, to 9 km by 0.5, to 19 km by 1
     spec.levels_m.clear();
     for (int level = 2; level <= 12; ++level)
         spec.levels_m.push_back(250.0 * level);

@@ -1,6 +1,6 @@
-// bench/us_storms.h -- the grid of the United States, and what 160 made-up radars see on it.
+// bench/us_storms.h -- the grid of the United States, and what 160 synthetic radars see on it.
 //
-// Threads: pure functions.
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include "stormcellar/grid/brick_grid.h"
@@ -9,10 +9,10 @@
 
 namespace stormcellar::bench {
 
-// 7000 x 3500 columns at 0.01 degrees and the 33 levels of MRMS, 0.5 to 19 km.
+// Returns 7000 x 3500 columns at 0.01 degrees and the 33 levels of MRMS, 0.5 to 19 km.
 [[nodiscard]] grid::GridSpec us_grid();
 
-// Storms in some 7 % of a site's bricks, the same for all sites where they see the same place.
+// Returns storms in some 7 % of a site's bricks; sites that see the same place see the same storms.
 [[nodiscard]] grid::BrickGrid us_storms(const grid::GridSpec& domain,
                                         const grid::GridWindow& window,
                                         const grid::SiteDistance& distance,

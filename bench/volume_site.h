@@ -1,4 +1,4 @@
-// bench/volume_site.h -- where a decoded volume's antenna stands.
+// bench/volume_site.h -- the position of the antenna of a decoded volume.
 #pragma once
 
 #include "stormcellar/base/result.h"
@@ -7,7 +7,8 @@
 
 namespace stormcellar::bench {
 
-// As the volume says, else (message 1 says nothing) as the station table does; else not_found.
+// Returns the position in the volume; else (message 1 has none) that of the station table; else
+// not_found.
 [[nodiscard]] Result<grid::SitePosition> site_of(const level2::Volume& volume);
 
 }  // namespace stormcellar::bench

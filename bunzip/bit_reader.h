@@ -1,7 +1,8 @@
-// bunzip/bit_reader.h -- bits of a span, the first of a byte first.
+// bunzip/bit_reader.h -- reads the bits of a span, the highest bit of a byte first.
 //
-// Never reads outside the span: where fewer bits are left than asked for, nothing is taken.
-// Thread contract: one thread.
+// It never reads outside the span. If fewer bits are left than requested, it takes none.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace stormcellar::bunzip {
 
-// Eight bytes as a number, the first the highest.
+// Loads eight bytes as a number, the first byte highest.
 [[nodiscard]] inline std::uint64_t load_big_endian(const std::byte* from) {
     std::uint64_t raw = 0;
     std::memcpy(&raw, from, sizeof raw);
@@ -30,13 +31,13 @@ class BitReader {
     [[nodiscard]] std::uint64_t bits_left() const {
         return std::uint64_t{bytes_.size()} * 8 - bit_;
     }
-    // Bytes that were begun.
+    // Returns the number of bytes that were begun.
     [[nodiscard]] std::size_t bytes_taken() const {
         return static_cast<std::size_t>((bit_ + 7) / 8);
     }
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
-    // The next 57 bits at least, the first highest, zeros behind the end.
+    // Returns at least the next 57 bits, the first one highest, with zeros beyond the end.
     [[nodiscard]] std::uint64_t peek() const {
         const auto at = static_cast<std::size_t>(bit_ / 8);
         const std::size_t left = bytes_.size() - at;
@@ -45,11 +46,11 @@ class BitReader {
         if (left > 0) std::memcpy(last, bytes_.data() + at, left);
         return load_big_endian(last) << (bit_ % 8);
     }
-    // At most bits_left().
+    // Skips at most bits_left().
     void skip(std::uint64_t bits) { bit_ += bits; }
     void move_to(std::uint64_t position) { bit_ = position; }
 
-    // 1 to 32 bits; none where there are not so many.
+    // Reads 1 to 32 bits. Returns none if there are not enough.
     [[nodiscard]] std::optional<std::uint32_t> read(unsigned bits) {
         if (bits_left() < bits) return std::nullopt;
         const auto value = static_cast<std::uint32_t>(peek() >> (64 - bits));

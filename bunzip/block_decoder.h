@@ -1,6 +1,8 @@
-// bunzip/block_decoder.h -- one block: its tables and symbols read, its rows sorted back.
+// bunzip/block_decoder.h -- decodes one block: reads its tables and symbols, and undoes the sort of
+// its rows.
 //
-// Memory: 10.2 MB at most (docs/bunzip.md). Thread contract: one thread.
+// Memory    10.2 MB at most (docs/bunzip.md).
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +22,12 @@ namespace stormcellar::bunzip {
 class BlockDecoder {
   public:
     BlockDecoder();
-    // Reads a block from behind its mark and its checksum. `most_bytes`: of its rows. Where it is
-    // not good, the reader stands anywhere, except that where it is cut or bad nothing else was
-    // met earlier in the stream.
+    // Reads a block, beginning after its mark and its checksum. `most_bytes` limits its rows. If
+    // the block is not good, the reader's position has no meaning; but if it is cut or bad, nothing
+    // else was wrong earlier in the stream.
     [[nodiscard]] Found read(BitReader& reader, std::uint32_t most_bytes, Path path);
-    // Of the block that was read last and was good; with one more byte, see RunExpander.
+    // Returns the bytes of the last block that was read and was good, and one more byte; see
+    // RunExpander.
     [[nodiscard]] std::span<const std::uint8_t> bytes_and_one_more() const { return bytes_; }
 
   private:

@@ -1,12 +1,13 @@
-// bunzip/block_tables.h -- what stands before the symbols of a block: which bytes it holds, which
-// code each group of symbols uses, and the codes.
+// bunzip/block_tables.h -- reads what comes before the symbols of a block: the bytes that occur in
+// it, the code that each group of symbols uses, and the codes.
 //
-//   16 bits, and 16 more for each that is set: which bytes occur
-//   3 bits: codes, 2 to 6; 15 bits: selectors, at least 1
-//   selectors: the code of each group, moved to the front, in ones that a zero ends
-//   codes: for each, 5 bits of the first length; then for each symbol 10 (longer) and 11 (shorter)
-//   as often as needed, and 0
-// Thread contract: one thread.
+//   16 bits, and 16 more for each of them that is set: the bytes that occur
+//   3 bits: number of codes, 2 to 6; 15 bits: number of selectors, at least 1
+//   selectors: the code of each group, by move-to-front, as ones that end with a zero
+//   codes: for each, 5 bits of the first length; then for each symbol 10 (longer) or 11 (shorter)
+//          as often as needed, and 0
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <array>
@@ -20,16 +21,16 @@
 namespace stormcellar::bunzip {
 
 struct BlockTables {
-    std::array<std::uint8_t, 256> bytes{};  // that occur, ascending
+    std::array<std::uint8_t, 256> bytes{};  // the bytes that occur, ascending
     unsigned byte_count = 0;
     unsigned code_count = 0;
     std::array<PrefixCode, most_codes> codes;
-    std::vector<std::uint8_t> selectors;  // by group
+    std::vector<std::uint8_t> selectors;  // for each group
 
     [[nodiscard]] std::uint16_t end_symbol() const {
         return static_cast<std::uint16_t>(byte_count + 1);
     }
-    // Errors in the order in which libbz2 meets them.
+    // Reads the tables. Errors come in the order in which libbz2 meets them.
     [[nodiscard]] Found read(BitReader& reader);
 
   private:

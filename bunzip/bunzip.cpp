@@ -16,14 +16,14 @@ namespace stormcellar::bunzip {
 namespace {
 
 constexpr std::size_t first_buffer_bytes = std::size_t{5} << 18;
-// Checked while they are in the first cache.
+// Output is checked in pieces of this size, while they are in the first-level cache.
 constexpr std::size_t checked_piece = std::size_t{16} << 10;
 
 Status status_of(Found found) {
     return found == Found::cut ? Status::truncated : Status::corrupt;
 }
 
-// Byte by byte, as libbz2 looks: what contradicts comes before what is missing.
+// Compares byte by byte, as libbz2 does, so that a contradiction comes before missing bytes.
 Found expect_bytes(BitReader& reader, std::uint64_t bytes, unsigned count) {
     for (unsigned i = count; i > 0; --i) {
         const auto byte = reader.read(8);
@@ -60,12 +60,12 @@ struct Reader::State {
     BitReader bits;
     BlockDecoder* blocks;
     Path path;
-    std::uint32_t most_bytes = 0;  // of a block; 0 before the header
+    std::uint32_t most_bytes = 0;  // largest size of a block; 0 before the header
     bool in_block = false;
     RunExpander expander;
     std::uint32_t block_checksum = 0, stated_checksum = 0, all_checksums = 0;
     std::uint64_t made = 0;
-    std::optional<LibraryStream> library;  // from where it is not empty, it reads
+    std::optional<LibraryStream> library;  // once it is set, it reads the stream
     bool ended = false;
     Status status = Status::whole;
 };
@@ -117,7 +117,7 @@ void Reader::State::end_block() {
     all_checksums = std::rotl(all_checksums, 1) ^ stated_checksum;
 }
 
-// libbz2 reads the stream from its beginning; what was given out already is dropped.
+// Lets libbz2 read the stream from its beginning, and drops what was given out already.
 void Reader::State::hand_over() {
     library.emplace(input);
     std::vector<std::byte> dropped(checked_piece);
@@ -149,8 +149,8 @@ Reader::~Reader() = default;
 std::size_t Reader::read(std::span<std::byte> out) {
     State& state = *state_;
     std::size_t count = 0;
-    // A block whose last byte has been given out is ended, and what follows it is looked at, also
-    // where there is no room left: so a stream ends with its last byte.
+    // A block ends with its last byte, and what follows it is read at once, even if there is no
+    // room left. So a stream ends with its last byte.
     while (!state.ended && !out.empty() && !state.library) {
         if (!state.in_block) {
             state.read_mark();
@@ -187,12 +187,13 @@ Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& bu
     if (buffer.empty()) buffer.resize(std::min(limit, first_buffer_bytes));
     std::size_t made = 0;
     for (;;) {
-        // The buffer may be larger than the limit, from an earlier stream.
+        // The buffer may be larger than the limit, because of an earlier stream.
         const std::size_t room = std::min(buffer.size(), limit);
         made += reader.read(std::span{buffer}.first(room).subspan(made));
         if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
         if (made >= limit) {
-            // libbz2 stops where the room is full, and nothing was read where the limit is 0.
+            // libbz2 stops when the room is full, and nothing was read if the limit is 0. One byte
+            // more tells whether the output is longer.
             std::byte surplus{};
             const bool is_longer = reader.read({&surplus, 1}) > 0;
             return {is_longer ? Status::too_large : reader.status(), made, reader.input_bytes()};

@@ -1,22 +1,22 @@
-// bunzip/bunzip.h -- bzip2 decompressed fast: a stream piece by piece, or whole.
+// bunzip/bunzip.h -- decompresses bzip2 fast: a stream piece by piece, or as a whole.
 //
-//   bunzip::Workspace workspace;             // kept, one a thread
+//   bunzip::Workspace workspace;             // keep it, one for each thread
 //   bunzip::Reader reader(stream, workspace);
 //   while (!reader.ended()) use(buffer, reader.read(buffer));
 //   if (reader.status() != bunzip::Status::whole) ...
 //
-// Right      as libbz2: the same bytes, and of a stream that is not valid the same Status.
-// Checksums
-//            of blocks and of the stream are always checked. libbz2 itself reads randomised blocks,
-//            and everything where Path::libbz2 is asked for.
-// Safe       never reads outside `stream` nor writes outside `out`, whatever the stream holds; what
-//            is given out before the end may still turn out to be corrupt. Output is bounded by
-//            what the caller gives room for: a byte can stand for some 2 MB.
-// Memory     a Workspace: 10.2 MB at most, for blocks of 900,000 bytes; while libbz2 reads a
-//            randomised stream, its 3.7 besides. What cannot be had is thrown as std::bad_alloc;
-//            a Reader that has thrown is not to be read on.
-// Speed      docs/performance.md; how it works: docs/bunzip.md.
-// Thread contract: a Workspace and its Reader belong to one thread.
+// Results   The same as those of libbz2: the same bytes, and for a stream that is not valid the
+//           same Status. Checksums of blocks and of the stream are always checked. libbz2 itself
+//           reads randomized blocks, and everything with Path::libbz2.
+// Safety    Nothing is read outside `stream` or written outside `out`, whatever the stream holds.
+//           Bytes that were given out before the end may still turn out to be corrupt. The caller's
+//           room bounds the output, of which one byte of input can make some 2 MB.
+// Memory    A Workspace takes 10.2 MB at most, for blocks of 900,000 bytes. While libbz2 reads a
+//           randomized stream, it takes 3.7 MB more. If memory cannot be had, std::bad_alloc is
+//           thrown; a Reader that has thrown must not be used any more.
+// Speed     docs/performance.md has the figures, docs/bunzip.md explains how it works.
+// Threads   A Workspace and its Reader may be used by one thread at a time.
+// Errors    A Status, as below.
 #pragma once
 
 #include <cstddef>
@@ -32,13 +32,13 @@ namespace stormcellar::bunzip {
 enum class Status : std::uint8_t {
     whole,
     truncated,  // the bytes end inside the stream
-    corrupt,    // they contradict the format or a checksum
+    corrupt,    // the bytes contradict the format or a checksum
     too_large,  // more output than the limit
 };
 
 class BlockDecoder;
 
-// What decompressing takes, kept from stream to stream. Empty until it is first used.
+// The memory for decompressing, kept from stream to stream. It is empty until its first use.
 class Workspace {
   public:
     Workspace();
@@ -51,22 +51,24 @@ class Workspace {
     std::unique_ptr<BlockDecoder> blocks_;
 };
 
-// One stream. What follows it is not looked at.
+// Reads one stream, and nothing after it.
 class Reader {
   public:
-    // Both must outlive the reader; one reader a workspace at a time. `path` is one that this
-    // machine has.
+    // Both arguments must outlive the reader. A workspace may serve one reader at a time. This
+    // machine must have the path.
     Reader(std::span<const std::byte> stream, Workspace& workspace, Path path = usual_path());
     Reader(Reader&&) noexcept;
     Reader& operator=(Reader&&) noexcept;
     ~Reader();
 
-    // Fills `out` as far as the stream goes and says how many bytes; fewer only at its end.
+    // Fills `out` as far as the stream goes and returns the number of bytes. They are fewer only at
+    // the end.
     [[nodiscard]] std::size_t read(std::span<std::byte> out);
     [[nodiscard]] bool ended() const;
-    // What ended it: whole, truncated or corrupt. Whole until then.
+    // Returns what ended the stream: whole, truncated or corrupt. Until then it returns whole.
     [[nodiscard]] Status status() const;
-    // That the stream took so far, and in all once it has ended whole.
+    // Returns the bytes of the stream that were read up to now; all its bytes once it has ended
+    // whole.
     [[nodiscard]] std::size_t input_bytes() const;
 
   private:
@@ -80,7 +82,7 @@ struct Outcome {
     std::size_t input_bytes = 0;
 };
 
-// One stream into `buffer`, which grows as needed up to `limit` and never shrinks.
+// Decompresses one stream into `buffer`, which grows as needed up to `limit` and never shrinks.
 [[nodiscard]] Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
                                  std::size_t limit, Workspace& workspace, Path path = usual_path());
 
@@ -90,9 +92,10 @@ struct Job {
     std::vector<std::byte> output;  // grows as needed and never shrinks
     Outcome outcome = {};
 };
-// Each job, as decompress() does it, by a thread for each workspace, of which the caller is one;
-// fewer where the system has no more. With no workspace the caller does them all in one of its own.
-// Throws std::bad_alloc where a job could not be done for want of memory; no outcome counts then.
+// Does each job as decompress() does, with one thread for each workspace, one of which is the
+// caller; with fewer threads if the system has no more. Without any workspace the caller does all
+// jobs in its own. Throws std::bad_alloc if a job could not be done for lack of memory; then no
+// outcome counts.
 void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
                     Path path = usual_path());
 

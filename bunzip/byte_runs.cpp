@@ -18,10 +18,11 @@
 #define STORMCELLAR_BUNZIP_BYTE_RUNS_ONCE
 namespace stormcellar::bunzip {
 
-// Above any block, so that the caller finds it bad.
+// This is larger than any block, so the caller finds the block bad.
 constexpr std::uint64_t too_many_bytes = std::uint64_t{1} << 62;
 
-// Row k takes the byte at k to the front and those before it one place back.
+// Row k is the permutation that moves the byte at place k to the front, and the bytes before it one
+// place back.
 template <std::size_t Size>
 constexpr auto make_patterns() {
     std::array<std::array<std::uint8_t, Size>, Size> patterns{};
@@ -51,7 +52,8 @@ namespace stormcellar::bunzip::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_AVX3_DL
 
-// All 256 bytes in four registers.
+// The list of 256 bytes in four registers of 64. A move within the first 64 places, the usual case,
+// is one permutation of the first register.
 class FrontList {
   public:
     explicit HWY_INLINE FrontList(const std::uint8_t* list) {
@@ -79,7 +81,9 @@ class FrontList {
     static HWY_INLINE std::uint8_t first_of(__m512i part) {
         return static_cast<std::uint8_t>(_mm_cvtsi128_si32(_mm512_castsi512_si128(part)));
     }
-    // Each register before the byte's passes its last byte on to the next.
+    // A move from farther back turns every register before the one that holds the byte, so that its
+    // last byte comes to its front. That byte goes to the front of the next register, and the byte
+    // that was found to the front of the first.
     HWY_INLINE void move_far(std::uint32_t place) {
         const __mmask64 first = 1;
         const __m512i front = to_front(part_[0], 63);
@@ -108,6 +112,7 @@ class FrontList {
     __m512i part_[4];
 };
 
+// Which of 64 symbols are moves, and which are the digit 1 (run_b).
 struct SymbolMasks {
     std::uint64_t moves, ones;
 };
@@ -124,7 +129,8 @@ HWY_INLINE SymbolMasks masks_of(const std::uint16_t* symbols) {
 
 #else
 
-// The first 16 bytes in a register, the others in memory.
+// The first 16 bytes are in a register, the others in memory. A move within the first 16 places is
+// one shuffle.
 class FrontList {
   public:
     explicit HWY_INLINE FrontList(const std::uint8_t* list)
@@ -152,7 +158,8 @@ class FrontList {
     static HWY_INLINE __m128i pattern(std::uint32_t place) {
         return _mm_loadu_si128(reinterpret_cast<const __m128i*>(patterns[place].data()));
     }
-    // What stands before it moves back by pieces from the end; the last one takes from the slack.
+    // The bytes before it move back by one place, in pieces of 32 from the end; the last piece also
+    // reads from the slack.
     HWY_INLINE void move_far(std::uint32_t place) {
         std::uint8_t* const rest = rest_ + slack;
         const std::uint8_t found = rest[place];
@@ -194,19 +201,23 @@ HWY_INLINE SymbolMasks masks_of(const std::uint16_t* symbols) {
 
 #endif
 
-// 64 symbols or, the last time, fewer. False where a run has too many digits.
+// Makes runs from 64 symbols, or fewer at the end. Returns false if a run has too many digits. The
+// loop visits only the moves, by the bits of a mask. The symbols between two moves are digits, and
+// the mask of the digits gives the length of the run at once, without a branch on each symbol,
+// because these branches cannot be predicted.
 HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16_t* symbols,
                              unsigned there, ByteRun*& to) {
     SymbolMasks masks = masks_of(symbols);
     const std::uint64_t valid = ~std::uint64_t{0} >> (64 - there);
     std::uint64_t moves = masks.moves & valid;
     const std::uint64_t ones = masks.ones & valid;
+    // No move: all symbols are digits of the run that goes on.
     if (moves == 0) {
         maker.digit_bits |= static_cast<std::uint32_t>(ones << std::min(maker.digits, 32U));
         maker.digits += there;
         return maker.digits <= most_run_digits;
     }
-    // The first one ends a run that may have begun earlier.
+    // The first move ends a run that may have begun in earlier symbols.
     auto at = static_cast<unsigned>(std::countr_zero(moves));
     const std::uint64_t before = ones & ((std::uint64_t{1} << at) - 1);
     maker.digit_bits |= static_cast<std::uint32_t>(before << maker.digits);
@@ -216,6 +227,7 @@ HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16
     maker.times = 1;
     list.move(symbols[at] - 1U);
     std::uint64_t bytes = 0;
+    // Each further move ends a run that lies entirely within these symbols.
     for (moves &= moves - 1; moves != 0; moves &= moves - 1) {
         const auto next = static_cast<unsigned>(std::countr_zero(moves));
         const unsigned digits = next - at - 1;
@@ -230,6 +242,7 @@ HWY_INLINE bool take_symbols(RunMaker& maker, FrontList& list, const std::uint16
         list.move(symbols[next] - 1U);
         at = next;
     }
+    // The digits after the last move belong to a run that goes on.
     maker.bytes += bytes;
     maker.digits = there - at - 1;
     maker.digit_bits = static_cast<std::uint32_t>(ones >> at >> 1U);
@@ -261,7 +274,7 @@ HWY_AFTER_NAMESPACE();
 namespace stormcellar::bunzip {
 namespace {
 
-// The first eight bytes in a number, the others in memory.
+// The first eight bytes are in a number, the others in memory.
 class PlainList {
   public:
     explicit PlainList(std::uint8_t* list) : list_(list) {
@@ -293,6 +306,7 @@ class PlainList {
     std::uint64_t front_ = 0;
 };
 
+// The same for any machine, symbol by symbol.
 std::size_t make_runs_plainly(RunMaker& maker, std::span<const std::uint16_t> symbols,
                               ByteRun* to) {
     const ByteRun* const begin = to;

@@ -1,12 +1,15 @@
-// bunzip/byte_runs.h -- from symbols to the last column of the sorted block, as runs of bytes.
+// bunzip/byte_runs.h -- makes the last column of the sorted block, as runs of bytes, from the
+// symbols.
 //
-// A symbol from 2 on names a place in a list of bytes, whose byte then moves to the front. Symbols
-// 0 and 1 are the digits of the number of further times that the front byte stands there: 1 or 2,
-// each worth twice the one before.
-// The runs come out in one pass without a branch on the kind of a symbol, since that cannot be
-// foreseen: a mask of 64 symbols says which are moves, and a run's length is read from the digits'
-// mask between two of them. The list is held in registers as far as they go (Path).
-// Thread contract: one thread.
+// A symbol from 2 on is a place in a list of bytes; the byte at this place moves to the front.
+// Symbols 0 and 1 are the digits, 1 and 2, of a number that says how many more times the front byte
+// occurs; each digit is worth twice the one before.
+//
+// The kind of the next symbol cannot be predicted, so the runs are made in one pass without a
+// branch on it. A mask of 64 symbols says which are moves, and the length of a run is read from the
+// mask of the digits between two moves. The list is held in registers as far as the Path allows.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <array>
@@ -18,7 +21,7 @@
 
 namespace stormcellar::bunzip {
 
-// A byte and how often it stands there, at least once but for the first run of a block.
+// A byte and the number of times that it occurs, which is 0 only in the first run of a block.
 class ByteRun {
   public:
     ByteRun() = default;
@@ -32,22 +35,22 @@ class ByteRun {
 
 struct RunMaker {
     alignas(64) std::array<std::uint8_t, 256> list{};  // the front first
-    std::uint32_t digits = 0;                          // behind the last move
-    std::uint32_t digit_bits = 0;                      // which of them are 1, the first lowest
+    std::uint32_t digits = 0;                          // digits after the last move
+    std::uint32_t digit_bits = 0;                      // which of them are 1, the first one lowest
     std::uint32_t times = 0;                           // 0 before the first move, then 1
-    std::uint64_t bytes = 0;                           // in the runs that are ended
-    std::array<std::uint32_t, 256> count{};            // of each byte, in those
+    std::uint64_t bytes = 0;                           // bytes in the runs that have ended
+    std::array<std::uint32_t, 256> count{};            // number of each byte in those runs
 
     void begin(std::span<const std::uint8_t> bytes_there);
 };
 
-// Appends to `to` the runs that end inside `symbols`, at most as many, and says how many those
-// are. The run that goes on is kept for the next call; bad where it has too many digits. Once
-// `bytes` is above a block's, the block is bad, and there is no next call.
+// Appends to `to` the runs that end within `symbols`, at most as many as there are symbols, and
+// returns their number. The run that goes on is kept for the next call. If it has too many digits,
+// or `bytes` exceeds a block's size, the block is bad and there must be no next call.
 using MakeRuns = std::size_t (*)(RunMaker& maker, std::span<const std::uint16_t> symbols,
                                  ByteRun* to);
 [[nodiscard]] MakeRuns make_runs_by(Path path);
-// What is left at the end of a block.
+// Returns the run that is left at the end of a block.
 [[nodiscard]] ByteRun last_run(RunMaker& maker);
 
 }  // namespace stormcellar::bunzip

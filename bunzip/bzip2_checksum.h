@@ -1,7 +1,7 @@
 // bunzip/bzip2_checksum.h -- the checksum of bzip2: CRC-32 with the polynomial 04C11DB7, the
-// highest bit first, begun with and at the end combined with FFFFFFFF.
+// highest bit first, which begins with FFFFFFFF and is combined with FFFFFFFF at the end.
 //
-// Thread contract: pure.
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace stormcellar::bunzip {
 
 inline constexpr std::uint32_t checksum_begin = 0xFFFFFFFF;
-// Goes on from `state`; the checksum is the state's complement.
+// Continues from `state`. The checksum is the complement of the state.
 using Checksum = std::uint32_t (*)(std::uint32_t state, std::span<const std::uint8_t> bytes);
 [[nodiscard]] Checksum checksum_by(Path path);
 

@@ -1,8 +1,9 @@
 // bunzip/bzip2_format.h -- the numbers of the bzip2 format, and how a part of a stream can end.
 //
-// A stream: "BZh", a digit (blocks of so many times 100,000 bytes at most), blocks, an end. A
-// block: a mark (48 bits), a checksum (32), whether it is randomised (1), the origin (24), its
-// tables (block_tables.h), symbols. The end: a mark, the checksum of all blocks' checksums.
+// A stream has "BZh", a digit d (blocks have at most d times 100,000 bytes), blocks, and an
+// end. A block has a mark (48 bits), a checksum (32), whether it is randomized (1), the origin
+// (24), its tables (block_tables.h), and symbols. The end has a mark and the checksum of the
+// checksums of all blocks.
 #pragma once
 
 #include <cstddef>
@@ -19,19 +20,19 @@ inline constexpr std::uint32_t most_rows = 9 * block_unit;
 
 inline constexpr unsigned most_code_bits = 20;
 inline constexpr unsigned least_codes = 2, most_codes = 6;
-inline constexpr std::size_t group_symbols = 50;      // that use one code
-inline constexpr std::uint32_t most_groups = 18'002;  // selectors behind these are read and dropped
-inline constexpr std::uint16_t run_a = 0, run_b = 1;  // symbols; 2 and more: moves to the front
-inline constexpr std::size_t most_symbols = 258;      // two of runs, 255 moves, the end
-// A run has at most so many digits.
+inline constexpr std::size_t group_symbols = 50;      // symbols that use one code
+inline constexpr std::uint32_t most_groups = 18'002;  // further selectors are read and dropped
+inline constexpr std::uint16_t run_a = 0, run_b = 1;  // symbols; 2 and more are moves to the front
+inline constexpr std::size_t most_symbols = 258;      // two for runs, 255 moves, the end
+// A run has at most this many digits.
 inline constexpr unsigned most_run_digits = 21;
 
-// What reading a part of a stream came to.
+// The result of reading a part of a stream.
 enum class Found : std::uint8_t {
     good,
-    cut,         // the bytes end inside
-    bad,         // they contradict the format
-    randomised,  // by bzip2 before 0.9.5: left to libbz2
+    cut,         // the bytes end inside the part
+    bad,         // the bytes contradict the format
+    randomised,  // made by bzip2 before 0.9.5: left to libbz2
 };
 
 }  // namespace stormcellar::bunzip

@@ -30,7 +30,7 @@ void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace>
         for (std::size_t i = 1; i < workspaces.size() && i < jobs.size(); ++i)
             threads.emplace_back(work, std::ref(workspaces[i]));
     } catch (const std::system_error&) {
-        // The system has no more threads: those there are do the work.
+        // The system has no more threads, so those that exist do the work.
     } catch (const std::bad_alloc&) {
         // The same.
     }

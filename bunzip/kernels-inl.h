@@ -1,6 +1,6 @@
-// bunzip/kernels-inl.h -- one of a kernel's forms by the path that is taken.
+// bunzip/kernels-inl.h -- chooses the form of a kernel by the path that is taken.
 //
-// Included after hwy/highway.h, outside of the targets' namespaces.
+// Include it after hwy/highway.h, outside the namespaces of the targets.
 // NOLINTBEGIN(llvm-header-guard)
 #ifndef STORMCELLAR_BUNZIP_KERNELS_INL_H
 #define STORMCELLAR_BUNZIP_KERNELS_INL_H
@@ -9,7 +9,7 @@
 
 #include "bunzip/paths.h"
 
-// The kernel of that name as it was compiled for AVX2 or AVX-512; null where it was not.
+// The kernel of that name as compiled for AVX2 or AVX-512; null if it was not.
 #if HWY_TARGETS & HWY_AVX2
 #define STORMCELLAR_BUNZIP_AVX2(kernel) N_AVX2::kernel
 #else
@@ -23,8 +23,8 @@
 
 namespace stormcellar::bunzip {
 
-// A kernel's forms, pointers to functions. The path is one that this machine has; where it has no
-// form of its own, the plain one is taken.
+// Pointers to the forms of a kernel. This machine must have the path. If the path has no form of
+// its own, the plain one is taken.
 template <class Kernel>
 struct Kernels {
     Kernel plain;

@@ -1,6 +1,7 @@
-// bunzip/library_stream.h -- a stream read by libbz2: the fallback, and what all else is held to.
+// bunzip/library_stream.h -- a stream read by libbz2: the fallback, and the reference that all
+// other paths are tested against.
 //
-// Thread contract: one thread.
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>

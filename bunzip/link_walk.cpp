@@ -7,31 +7,32 @@ namespace stormcellar::bunzip {
 namespace {
 
 constexpr Link marked = Link{1} << 31;
-// Below it there is little to gain from more walks.
+// With fewer rows in each segment, more walks gain little.
 constexpr std::uint32_t rows_a_segment = 256;
 constexpr std::uint32_t spare_room = 8192;
-// The lanes' bytes of one step lie in different sets of the cache.
+// With this stride, the bytes that the lanes write in one step lie in different sets of the cache.
 constexpr std::size_t lane_stride = (most_rows / 8 + spare_room) / 4096 * 4096 + 4096 + 5 * 64;
 static_assert(LinkWalk::most_segments < marked && (most_rows + 1) << link_shift < marked);
 
 }  // namespace
 
-// Where each lane stands, and which segment it reads. A lane without one goes round on the row
-// behind the last, which is linked to itself.
+// The place of each lane, and the segment that it reads. A lane without a segment goes round on the
+// row after the last one, which links to itself.
 struct LinkWalk::Lanes {
     Link idle;
     std::array<Link, lanes> link;  // of the row that is read next
     std::array<std::uint32_t, lanes> segment{};
-    std::uint32_t begun = 0;  // segments
-    std::uint32_t busy = 0;   // lanes
+    std::uint32_t begun = 0;  // number of segments that were begun
+    std::uint32_t busy = 0;   // number of lanes with a segment
 };
 
 std::uint32_t LinkWalk::mark_count(std::uint32_t rows) {
     return std::min(most_segments - 1, rows / rows_a_segment);
 }
 
-// One in each of as many equal pieces, somewhere in it: by the golden ratio, which agrees with no
-// period.
+// Returns the i-th marked row. The block is cut into as many equal pieces as there are marks, and
+// each piece has its mark somewhere inside it, by the golden ratio, which does not agree with any
+// period in the data.
 std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     const std::uint64_t count = mark_count(rows);
     const std::uint64_t begin = rows * std::uint64_t{i} / count;
@@ -40,6 +41,8 @@ std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
     return static_cast<std::uint32_t>(begin + ((end - begin) * share >> 32));
 }
 
+// Marks the rows at which segments begin. A mark takes the place of the row's link, which the
+// segment keeps.
 void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t origin) {
     segment_count_ = 0;
     const auto add = [&](std::uint32_t row) {
@@ -56,7 +59,7 @@ void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     }
 }
 
-// Called where a lane has met a mark.
+// Ends the segments of all lanes that have met a mark, and begins new ones in these lanes.
 void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
         if ((at.link[lane] & marked) == 0) continue;
@@ -76,6 +79,10 @@ void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     }
 }
 
+// Walks along the links with all lanes at once. The inner loop does nothing but read a link, write
+// its byte and go on, for each lane; it stops when any lane has met a mark. The loads of the lanes
+// do not depend on each other, so that the processor waits for all of them together. Returns false
+// if a lane has no room left.
 bool LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
     Lanes at{rows << link_shift, {}};
     links[rows] = at.idle;
@@ -113,6 +120,8 @@ bool LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
     return true;
 }
 
+// Copies the segments from the lanes into the order of the block, by following the marks from the
+// origin.
 void LinkWalk::join(std::span<std::uint8_t> bytes) const {
     std::size_t done = 0;
     for (std::uint32_t i = 0; done < bytes.size(); i = segments_[i].next) {
@@ -133,6 +142,7 @@ void LinkWalk::read(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     for (std::uint32_t i = 0; i < segment_count_; ++i)
         links[segments_[i].row] = segments_[i].link;
     if (!walked_alone_) return join(bytes);
+    // A single walk reads the block if the lanes had too little room.
     Link link = links[origin];
     for (std::uint8_t& byte : bytes) {
         byte = static_cast<std::uint8_t>(link);

@@ -1,8 +1,10 @@
-// bunzip/paths.h -- the ways a machine can decompress: which there are, and which is taken.
+// bunzip/paths.h -- the ways in which a machine can decompress: which exist, and which is taken.
 //
-// All give the same bytes. `fastest` is the best of the others that this machine has; the
-// environment's STORMCELLAR_BUNZIP can name another, and set_usual_path() is above both.
-// Thread contract: all functions are safe.
+// All give the same bytes. The fastest path that this machine has is the usual one, unless the
+// environment variable STORMCELLAR_BUNZIP names another, or set_usual_path() has set one, which
+// overrides both.
+//
+// Threads   Any thread may call every function.
 #pragma once
 
 #include <array>
@@ -21,15 +23,16 @@ enum class Path : std::uint8_t {
 inline constexpr std::array all_paths = {Path::libbz2, Path::plain, Path::avx2, Path::avx512};
 
 [[nodiscard]] std::string_view name_of(Path path);
-// None where no path is called so.
+// Returns none if no path has this name.
 [[nodiscard]] std::optional<Path> path_named(std::string_view name);
 [[nodiscard]] bool is_available(Path path);
 [[nodiscard]] Path fastest_path();
 
-// What is used where none is asked for: set here, else named in STORMCELLAR_BUNZIP (what names no
-// path, or one that this machine has not, is ignored), else the fastest.
+// Returns the path that is used if none is given: the one that was set here, else the one named in
+// STORMCELLAR_BUNZIP (a name without a path, or of a path that this machine lacks, is ignored),
+// else the fastest.
 [[nodiscard]] Path usual_path();
-// False, and nothing is changed, where this machine has not got it.
+// Returns false and changes nothing if this machine lacks the path.
 bool set_usual_path(Path path);
 
 }  // namespace stormcellar::bunzip

@@ -16,7 +16,7 @@
 #define STORMCELLAR_BUNZIP_ROW_LINKS_ONCE
 namespace stormcellar::bunzip {
 
-// The first row that begins with each byte.
+// Returns the first row that begins with each byte.
 inline std::array<std::uint32_t, 256> first_rows(const std::array<std::uint32_t, 256>& count) {
     std::array<std::uint32_t, 256> first{};
     std::uint32_t row = 0;
@@ -34,12 +34,14 @@ inline std::array<std::uint32_t, 256> first_rows(const std::array<std::uint32_t,
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::bunzip::HWY_NAMESPACE {
 
-// As many of the 16 as `count` says. (bzhi looks at its lowest byte alone.)
+// Returns the first `count` of 16 lanes. (bzhi uses only the lowest byte of the count, hence the
+// minimum.)
 HWY_INLINE __mmask16 first_lanes(std::uint32_t count) {
     return static_cast<__mmask16>(_bzhi_u32(0xFFFF, std::min(count, 16U)));
 }
 
-// Runs are short, and how short cannot be foreseen: a masked store takes up to 16 rows at once.
+// Links the rows. Runs are short and their lengths cannot be predicted, so a masked store writes up
+// to 16 rows at once without a branch.
 void link_rows(std::span<const ByteRun> runs, const std::array<std::uint32_t, 256>& count,
                Link* links) {
     std::array<std::uint32_t, 256> next = first_rows(count);

@@ -1,10 +1,11 @@
-// bunzip/row_links.h -- from the last column of the sorted block to the link of each row.
+// bunzip/row_links.h -- makes the link of each row from the last column of the sorted block.
 //
-// The rows of the block are its rotations, sorted. The k-th row that begins with a byte is the
-// k-th that ends with it, turned by one: so the link of a row, the row that its turning by one
-// makes, is found by counting. A link holds the row's first byte too, so that a walk along the
-// links reads the block's bytes in their order, one load each.
-// Thread contract: pure.
+// The rows of the block are its rotations, sorted. The k-th row that begins with a byte is the k-th
+// row that ends with it, rotated by one. So the link of a row, which is the row that its rotation
+// by one makes, is found by counting. A link also holds the first byte of its row, so that a walk
+// along the links reads the bytes of the block in order with one load for each.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <array>
@@ -16,13 +17,13 @@
 
 namespace stormcellar::bunzip {
 
-// The row linked to, above the row's first byte.
+// The row that is linked to, above the first byte of the row.
 using Link = std::uint32_t;
 inline constexpr unsigned link_shift = 8;
-// Of those behind the last row that may be written.
+// How many links after the last row may be overwritten.
 inline constexpr std::size_t link_slack = 16;
 
-// `count`: of each byte in `runs`; `links`: as many as all of them, and link_slack.
+// `count` has the number of each byte in `runs`; `links` has room for all rows and link_slack more.
 using LinkRows = void (*)(std::span<const ByteRun> runs,
                           const std::array<std::uint32_t, 256>& count, Link* links);
 [[nodiscard]] LinkRows link_rows_by(Path path);

@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::bunzip::HWY_NAMESPACE {
 
-// Bit i: byte i is as byte i + 1.
+// Bit i of `equal`: byte i is equal to byte i + 1.
 #if HWY_TARGET == HWY_AVX3_DL
 constexpr unsigned width = 64;
 struct Window {
@@ -51,9 +51,11 @@ HWY_INLINE void fill(std::uint8_t* to, std::uint8_t byte) {
 }
 #endif
 
+// Copies whole windows of bytes as long as they hold no four equal bytes. At such a run, it writes
+// the run with its repetitions and continues after the count.
 RunExpander::Place expand(RunExpander::Place place, const std::uint8_t* end,
                           const std::uint8_t* to_end) {
-    // Of the window's bits all but three say whether four bytes are alike.
+    // All bits of the window but three say whether four bytes are equal.
     constexpr unsigned step = width - 2;
     constexpr std::ptrdiff_t most_read = width + 8, most_made = 2 * width + 260;
     auto [from, to] = place;
@@ -96,7 +98,8 @@ RunExpander::Place expand_plainly(RunExpander::Place place, const std::uint8_t* 
         std::memcpy(&bytes, from, 8);
         std::memcpy(&next, from + 1, 8);
         std::memcpy(to, &bytes, 8);
-        // Pairs of equal bytes are zeros of the difference, the first of which a borrow shows.
+        // Pairs of equal bytes are zeros in the difference. Subtracting 1 from each byte borrows
+        // first at the first of them.
         const std::uint64_t difference = bytes ^ next;
         constexpr std::uint64_t low = 0x0101010101010101, high = 0x8080808080808080;
         const std::uint64_t pairs = (difference - low) & ~difference & high;
@@ -138,7 +141,7 @@ void RunExpander::begin(std::span<const std::uint8_t> bytes_and_one_more, Path p
     equal_ = 0;
 }
 
-// Byte by byte, where the block or the room ends.
+// Reads byte by byte where the block or the room ends.
 void RunExpander::read_careful(std::span<std::uint8_t> out, std::size_t& made) {
     while (made < out.size()) {
         if (fill_left_ > 0) {
@@ -162,13 +165,14 @@ void RunExpander::read_careful(std::span<std::uint8_t> out, std::size_t& made) {
 std::size_t RunExpander::read(std::span<std::uint8_t> out) {
     std::size_t made = 0;
     if (fill_left_ > 0 || equal_ > 0) {
-        // To where a run cannot have begun.
+        // Reads up to a place where no run can have begun.
         while (made < out.size() && !ended() && (fill_left_ > 0 || equal_ > 0)) {
             const std::uint8_t* const before = at_;
             const unsigned equal_before = equal_;
             read_careful(out.first(made + 1), made);
             if (at_ != before && equal_ == 1 && equal_before > 0) {
-                // This byte differs from those before it: begin again with it.
+                // This byte differs from those before it, so it is read again as the first of a
+                // run.
                 --at_;
                 --made;
                 equal_ = 0;

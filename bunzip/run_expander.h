@@ -1,7 +1,7 @@
-// bunzip/run_expander.h -- undoes the first step of bzip2: four equal bytes are followed by one
-// that says how many more there are.
+// bunzip/run_expander.h -- undoes the first step of bzip2, in which four equal bytes are followed
+// by a byte that says how many more of them there are.
 //
-// Thread contract: one thread.
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,23 @@ namespace stormcellar::bunzip {
 
 class RunExpander {
   public:
-    // Of all of them but the last is the block's; the last follows it when the block is read as a
-    // ring. libbz2 takes it for the count where a block ends in four equal bytes, and the block is
-    // then bad, so that is done here too.
+    // Begins a block, which is all bytes but the last. The last byte follows the block when it is
+    // read as a ring. If a block ends with four equal bytes, libbz2 takes it for the count, and the
+    // block is then bad; the same is done here.
     void begin(std::span<const std::uint8_t> bytes_and_one_more, Path path);
     // Fills `out` as far as the block goes.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> out);
-    // Nothing is left.
+    // Returns true if nothing is left.
     [[nodiscard]] bool ended() const { return at_ >= end_ && fill_left_ == 0; }
-    // The block ended where a count was due.
+    // Returns true if the block ended where a count was due.
     [[nodiscard]] bool bad() const { return at_ > end_; }
 
     struct Place {
-        const std::uint8_t* from;  // what is read next
-        std::uint8_t* to;          // what is written next
+        const std::uint8_t* from;  // the byte that is read next
+        std::uint8_t* to;          // the place that is written next
     };
-    // Expands what stands before `end`, where there is room for it up to `to_end`, and stops before
-    // what needs care. It may read up to `slack` bytes behind where it stops.
+    // Expands what comes before `end`, if there is room for it up to `to_end`, and stops before
+    // anything that needs care. It may read up to `slack` bytes after the place where it stops.
     using Expand = Place (*)(Place place, const std::uint8_t* end, const std::uint8_t* to_end);
 
   private:
@@ -41,7 +41,7 @@ class RunExpander {
     Expand expand_ = nullptr;
     std::uint32_t fill_left_ = 0;
     std::uint8_t fill_byte_ = 0;
-    unsigned equal_ = 0;  // bytes before at_ that are alike, 0 to 3, in the careful reading
+    unsigned equal_ = 0;  // number of equal bytes before at_, 0 to 3, in read_careful()
 };
 
 }  // namespace stormcellar::bunzip

@@ -5,9 +5,9 @@
 namespace stormcellar::bunzip {
 namespace {
 
-// A group and the eight bytes that are loaded at its end lie in so many bytes.
+// A group, and the eight bytes that are loaded at its end, have at most this many bits.
 constexpr std::uint64_t group_bits = group_symbols * most_code_bits + 128;
-// Lookups between two loads, which give 56 bits at least.
+// The lookups between two loads, each of which gives at least 56 bits.
 constexpr unsigned lookups_a_load = 5;
 static_assert(lookups_a_load * PrefixCode::lookup_bits <= 56);
 static_assert(group_symbols % lookups_a_load == 0);
@@ -27,7 +27,9 @@ std::span<const std::uint16_t> SymbolReader::next_batch() {
     return {batch_.data(), to};
 }
 
-// `bits` holds what follows, the first bit highest; `at` is its place in the stream.
+// Reads a group whose bits are all there. `bits` holds what follows, the first bit highest; `at` is
+// its place in the stream. One load serves several lookups, so the usual symbol costs one lookup
+// and one shift.
 std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* to) {
     const std::byte* const bytes = reader_.bytes().data();
     const std::uint16_t* const lookup = code.lookup();
@@ -67,7 +69,7 @@ std::uint16_t* SymbolReader::read_group(const PrefixCode& code, std::uint16_t* t
     return to;
 }
 
-// Where the bytes may end inside.
+// Reads a group in which the bytes may end, with a check of each symbol.
 std::uint16_t* SymbolReader::read_last_group(const PrefixCode& code, std::uint16_t* to) {
     for (std::size_t i = 0; i < group_symbols; ++i) {
         const PrefixCode::Word word = code.decode(reader_.peek());

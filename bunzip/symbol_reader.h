@@ -1,6 +1,6 @@
-// bunzip/symbol_reader.h -- the symbols of a block, by groups of 50, each with its code.
+// bunzip/symbol_reader.h -- reads the symbols of a block, in groups of 50, each with its own code.
 //
-// Thread contract: one thread. What the reader and the tables point to must outlive it.
+// Threads   One thread at a time. What the reader and the tables refer to must outlive it.
 #pragma once
 
 #include <array>
@@ -19,15 +19,16 @@ class SymbolReader {
     static constexpr std::size_t batch_groups = 20;
     static constexpr std::size_t batch_symbols = batch_groups * group_symbols;
 
-    // The next symbols, without the end of the block; valid until the next call. Those before what
-    // is bad or cut are given too, found() then says so.
+    // Returns the next symbols, without the end of the block, valid until the next call. Symbols
+    // before a bad or cut place are returned too; found() then says what was found.
     [[nodiscard]] std::span<const std::uint16_t> next_batch();
-    // Whether the end of the block was read; the reader then stands behind it.
+    // Returns true if the end of the block was read; the reader then stands after it.
     [[nodiscard]] bool ended() const { return ended_; }
     [[nodiscard]] Found found() const { return found_; }
 
   private:
-    // Behind the symbols that were read. Stops where the block ends or found_ is not good.
+    // Returns the place after the symbols that were read. Stops where the block ends or found_ is
+    // not good.
     std::uint16_t* read_group(const PrefixCode& code, std::uint16_t* to);
     std::uint16_t* read_last_group(const PrefixCode& code, std::uint16_t* to);
 

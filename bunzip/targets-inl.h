@@ -1,7 +1,7 @@
-// bunzip/targets-inl.h -- which of Highway's targets the kernels are compiled for.
+// bunzip/targets-inl.h -- Highway's targets for which the kernels are compiled.
 //
-// Included before hwy/foreach_target.h. The plain path is C++ outside of the targets, so no lesser
-// ones are needed.
+// Include it before hwy/foreach_target.h. The plain path is C++ outside the targets, so no lesser
+// targets are needed.
 // NOLINTBEGIN(llvm-header-guard)
 #ifndef STORMCELLAR_BUNZIP_TARGETS_INL_H
 #define STORMCELLAR_BUNZIP_TARGETS_INL_H

@@ -1,11 +1,14 @@
-// cache/account.h -- what the cache holds, and what would have to go. Inside the cache room only.
+// cache/account.h -- what the cache holds, and what would have to be evicted. Used only inside the
+// cache room.
 //
-// Pure bookkeeping: it reads no file and asks no clock. Grids are ordered by the time that counts:
-// their own, or, where that is more than 10 minutes in the future, the time at which the file was
-// written, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
-// All grids of others (stormcellar/cache/budget.h) stand before all of known groups. Victims are
-// never pinned, being written or evicted (busy), stuck, or protected. Thread contract: one thread
-// at a time.
+// This is pure bookkeeping: it reads no file and no clock. Grids are ordered by the time that
+// counts. That is their own time, or, if it is more than 10 minutes in the future, the time at
+// which the file was written, so that a radar with a wrong clock cannot fill the cache with grids
+// that never grow old. All grids of others (stormcellar/cache/budget.h) come before all grids of
+// known groups. A grid is never a victim while it is pinned, being written or evicted (busy),
+// stuck, or protected.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -31,17 +34,17 @@ struct GridFacts {
     bool pinned = false;
 };
 
-// Which grids may have to go.
-enum class Reach {
-    others,       // those of groups that are not known
-    unprotected,  // and those of known groups that are not protected
-    all,          // and the protected ones
+// Which grids may have to be evicted.
+enum class Reach {  // grids of groups that are not known
+    others,         // also grids of known groups that are not protected
+    unprotected,    // and those of known groups that are not protected
+    all,            // also the protected grids
 };
 
 // What is protected from one limit.
 struct Protection {
-    std::chrono::milliseconds age{};     // written less than this ago; 0: whatever the age
-    std::optional<std::uint64_t> space;  // half of it at most; none: however much it is
+    std::chrono::milliseconds age{};     // grids written less than this ago; 0: of any age
+    std::optional<std::uint64_t> space;  // at most half of it is protected; none: any amount
 };
 
 class Account {
@@ -50,29 +53,30 @@ class Account {
 
     explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
 
-    // What time it is. Grids whose time has come are believed from now on.
+    // Sets the current time. Grids whose time has come are believed from now on.
     void set_now(UtcTime now);
-    // How large the file system is, for budgets of percent; 0: not known.
+    // Sets the size of the file system, for budgets in percent; 0: not known.
     void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
-    // Who is known is asked when a group's first grid comes, and again here.
+    // Asks again which groups are known. Otherwise this is asked when the first grid of a group
+    // comes.
     void ask_who_is_known();
     void ask_who_is_known(std::string_view group);
     [[nodiscard]] bool is_known(std::string_view group) const;
 
-    // Adds the grid or replaces what is known of it; it is neither busy nor stuck then.
+    // Adds the grid, or replaces what is known about it. It is then neither busy nor stuck.
     void put(const GridName& name, const GridFacts& facts);
     void erase(const GridName& name);
     [[nodiscard]] const GridFacts* find(const GridName& name) const;
     [[nodiscard]] bool is_busy(const GridName& name) const;
     void set_pinned(const GridName& name);
-    void set_busy(const GridName& name);     // no victim until put() or erase()
+    void set_busy(const GridName& name);     // not a victim until put() or erase()
     void set_leaving(const GridName& name);  // busy, and its bytes will soon be free
-    void set_stuck(const GridName& name);    // could not be removed: no victim until put()
-    // The names of one domain and moment within these times.
+    void set_stuck(const GridName& name);    // it could not be removed: not a victim until put()
+    // Returns the names of one domain and moment within these times.
     [[nodiscard]] std::vector<GridName> names(const std::string& domain, level2::Moment moment,
                                               UtcTime from, UtcTime to) const;
 
-    // Bytes beside those of the grids: of files being written or left over.
+    // Counts bytes beside those of the grids: of files being written, or left over.
     void reserve(std::string_view group, std::uint64_t bytes);
     void release(std::string_view group, std::uint64_t bytes);
 
@@ -83,51 +87,53 @@ class Account {
     [[nodiscard]] std::size_t pinned_count() const { return pinned_; }
     [[nodiscard]] std::vector<std::string> groups() const;
 
-    // The newest time of a group that counts; none when it has none.
+    // Returns the newest time of a group that counts; none if it has none.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
-    // Whether a grid of this name is or would be the newest of its domain and moment.
+    // Returns true if a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
-    // Whether a grid of this name, written now, would be one to keep whatever has to go for it: it
-    // is of a known group, and the newest or pinned already.
+    // Returns true if a grid of this name, written now, must be kept whatever has to be evicted for
+    // it: it is in a known group, and is the newest or pinned already.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Whether a grid of this name, written now, is older than the group's age, and not protected
-    // from it.
+    // Returns true if a grid of this name, written now, is older than the age of its group, and not
+    // protected from it.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
-    // As stormcellar/cache/budget.h says it; none: no limit.
+    // Returns the space as stormcellar/cache/budget.h defines it; none: no limit.
     [[nodiscard]] std::optional<std::uint64_t> space_of(const Budget& budget) const;
     [[nodiscard]] std::optional<std::uint64_t> others_limit(const Budgets& budgets) const;
 
-    // Whether so many bytes more fit now.
+    // Returns true if this many bytes more fit now.
     [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
                             const Budgets& budgets) const;
-    // Which grids must go so that `bytes` of this grid fit, oldest first, beside what is leaving
-    // already; none when it cannot be. Only those are taken that stand before it, unless it is to
-    // stay.
+    // Returns the grids that must be evicted so that `bytes` of this grid fit, the oldest first, in
+    // addition to those being evicted already; none if that is impossible. Only grids that come
+    // before this one are taken, unless it is to stay.
     [[nodiscard]] std::optional<std::vector<GridName>> room_for(
         const GridName& name, std::uint64_t bytes, const Budgets& budgets,
         Reach reach = Reach::unprotected) const;
-    // The oldest grids that hold so many bytes on disk: of all where the budget of all limits
-    // space, else of the grid's group. By the same rule, and fewer where there are no more.
+    // Returns the oldest grids that hold this many bytes on disk: of all groups if the budget of
+    // all limits space, else of the grid's group. The same rule applies, and there are fewer if
+    // there are no more.
     [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
                                                const Budgets& budgets) const;
 
-    // At most `most` of the oldest, so that the group (empty: all) holds `bytes` or less.
+    // Returns at most `most` of the oldest grids, so that the group (empty: all) holds `bytes` or
+    // less.
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
                                                 std::size_t most, const Protection& protection = {},
                                                 Reach reach = Reach::unprotected) const;
-    // The same so that the others hold `bytes` or less together.
+    // Returns the same for the others, so that they hold `bytes` or less together.
     [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
-    // Grids of others that were written longer ago than anything is protected.
+    // Returns grids of others that were written longer ago than anything is protected.
     [[nodiscard]] std::vector<GridName> outlived(const Budgets& budgets, std::size_t most) const;
 
   private:
     struct Entry {
         GridFacts facts;
         UtcTime counted;
-        bool known = true;  // as its group
+        bool known = true;  // the same as its group
         bool busy = false, leaving = false, stuck = false;
         [[nodiscard]] bool may_go() const { return !facts.pinned && !busy && !stuck; }
     };
@@ -135,7 +141,7 @@ class Account {
     struct ByAge {
         using is_transparent = void;
         struct Key {
-            bool known;  // false first
+            bool known;  // false sorts first
             UtcTime counted;
             const GridName* name;
         };
@@ -149,7 +155,7 @@ class Account {
                    std::tie(second.known, second.counted, *second.name);
         }
     };
-    using Order = std::set<const Item*, ByAge>;  // those that may go
+    using Order = std::set<const Item*, ByAge>;  // those that may be evicted
     struct Group {
         bool known = true;
         std::map<GridName, Entry> grids;
@@ -160,10 +166,10 @@ class Account {
 
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
     [[nodiscard]] bool believed(UtcTime time) const { return is_believed(time, now_); }
-    // The newest believed; where none is, the newest of all.
+    // Returns the newest believed grid, or the newest of all if none is believed.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;
-    // Calls for the newest of each domain and moment of the group.
+    // Visits the newest of each domain and moment of the group.
     template <class Visit>
     void for_each_newest(const Group& group, Visit visit) const;
     [[nodiscard]] UtcTime counted_if_written_now(const GridName& name) const;
@@ -172,7 +178,8 @@ class Account {
     [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
                                                const Protection& protection) const;
     class Shield;
-    [[nodiscard]] std::uint64_t staying_of_others() const;  // used by others, without what leaves
+    // used by others, without what is being evicted
+    [[nodiscard]] std::uint64_t staying_of_others() const;
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);
     Group& group_to_fill(std::string_view name);

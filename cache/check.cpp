@@ -58,8 +58,8 @@ bool is_stored_form(const BrickEntry& entry, const grid::Quantization& quantizat
            entry.max_code <= quantization.largest_code();
 }
 
-// Two bits a cell: both set would be a value, which such a brick has not. All are looked at, which
-// runs in vectors.
+// Looks for two bits that are both set, which would be a value; such a brick has none. All cells
+// are tested, which the compiler vectorizes.
 bool claims_a_value(std::span<const std::byte> states) {
     constexpr std::byte low_bits{0x55};
     std::byte both{};

@@ -1,7 +1,10 @@
-// cache/description.h -- the description section: names and notes as a list of tagged records.
+// cache/description.h -- the description section of a file: names and notes as a list of tagged
+// records. Used only inside the cache room.
 //
-// Inside the cache room only. Strings are bytes as they came (a file name need not be UTF-8).
-// Records of an unknown kind are skipped, so a later version may add some.
+// Strings are bytes as they came (a file name need not be UTF-8). Records of an unknown kind are
+// skipped, so a later version may add some.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +16,12 @@
 
 namespace stormcellar::cache {
 
-// The parts of a description that are not in the header: sites, provenance and standard parallels.
+// Encodes the parts of a description that are not in the header: sites, provenance and standard
+// parallels.
 [[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
 
-// Fills these. corrupt when a record runs past the end or has an impossible size
-// or, of an audit, impossible numbers.
+// Decodes these parts. Errors: corrupt if a record runs past the end, has an impossible size, or
+// (for an audit) impossible numbers.
 [[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
                                         GridDescription& description);
 

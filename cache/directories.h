@@ -1,7 +1,10 @@
-// cache/directories.h -- what stands in the directories of a cache. Inside the cache room only.
+// cache/directories.h -- reads what the directories of a cache hold. Used only inside the cache
+// room.
 //
-// Symbolic links are not followed; what has not a grid's name at a grid's place is not ours and is
-// left out, as is what vanishes while it is looked at. A directory that is not there holds nothing.
+// Symbolic links are not followed. A file at the place of a grid that has not a grid's name is not
+// ours and is left out, as is a file that vanishes meanwhile. A missing directory holds nothing.
+//
+// Threads   Functions without state, which read directories.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +24,7 @@ namespace stormcellar::cache {
 [[nodiscard]] tl::unexpected<Error> directory_failure(const std::filesystem::path& path,
                                                       const std::error_code& error);
 
-// Sorted.
+// Returns the domains, sorted.
 [[nodiscard]] Result<std::vector<std::string>> domains_in(const std::filesystem::path& cache);
 [[nodiscard]] Result<std::vector<level2::Moment>> moments_in(const std::filesystem::path& domain);
 [[nodiscard]] Result<std::vector<std::string>> days_in(const std::filesystem::path& moment);
@@ -43,7 +46,7 @@ struct FoundGrid {
     UtcTime written;  // when the file was last changed
     bool pinned = false;
 };
-// None when no regular file stands there.
+// Returns none if there is no regular file.
 [[nodiscard]] std::optional<FoundGrid> look_at_grid(const std::filesystem::path& path,
                                                     UtcTime time);
 
@@ -59,8 +62,8 @@ struct DayContents {
                                            UtcTime from = UtcTime{},
                                            UtcTime to = last_possible_time);
 
-// Removes every file whose name says that it is being written: what a killed writer left. Only for
-// who knows that nobody writes.
+// Removes every file whose name says that it is being written: the leftovers of killed writers.
+// Call it only if nobody is writing.
 [[nodiscard]] Status sweep_temporaries(FileSystem& file_system, const std::filesystem::path& cache);
 
 }  // namespace stormcellar::cache

@@ -1,8 +1,9 @@
-// cache/evict.h -- evicting by hand, beside a daemon that writes and evicts too.
+// cache/evict.h -- evicts grids on request, beside a daemon that writes and evicts as well.
 //
-// The choice is a list, so it can be shown before anything is done. Pinned grids are never taken,
-// and a grid that is pinned after it was chosen is left where it is.
-// Thread contract: any thread, any process.
+// The choice is a list, so it can be shown before anything is done. Pinned grids are never evicted;
+// a grid that is pinned after it was chosen is kept.
+//
+// Threads   Any thread, any process.
 #pragma once
 
 #include <chrono>
@@ -18,13 +19,15 @@
 namespace stormcellar::cache {
 
 struct EvictionOrder {
-    std::string domain;  // a domain with its parts, or one part; empty: all
-    // A grid goes when any of these asks for it. By time the newest go too; bytes and older_than
-    // keep the newest of each domain that is_known_group() knows (stormcellar/cache/budget.h),
-    // whatever its age and however much they hold. By bytes the grids of others go first.
-    std::optional<UtcTime> to;           // up to this time, itself included
-    std::optional<std::uint64_t> bytes;  // the oldest, until the rest takes no more than this
-    std::optional<std::chrono::milliseconds> older_than;  // before the newest of the same domain
+    std::string domain;  // a domain with its parts, or a single part; empty: all
+    // A grid is evicted if any of these selects it. `to` also selects the newest grids. `bytes` and
+    // `older_than` keep the newest grid of each domain that is_known_group() knows
+    // (stormcellar/cache/budget.h), however old or large it is. `bytes` selects grids of others
+    // first.
+    std::optional<UtcTime> to;           // up to and including this time
+    std::optional<std::uint64_t> bytes;  // the oldest ones, until the rest takes no more than this
+    // this much older than the newest of the same domain
+    std::optional<std::chrono::milliseconds> older_than;
 };
 
 struct EvictionPlan {
@@ -40,8 +43,8 @@ struct EvictionReport {
     std::vector<StoreEntry> evicted;
     std::vector<std::string> problems;  // what could not be removed, one line each
 };
-// Each grid that is reported as evicted stays away after a power cut, unless a problem says that
-// its directory could not be synced.
+// A grid that is reported as evicted stays away after a power cut, unless a problem says that its
+// directory could not be synced.
 [[nodiscard]] EvictionReport evict(FileSystem& file_system, const std::vector<StoreEntry>& victims);
 
 }  // namespace stormcellar::cache

@@ -60,7 +60,7 @@ Result<Descriptor> open_for_reading(const std::filesystem::path& path) {
 }
 
 Map::~Map() {
-    registration_.release();  // before the addresses may become another's
+    registration_.release();  // first, because the addresses may then be used by another map
     if (start_ != nullptr) ::munmap(const_cast<std::byte*>(start_), size_);
 }
 

@@ -1,7 +1,7 @@
 // cache/format.h -- the bytes of a grid file, as docs/cache-format.md specifies them.
 //
-// Little-endian, on machines that are so too: what is on disk is what is in memory, and a brick of
-// a mapped file is used as it stands. Every offset that the document names is asserted here.
+// All is little-endian, and so are the machines, so that a brick of a mapped file can be used
+// without conversion. Every offset in the document is asserted here.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ namespace stormcellar::cache::format {
 
 static_assert(std::endian::native == std::endian::little, "grid files are mapped as they stand");
 
-// Not text, not 7-bit clean, and changed by anything that converts line ends.
+// Not text, not 7-bit clean, and damaged by any conversion of line ends.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 inline constexpr std::uint32_t version = 1;
 inline constexpr std::uint64_t page_size = 4096;
 
-// Bounds on what a file may ask of its reader's memory.
+// Limits of the memory that a file may require from its reader.
 inline constexpr std::uint64_t max_description_bytes = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t max_bricks = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t max_metadata_bytes = std::uint64_t{1} << 29;
@@ -30,7 +30,7 @@ inline constexpr std::uint64_t status_block_bytes = 1024;
 
 // Bits of required_features.
 inline constexpr std::uint32_t feature_window = 1;  // the offsets are not both 0
-// Bricks of codes are packed one by one and follow each other without holes.
+// Bricks of codes are packed one by one and follow each other without gaps.
 inline constexpr std::uint32_t packed_codes = 2;
 inline constexpr std::uint32_t known_features = feature_window | packed_codes;
 
@@ -42,7 +42,7 @@ struct FileHeader {
     std::uint32_t required_features = 0;  // bits that a reader must know
     std::uint32_t header_size = 0;        // 4096
     std::uint64_t file_size = 0;
-    std::uint64_t checksum = 0;  // XXH3 of all bytes before the codes, this field as zero
+    std::uint64_t checksum = 0;  // XXH3 of all bytes before the codes, with this field as zero
     std::uint64_t levels_offset = 0;
     std::uint64_t description_offset = 0;
     std::uint64_t description_size = 0;
@@ -55,7 +55,7 @@ struct FileHeader {
     std::uint32_t nx = 0, ny = 0, nz = 0;
     double center_latitude_deg = 0;
     double center_longitude_deg = 0;
-    double spacing = 0;  // metres; degrees for latitude_longitude
+    double spacing = 0;  // meters; degrees for latitude_longitude
     std::uint32_t moment = 0;
     std::uint32_t code_bytes = 0;
     float first_value = 0;
@@ -65,7 +65,7 @@ struct FileHeader {
     std::int64_t time_ms = 0;  // since 1970-01-01T00:00Z
     std::int64_t start_time_ms = 0;
     std::int64_t end_time_ms = 0;
-    double offset_x_cells = 0;  // of a window of a larger grid
+    double offset_x_cells = 0;  // for a window of a larger grid
     double offset_y_cells = 0;
 };
 static_assert(std::is_trivially_copyable_v<FileHeader>);
@@ -106,7 +106,7 @@ static_assert(offsetof(FileHeader, end_time_ms) == 192);
 static_assert(offsetof(FileHeader, offset_x_cells) == 200);
 static_assert(offsetof(FileHeader, offset_y_cells) == 208);
 
-// An entry of the brick table stands on disk as it stands in memory.
+// An entry of the brick table is the same on disk and in memory.
 using grid::BrickEntry;
 static_assert(std::is_trivially_copyable_v<BrickEntry> && sizeof(BrickEntry) == 24);
 static_assert(offsetof(BrickEntry, kind) == 0);
@@ -130,8 +130,9 @@ static_assert(static_cast<int>(grid::Projection::lambert_conformal) == 2);
 static_assert(static_cast<int>(level2::Moment::ref) == 0);
 static_assert(static_cast<int>(level2::Moment::cfp) == 6);
 
-// Where the sections lie: one after the other with nothing between but padding, so that the sizes
-// say all and a file has no other layout than this. Arguments within the bounds cannot overflow.
+// The places of the sections. They follow each other with nothing but padding between them, so the
+// sizes determine them, and a file has no other layout. Arguments within the limits cannot
+// overflow.
 struct Layout {
     std::uint64_t levels_offset = page_size;
     std::uint64_t description_offset = 0;
@@ -156,7 +157,7 @@ struct Layout {
     at.file_size = at.codes_offset + at.codes_size;
     return at;
 }
-// The same where the codes are packed, into so many bytes.
+// The same if the codes are packed into `codes_size` bytes.
 [[nodiscard]] constexpr Layout packed_layout(Layout at, std::uint64_t codes_size) {
     at.codes_size = codes_size;
     at.file_size = at.codes_offset + codes_size;

@@ -1,8 +1,8 @@
-// Opening a grid file: nothing in it is used before it was checked.
+// Opens a grid file: nothing in it is used before it is checked.
 //
-// All that steers the reader (header, table, states, names) is read into memory of our own and
-// checked there, so that another program that alters or cuts the file later cannot lead us astray.
-// Only codes that are not packed stay on disk and are mapped.
+// Everything that controls the reader (header, table, states, names) is read into our own memory
+// and checked there, so that another program that alters or cuts the file later cannot mislead us.
+// Only unpacked codes stay on disk and are mapped.
 #include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ namespace {
 using format::FileHeader;
 using grid::BrickEntry;
 
-// The fields that say how to read the others. Beyond here sizes can be computed without overflow.
+// Checks the fields that say how to read the others. After this, sizes can be computed without
+// overflow.
 Status check_identity(const FileHeader& header) {
     if (header.magic != format::magic) {
         return fail(ErrorCode::corrupt, "is not a stormcellar grid file");
@@ -62,7 +63,7 @@ bool is_packed(const FileHeader& header) {
     return (header.required_features & format::packed_codes) != 0;
 }
 
-// Every offset must be the one that the sizes give: there is no other layout.
+// Every offset must be the one that follows from the sizes: there is no other layout.
 Result<format::Layout> checked_layout(const FileHeader& header) {
     const auto along = [](std::uint32_t cells) {
         return static_cast<std::uint32_t>(grid::bricks_along(static_cast<int>(cells)));
@@ -74,7 +75,7 @@ Result<format::Layout> checked_layout(const FileHeader& header) {
     }
     format::Layout at = format::layout_of(header.nz, header.description_size, bricks,
                                           header.states_size, header.code_bytes);
-    // Packed codes are never longer; how long they are, the table must say, too.
+    // Packed codes are never longer than unpacked ones; the table must give the same length.
     if (is_packed(header) && header.codes_size <= at.codes_size) {
         at = format::packed_layout(at, header.codes_size);
     }
@@ -163,7 +164,7 @@ grid::BrickView view_of(const Metadata& metadata) {
     view.bricks_x = static_cast<int>(header.bricks_x);
     view.bricks_y = static_cast<int>(header.bricks_y);
     view.bricks_z = static_cast<int>(header.bricks_z);
-    // The table's place is a multiple of 8 in memory that operator new gave.
+    // The table's offset is a multiple of 8 in memory from operator new.
     view.bricks = {reinterpret_cast<const BrickEntry*>(metadata.bytes.data() + at.table_offset),
                    (at.states_offset - at.table_offset) / sizeof(BrickEntry)};
     view.states =
@@ -171,14 +172,14 @@ grid::BrickView view_of(const Metadata& metadata) {
     return view;
 }
 
-// The codes as a view shows them, and what holds them.
+// The codes as a view shows them, and the owner of their memory.
 struct Codes {
     std::optional<Map> map;
     SparseMemory unpacked;
     std::span<const std::byte> view;
 };
 
-// Each stored brick in its place, with the checksum that its entry has.
+// Unpacks each stored brick into its place and compares it with the checksum of its entry.
 Status unpack_all(std::span<const std::byte> packed, const grid::BrickView& view,
                   std::span<std::byte> places) {
     const std::size_t brick_bytes =

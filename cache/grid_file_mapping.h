@@ -1,4 +1,4 @@
-// cache/grid_file_mapping.h -- what an open grid file holds. Inside the cache room only.
+// cache/grid_file_mapping.h -- what an open grid file holds. Used only inside the cache room.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,8 @@ struct GridFile::Mapping {
     [[nodiscard]] Status check_unchanged_size() const;
     [[nodiscard]] Status check_metadata() const;
     [[nodiscard]] Status check_stored_bricks() const;
-    // The codes of a stored brick, or an error; `offset` is where they stand, and then the next.
+    // Reads the codes of a stored brick, or returns an error. `offset` is their place, and then
+    // that of the next.
     [[nodiscard]] Status read_brick(std::size_t brick, std::uint64_t& offset,
                                     std::span<std::byte> codes) const;
     [[nodiscard]] Status check_holes() const;

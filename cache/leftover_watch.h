@@ -1,9 +1,10 @@
-// cache/leftover_watch.h -- knows whether a file that could not be written was left behind. Inside
-// the cache room only.
+// cache/leftover_watch.h -- knows whether a file that could not be written was left behind. Used
+// only inside the cache room.
 //
-// AtomicFile removes its temporary file when it fails; where the file system refuses even that, the
-// file stays and takes space, and someone must count it.
-// Thread contract: one thread, for one file.
+// AtomicFile removes its temporary file when it fails. If the file system refuses even that, the
+// file stays and takes space, which must be counted.
+//
+// Threads   One thread, for one file.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +34,7 @@ class LeftoverWatch final : public FileSystem {
     }
     Status remove(const std::filesystem::path& path) override;
 
-    // What was made and neither renamed nor removed.
+    // Returns a file that was made and neither renamed nor removed.
     [[nodiscard]] const std::optional<std::filesystem::path>& leftover() const { return made_; }
 
   private:

@@ -13,10 +13,10 @@
 namespace stormcellar::cache {
 namespace {
 
-// What SIGBUS did before; written once, before the handler can run.
+// The action of SIGBUS before; written once, before the handler can run.
 struct sigaction former_action = {};
 
-// Zeros in the place of a map that is in one of ours, for good.
+// Replaces a map of ours by zeros, for good.
 bool take_fault(void* address) {
     const auto place = reinterpret_cast<std::uintptr_t>(address);
     const auto range = cut_map_at(place);
@@ -26,7 +26,7 @@ bool take_fault(void* address) {
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED | MAP_NORESERVE, -1, 0) != MAP_FAILED;
 }
 
-// The fault happens again, or the signal is sent again, and does what it does without any handler.
+// The fault happens again, or the signal is sent again, and has its effect without any handler.
 void end_by_signal(int signal, bool sent) {
     struct sigaction standard = {};
     standard.sa_handler = SIG_DFL;
@@ -48,7 +48,7 @@ void pass_to_former(int signal, siginfo_t* info, void* context, bool sent) {
 
 void on_bus_error(int signal, siginfo_t* info, void* context) {
     const int error_number = errno;
-    const bool sent = info->si_code <= 0;  // by kill(): there is no address then
+    const bool sent = info->si_code <= 0;  // sent by kill(), so there is no address
     if (sent || !take_fault(info->si_addr)) pass_to_former(signal, info, context, sent);
     errno = error_number;
 }

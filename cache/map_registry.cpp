@@ -7,13 +7,14 @@ namespace {
 
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free);
 
-// Blocks of places, each linked to the next when it is full. The first needs no memory.
+// A block of places, which links to the next block when it is full. The first block needs no
+// memory.
 struct Block {
     std::array<MapPlace, 256> places;
     std::atomic<Block*> next{nullptr};
 };
 
-// Never destroyed: a handler may run while the program ends.
+// It is never destroyed, because a handler may run while the program ends.
 Block& first_block() {
     static constinit Block block;
     return block;
@@ -59,8 +60,8 @@ void MapRegistration::release() {
     place_ = nullptr;
 }
 
-// The map that is being read is in its place and stays there, so a place that changes under our
-// eyes is another one's.
+// The map that is being read stays in its place meanwhile, so a place that changes belongs to
+// another map.
 std::optional<MapRange> cut_map_at(std::uintptr_t address) {
     for (Block* block = &first_block(); block != nullptr; block = block->next.load()) {
         for (MapPlace& place : block->places) {

@@ -1,7 +1,8 @@
-// cache/map_registry.h -- which addresses are maps of ours, readable in a signal handler.
+// cache/map_registry.h -- which addresses belong to our maps, readable in a signal handler. Used
+// only inside the cache room.
 //
-// Inside the cache room only. Thread contract: all functions may be called from many threads at
-// once; cut_map_at() also in a signal handler: it takes no lock and no memory.
+// Threads   Many threads may call all functions at once. cut_map_at() may also be called in a
+//           signal handler: it takes no lock and no memory.
 #pragma once
 
 #include <atomic>
@@ -12,8 +13,8 @@
 
 namespace stormcellar::cache {
 
-// One place of the registry. Places are used again and never given back, so that a handler may
-// walk them at any time.
+// One place of the registry. Places are reused and never freed, so that a handler may walk through
+// them at any time.
 struct MapPlace {
     std::atomic<bool> taken{false};
     std::atomic<std::uint32_t> changes{0};  // odd while begin and end do not belong together
@@ -21,10 +22,10 @@ struct MapPlace {
     std::atomic<bool> cut{false};
 };
 
-// Keeps a map in the registry while it lives. The map must outlive it.
+// Keeps a map in the registry as long as this object lives. The map must outlive it.
 class MapRegistration {
   public:
-    MapRegistration() = default;  // of no map
+    MapRegistration() = default;  // without a map
     MapRegistration(const void* start, std::size_t size);
     MapRegistration(MapRegistration&& other) noexcept
         : place_(std::exchange(other.place_, nullptr)) {}
@@ -34,7 +35,7 @@ class MapRegistration {
     ~MapRegistration() { release(); }
 
     void release();
-    // Whether a read inside the map has failed since it was registered.
+    // Returns true if a read inside the map has failed since it was registered.
     [[nodiscard]] bool was_cut() const { return place_ != nullptr && place_->cut.load(); }
 
   private:
@@ -44,7 +45,7 @@ class MapRegistration {
 struct MapRange {
     std::uintptr_t begin = 0, end = 0;
 };
-// The registered map that holds the address, marked as cut; none when no map does.
+// Returns the registered map that holds the address, marked as cut; none if no map does.
 [[nodiscard]] std::optional<MapRange> cut_map_at(std::uintptr_t address);
 
 }  // namespace stormcellar::cache

@@ -12,7 +12,7 @@ std::vector<std::byte> pack_brick(std::span<const std::byte> codes) {
     const int size = LZ4_compress_default(
         reinterpret_cast<const char*>(codes.data()), reinterpret_cast<char*>(packed.data()),
         static_cast<int>(codes.size()), static_cast<int>(packed.size()) - 1);
-    if (size <= 0) return {codes.begin(), codes.end()};  // it does not fit: no shorter
+    if (size <= 0) return {codes.begin(), codes.end()};  // the packed form would not be shorter
     packed.resize(static_cast<std::size_t>(size));
     return packed;
 }

@@ -1,6 +1,7 @@
-// cache/packing.h -- bricks of codes packed with LZ4, and the memory that they are unpacked into.
+// cache/packing.h -- packs bricks of codes with LZ4, and the memory for unpacking them. Used only
+// inside the cache room.
 //
-// Inside the cache room only. Thread contract: functions without state.
+// Threads   Functions without state.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +14,18 @@
 
 namespace stormcellar::cache {
 
-// The codes of one brick, packed; as they are where that is no shorter, and so never longer.
+// Returns the codes of one brick, packed; unchanged if that would not be shorter, so it is never
+// longer.
 [[nodiscard]] std::vector<std::byte> pack_brick(std::span<const std::byte> codes);
 
-// Fills all of `codes`. corrupt when `packed` does not give exactly that.
+// Fills all of `codes`. Returns corrupt if `packed` does not give exactly that many.
 [[nodiscard]] Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> codes);
 
-// Zeros in memory that is had from the system only where it is written, as the places of absent
+// Memory of zeros that the system only provides where it is written, which the places of absent
 // bricks are not.
 class SparseMemory {
   public:
-    SparseMemory() = default;  // nothing
+    SparseMemory() = default;  // empty
     static Result<SparseMemory> of(std::uint64_t size);
     SparseMemory(SparseMemory&& other) noexcept
         : start_(std::exchange(other.start_, nullptr)), size_(std::exchange(other.size_, 0)) {}

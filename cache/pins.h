@@ -1,10 +1,13 @@
-// cache/pins.h -- grids that must stay, and taking others away.
+// cache/pins.h -- pins grids that must stay, and evicts others.
 //
 // A pin is an empty file beside the grid, X.scg.pin, so any process may set one and it outlives
 // them all. It belongs to the name: a grid that is replaced stays pinned. Pinning and evicting hold
-// the lock of the day's directory (flock, given back by the system when its holder dies), so that a
-// grid whose pin was set is never taken: a pin either comes in time or its setter learns that the
-// grid is gone. Thread contract: any thread, any process. Errors name the path.
+// the lock of the day's directory (flock, which the system releases when its holder dies). So a
+// grid whose pin was set is never evicted: a pin either comes in time, or its setter learns that
+// the grid is gone.
+//
+// Threads   Any thread of any process.
+// Errors    Messages name the path.
 #pragma once
 
 #include <filesystem>
@@ -18,16 +21,17 @@ namespace stormcellar::cache {
 inline constexpr std::string_view pin_extension = ".pin";
 [[nodiscard]] bool is_pinned(const std::filesystem::path& grid);
 
-// not_found when no grid stands there. On success the pin survives a power cut. To pin a pinned
-// grid is no error.
+// Pins a grid. Errors: not_found if there is no grid. On success the pin survives a power cut.
+// Pinning a pinned grid is not an error.
+// Removes a pin, and returns true if there was one. The grid need not exist.
 [[nodiscard]] Status pin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 // Whether there was a pin; the grid need not be there.
 [[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 
 enum class Evicted { gone, pinned, missing };
-// Unlinks the file of a grid that is not pinned. A reader that has it open keeps its bytes, and
-// the space is given back when the last of them closes it. The name may come back after a power cut
-// until the directory is synced.
+// Unlinks the file of a grid that is not pinned. A reader that has it open keeps its bytes; the
+// space is freed when the last reader closes it. The name may come back after a power cut until the
+// directory is synced.
 [[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
                                          const std::filesystem::path& grid);
 

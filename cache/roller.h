@@ -1,13 +1,14 @@
-// cache/roller.h -- keeps a cache within its budgets while it is written to. Inside the cache room
-// only; stormcellar/cache/store.h is the door.
+// cache/roller.h -- keeps a cache within its budgets while it is written. Used only inside the
+// cache room; stormcellar/cache/store.h is the public header.
 //
-// Holds the account of what stands in the cache, made from the names at the start and corrected
-// from them at each roll(): files that others removed, added or pinned are noticed there.
-// A commit reserves what its file may take at most before the first byte is written, and where that
-// does not fit, evicts first; the unlinked names are synced away before their room is used again.
-// Files are removed one by one and each removal is whole, so a crash leaves grids or none.
-// Thread contract: any thread. No lock is held while files are removed or written, and who waits
-// for another's commit or eviction holds nothing.
+// It holds the account of the grids in the cache. The account is made from the names at the start
+// and corrected from them at each roll(), which notices files that others removed, added or pinned.
+// A commit reserves the largest size that its file may take before the first byte is written, and
+// if that does not fit, evicts first. The removed names are synced before their room is used again.
+// Files are removed one by one, each in one step, so a crash leaves a grid whole or not at all.
+//
+// Threads   Any thread. No lock is held while files are removed or written, and a thread that waits
+//           for another's commit or eviction holds nothing.
 #pragma once
 
 #include <condition_variable>
@@ -34,8 +35,8 @@ namespace stormcellar::cache {
 
 class Roller;
 
-// Room for one file that is being written. When it goes, the account takes what then stands at the
-// grid's place, new, old or nothing.
+// Room for one file that is being written. The destructor enters into the account the grid that
+// then exists at the path: new, old or none.
 class Reservation {
   public:
     Reservation(Roller& roller, GridName name, std::uint64_t bytes)
@@ -57,23 +58,23 @@ class Reservation {
 
 class Roller {
   public:
-    // Sweeps what a killed writer left and brings the cache within its budgets. busy when another
-    // process has opened it so.
+    // Removes what a killed writer left and brings the cache within its budgets. Errors: that
+    // another process has opened it for rolling.
     static Result<std::unique_ptr<Roller>> open(FileSystem& file_system,
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);
 
-    // None: the budgets would not keep the grid, so it need not be written. over_budget: it is
-    // the newest of a known domain or pinned, and what stands cannot go or is not enough. One
-    // commit of a name at a time: the others wait.
+    // Reserves room for a grid. None: the budgets would not keep it, so it need not be written.
+    // Commits of the same name wait for each other. Errors: over_budget if it is pinned or the
+    // newest of a known domain, and the grids that may be evicted are not enough.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
-    // A full disk refused this grid: evicts the oldest grids that hold so many bytes. False when
-    // the budgets do not provide for that or nothing may go.
+    // A full disk refused this grid: evicts the oldest grids that hold this many bytes. Returns
+    // false if the budgets do not provide for that or nothing may be evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
-    // Whether a grid is left out where the disk is full: it is of others, and nobody is to wait for
-    // room for those. Counted as not kept.
+    // Returns true if the grid is left out because the disk is full: it is of others, for which
+    // nobody should wait. It counts as not kept.
     bool leaves_out(const GridName& name);
-    // A temporary file that could not be removed: counted, and removed at a later roll.
+    // Counts a temporary file that could not be removed; a later roll removes it.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
 
     using OnStep = std::function<void()>;
@@ -121,7 +122,7 @@ class Roller {
 
     std::mutex rolling_;        // one roll at a time
     int rolls_ = 0;             // guarded by rolling_
-    mutable std::mutex mutex_;  // all below
+    mutable std::mutex mutex_;  // guards all members below
     std::condition_variable changed_;
     Budgets budgets_;
     Account account_;

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// So many files are removed before others may look at the account again. Oldest first goes through
-// the directories of all domains in turn, and each is synced once a batch: at 64 a batch nearly
-// every file cost a sync.
+// This many files are removed before other threads may use the account again. The oldest first goes
+// through the directories of all domains in turn, and each directory is synced once for each batch;
+// with 64 in a batch, nearly every file cost a sync.
 constexpr std::size_t batch = 2048;
-// Every directory is read again after so many rolls, even one that seems unchanged.
+// Every directory is read again after this many rolls, even if it seems unchanged.
 constexpr int rolls_between_full_readings = 60;
-// A directory that changed just now may change again without its time showing it.
+// A directory that changed this recently may change again without a change of its time.
 constexpr std::int64_t settling_ns = 2'000'000'000;
 
 std::int64_t nanoseconds_now() {
@@ -32,7 +32,7 @@ struct Span {
 };
 std::optional<Span> span_of(const Day& day) {
     const auto from = parse_compact(day.day + "_000000");
-    if (!from) return std::nullopt;  // eight digits that are no date: nothing of ours is in it
+    if (!from) return std::nullopt;  // eight digits that are not a date: nothing in it is ours
     return Span{*from, *from + std::chrono::days{1} - std::chrono::milliseconds{1}};
 }
 
@@ -62,7 +62,7 @@ Status Roller::reread(bool all, const OnStep& step) {
     return {};
 }
 
-// Under the lock, so that no grid of ours comes or goes between the reading and the account.
+// It holds the lock, so that no grid of ours comes or goes between the reading and the account.
 Status Roller::reread_day(const Day& day, bool even_unchanged) {
     const Lock lock(mutex_);
     struct stat facts {};
@@ -79,7 +79,7 @@ Status Roller::reread_day(const Day& day, bool even_unchanged) {
     return {};
 }
 
-// What is being written or evicted is left to who does it.
+// Grids that are being written or evicted are left to whoever does it.
 void Roller::adopt(const Day& day, const DayContents& contents) {
     account_.set_now(surroundings_.now());
     if (const auto span = span_of(day)) {
@@ -125,7 +125,8 @@ void Roller::remove_leftovers() {
     });
 }
 
-// What others hold beyond their share, and what of them nothing has replaced for long.
+// Evicts what others hold beyond their share, and grids of others that nothing has replaced for
+// long.
 void Roller::limit_others(Lock& lock, const OnStep& step) {
     const auto evict_each = [&](auto choose) {
         evict_all(lock, [&] {
@@ -139,8 +140,8 @@ void Roller::limit_others(Lock& lock, const OnStep& step) {
     evict_each([&] { return account_.others_down_to(budgets_.low_mark(*limit), batch); });
 }
 
-// One budget: of a group, or of all when the name is empty. `filling` is what it would be if all
-// that was evicted since it was read is free by now.
+// Enforces one budget: of a group, or of all if the name is empty. `filling` is what the file
+// system would hold if everything that was evicted since it was read were free by now.
 void Roller::keep_budget(Lock& lock, const std::string& group,
                          const std::optional<Filling>& filling, RollReport& report,
                          const OnStep& step) {
@@ -172,7 +173,7 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
                 return account_.down_to(group, *target, batch, protection, reach);
             });
         };
-        // Where others' grids are all that is over, no known history goes.
+        // If only grids of others exceed the budget, no grid of a known group is evicted.
         bring_down(Reach::others);
         if (reached || held() > *limit) bring_down(Reach::unprotected);
     }

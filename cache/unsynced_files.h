@@ -1,6 +1,7 @@
-// cache/unsynced_files.h -- a file system that does not wait for the disk.
+// cache/unsynced_files.h -- a file system that does not wait for the disk. Used only inside the
+// cache room.
 //
-// Inside the cache room only. Thread contract: that of the file system behind it.
+// Threads   Those of the file system behind it.
 #pragma once
 
 #include <cstddef>

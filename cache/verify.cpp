@@ -1,7 +1,6 @@
-// Checking a grid file that is open: is it still what it was when it was written?
-//
-// Reads through the descriptor, never through the map: a file that was cut meanwhile is then an
-// error and not a signal.
+// Checks whether an open grid file is still what it was when it was written. It reads through the
+// descriptor and never through the map, so a file that was cut meanwhile is an error and not a
+// signal.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -37,8 +36,8 @@ Status GridFile::verify() const {
     return {};
 }
 
-// A file that was cut and has its old size again has been changed all the same, and what the map
-// showed since then are zeros.
+// A file that was cut and has its old size again has changed all the same, and the map has shown
+// zeros since then.
 Status GridFile::Mapping::check_map() const {
     if (Status same = check_unchanged_size(); !same) return same;
     if (!map || !map->was_cut()) return {};
@@ -51,8 +50,8 @@ Status GridFile::Mapping::check_unchanged_size() const {
     return check_size(static_cast<std::uint64_t>(facts->st_size), at.file_size);
 }
 
-// The metadata on disk may have changed since it was read: that is damage too, though it cannot
-// lead this reader astray any more.
+// The metadata on disk may have changed since they were read. That is damage too, though it cannot
+// mislead this reader any more.
 Status GridFile::Mapping::check_metadata() const {
     std::vector<std::byte> bytes(metadata.size());
     if (Status read = read_at(file, 0, bytes); !read) return read;
@@ -86,7 +85,7 @@ Status GridFile::Mapping::read_brick(std::size_t brick, std::uint64_t& offset,
 
 Status GridFile::Mapping::check_stored_bricks() const {
     std::vector<std::byte> codes(brick_bytes());
-    std::uint64_t offset = at.codes_offset;  // of packed ones, which follow each other
+    std::uint64_t offset = at.codes_offset;  // of packed codes, which follow each other
     std::uint64_t stored = 0;
     std::uint64_t damaged = 0;
     std::optional<std::size_t> first;
@@ -131,7 +130,8 @@ Status GridFile::Mapping::check_holes() const {
 Status GridFile::Mapping::check_zeros(std::uint64_t begin, std::uint64_t end) const {
     std::array<std::byte, format::page_size> page{};
     while (begin < end) {
-        // Holes are skipped without being read; where the file system cannot tell, all is data.
+        // Holes are skipped without being read. If the file system cannot tell holes, everything is
+        // data.
         const off_t data = ::lseek(file.number(), static_cast<off_t>(begin), SEEK_DATA);
         if (data < 0 && errno == ENXIO) return {};
         if (data >= 0 && static_cast<std::uint64_t>(data) >= end) return {};

@@ -1,4 +1,7 @@
-// catalog/database_uri.h -- a path as SQLite's own URI form. Inside the catalog room only.
+// catalog/database_uri.h -- writes a path in SQLite's own URI form. Used only inside the catalog
+// room.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +10,7 @@
 
 namespace stormcellar::catalog {
 
-// So that no character of the path has a meaning; `query` is "" or begins with '?'.
+// Escapes the path, so that no character of it has a meaning. `query` is "" or begins with '?'.
 [[nodiscard]] std::string uri_of(const std::filesystem::path& path, std::string_view query);
 
 }  // namespace stormcellar::catalog

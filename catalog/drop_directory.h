@@ -1,8 +1,9 @@
-// catalog/drop_directory.h -- the directory that raw files are dropped into, as a writer of the
-// catalog wrote it down for its readers.
+// catalog/drop_directory.h -- records the directory into which raw files are dropped, for readers
+// of the catalog. Used only inside the catalog room.
 //
-// CATALOG/drop-directory holds the path, which is absolute, and a newline. It appears whole.
-// Inside the catalog room only. Thread contract: functions without state.
+// CATALOG/drop-directory holds the absolute path and a newline. The file appears whole.
+//
+// Threads   Functions without state.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +12,10 @@
 
 namespace stormcellar::catalog {
 
-// Writes it where it says something else. Errors: those of stormcellar/base/file_system.h.
+// Writes the file if it holds something else. Errors: those of stormcellar/base/file_system.h.
 [[nodiscard]] Status write_drop_directory(const std::filesystem::path& catalog,
                                           const std::filesystem::path& drop);
-// not_found where nobody wrote it down; corrupt where it is no absolute path.
+// Errors: not_found if nobody has recorded it; corrupt if it is not an absolute path.
 [[nodiscard]] Result<std::filesystem::path> read_drop_directory(
     const std::filesystem::path& catalog);
 

@@ -1,17 +1,19 @@
-// catalog/open_databases.h -- the databases of a catalog that are open: a bounded set, of which the
-// least recently used is closed first.
+// catalog/open_databases.h -- the open databases of a catalog: a bounded set, of which the least
+// recently used one is closed first. Used only inside the catalog room.
 //
-// An open database takes three descriptors (itself, its WAL and the WAL's index). Whoever works on
-// one holds a lease and its slot's mutex; only a database that nobody has leased is closed to make
-// room, so none is ever closed under somebody's hands. Where all are leased, the bound is exceeded
-// by as many as threads work at once.
-// What a slot remembers of a closed database costs some 200 bytes; a slot that remembers nothing is
-// dropped with its last lease, so that asking for names leaves nothing behind.
-// Cost: a lease takes 0.1 microseconds. To close a database that was written to is a checkpoint of
-// its WAL, which is synced: 0.4 ms; to open it again takes 0.5 ms (medians of 200, 2026-11-25, a
-// shared cloud machine of two cores; tests/catalog/open_databases_test.cpp prints them).
-// Inside the catalog room only. Thread contract: any thread; what a slot holds is guarded by its
-// mutex.
+// An open database takes three descriptors (itself, its WAL and the WAL's index). Whoever uses a
+// database holds a lease and its slot's mutex. Only a database without a lease is closed to make
+// room, so none is closed while it is in use. If all are leased, the bound is exceeded by as many
+// as threads work at once.
+//
+// What a slot remembers about a closed database takes some 200 bytes. A slot that remembers nothing
+// is dropped with its last lease, so that asking for names leaves nothing behind.
+//
+// Cost      A lease takes 0.1 microseconds. Closing a database that was written makes a checkpoint
+//           of its WAL, which is synced: 0.4 ms. Opening it again takes 0.5 ms (medians of 200,
+//           2026-11-25, a shared cloud machine of two cores; tests/catalog/open_databases_test.cpp
+//           prints them).
+// Threads   Any thread; a slot's mutex guards what the slot holds.
 #pragma once
 
 #include <atomic>
@@ -31,7 +33,7 @@
 
 namespace stormcellar::catalog {
 
-// Tells whether a path still names the file that it named.
+// Tells whether a path still names the same file.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;
@@ -40,19 +42,19 @@ struct FileIdentity {
     static FileIdentity of(const std::filesystem::path& path);
 };
 
-// Whether a database has a row of a path whose guessed_home() is another.
+// Whether a database has a row of a path whose guessed_home() is another database.
 enum class Strays : std::uint8_t {
     unknown,
     none,
     some,
-    too_many_rows,  // to look through them while a file waits; mark_missing() does
+    too_many_rows,  // too many to search while a file waits; mark_missing() does it
 };
 
 // The place of one database.
 struct Slot {
     std::mutex mutex;  // guards what follows
     std::unique_ptr<StationDatabase> database;
-    FileIdentity file;                             // that was opened last; none: not yet
+    FileIdentity file;                             // the file that was opened last; none: not yet
     std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
 
   private:
@@ -68,7 +70,7 @@ class OpenDatabases {
   public:
     explicit OpenDatabases(std::size_t most_open) : most_open_(most_open) {}
 
-    // A slot that stays, and whose database stays open if it is, as long as this object lives.
+    // Keeps a slot, and its database open if it is, as long as this object lives.
     class Lease {
       public:
         Lease(OpenDatabases& all, Slot& slot) : all_(all), slot_(slot) {}
@@ -82,15 +84,16 @@ class OpenDatabases {
         OpenDatabases& all_;
         Slot& slot_;
     };
-    // The most recently used one from now on.
+    // Makes the slot the most recently used one.
     [[nodiscard]] Lease lease(const std::string& name);
 
-    // To be called before the slot's database is opened, with a lease and the slot's mutex: closes
-    // the least recently used ones as far as the bound wants it.
+    // Closes the least recently used databases, as far as the bound requires. Call it with a lease
+    // and the slot's mutex before the slot's database is opened.
     void make_room(Slot& slot);
-    // Closes the slot's database, or takes make_room() back; with a lease and the slot's mutex.
+    // Closes the slot's database, or undoes make_room(). Call it with a lease and the slot's mutex.
     void close(Slot& slot);
-    // Closes so many that nobody has leased, least recently used first; gives how many were closed.
+    // Closes up to `count` databases without a lease, the least recently used first, and returns
+    // how many were closed.
     std::size_t close_idle(std::size_t count);
 
     [[nodiscard]] std::size_t open_count() const;
@@ -99,18 +102,18 @@ class OpenDatabases {
   private:
     void give_back(Slot& slot);
     bool close_one_idle();
-    // With mutex_.
+    // Requires mutex_.
     void drop_if_empty(Slot& slot);
 
     const std::size_t most_open_;
-    mutable std::mutex mutex_;  // guards what follows, not what slots hold
+    mutable std::mutex mutex_;  // guards what follows, but not what slots hold
     std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots_;
-    std::list<Slot*> open_;  // most recently used first
+    std::list<Slot*> open_;  // the most recently used first
 };
 
-// Whether this process can open no further database at the moment.
+// Returns true if this process can open no further database at the moment.
 [[nodiscard]] bool is_out_of_descriptors();
-// What a database gives then: nobody's fault, and to be tried again.
+// Returns the error for that case: nobody is at fault, and another try may succeed.
 [[nodiscard]] tl::unexpected<Error> no_descriptor(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -1,9 +1,10 @@
-// catalog/path_homes.h -- which database a path's row is likely to stand in, and which alone may
-// have it, of the paths that were looked at last.
+// catalog/path_homes.h -- which database is likely to have the row of a path, and, for the paths
+// that were looked up last, which one alone may have it.
 //
-// Each is asked for several times, and should be looked for once. Two paths with the
-// same 64-bit hash would be one: among 65,536 the odds are 1 in 9 billion. Used by the catalog
-// alone. Thread contract: any thread.
+// Each path is needed several times and should be looked up once. Two paths with the same 64-bit
+// hash would be confused: among 65,536 the odds are 1 in 9 billion. Used only by Catalog.
+//
+// Threads   Any thread.
 #pragma once
 
 #include <cstddef>
@@ -25,17 +26,17 @@ namespace stormcellar::catalog {
 // The database of files whose station is not known.
 inline constexpr std::string_view unknown_station = "_unknown";
 
-// The station that a path seems to belong to: by its name, its directory's (KTLX/FILE) or the one's
-// above (KTLX/123/CHUNK); else unknown_station. Where a rule is given, a name that it does not know
-// says nothing, so that names of files alone make nothing.
-// The view is of the path's own bytes or of unknown_station.
+// Returns the station to which a path seems to belong: by its name, by that of its directory
+// (KTLX/FILE) or of the one above (KTLX/123/CHUNK); else unknown_station. If a rule is given, names
+// that it does not know do not count, so that names of files alone create nothing. The view refers
+// to the bytes of the path or to unknown_station.
 [[nodiscard]] std::string_view guessed_home(std::string_view path,
                                             const StationRule* rule = nullptr);
 
 class PathHomes {
   public:
-    // No database but this one has the path, once the caller has seen to what was known before,
-    // which it gets. To be called after it was written there.
+    // From now on only this database has the path. Returns what was known before, which the caller
+    // must handle. Call it after the row was written there.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
         const std::scoped_lock lock(mutex_);
@@ -45,7 +46,7 @@ class PathHomes {
         add(key_of(path), name);
         return before;
     }
-    // The same where no other one is known to have it; else false.
+    // Does the same if no other database is known to have the path; else returns false.
     [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
         const std::scoped_lock lock(mutex_);
         const std::string* known = find(key_of(path));
@@ -58,12 +59,12 @@ class PathHomes {
         young_.erase(key_of(path));
         old_.erase(key_of(path));
     }
-    // None had the path when all were asked. What somebody wrote meanwhile counts.
+    // No database had the path when all were asked. What somebody wrote in the meantime counts.
     void set_none(const std::filesystem::path& path) {
         const std::scoped_lock lock(mutex_);
         if (find(key_of(path)) == nullptr) add(key_of(path), {});
     }
-    // Empty: none has it. Nothing: unknown.
+    // Returns an empty text if no database has the path, none if it is not known.
     [[nodiscard]] std::optional<std::string> of(const std::filesystem::path& path) const {
         const std::scoped_lock lock(mutex_);
         const std::string* name = find(key_of(path));

@@ -82,7 +82,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     }
     if (!opened) return pass_on(opened);
     const Descriptor file{*opened};
-    // Before it is read: what stands there now may be far larger.
+    // Before it is read, because the present file may be far larger.
     struct stat facts {};
     if (::fstat(file.number(), &facts) != 0) {
         return fail(ErrorCode::io, "{}: cannot be looked at", entry.path.native());
@@ -90,8 +90,8 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
         return pass_on(sized);
     }
-    // A second name of a file that only the reader may read is no link that is followed, and only a
-    // hash tells it apart.
+    // A hard link to a file that only the reader may read is not refused as a link, and only a hash
+    // can tell it apart.
     if (!has_final_hash(entry) && facts.st_nlink > 1) {
         return fail(
             ErrorCode::corrupt,

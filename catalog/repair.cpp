@@ -35,7 +35,7 @@ std::set<std::string> schema_wanted() {
     return schema_of(memory);
 }
 
-// What SQLite itself says of pages, indices and constraints.
+// Collects what SQLite itself says about pages, indices and constraints.
 void check_integrity(SQLite::Database& database, std::vector<std::string>& damage) {
     SQLite::Statement rows(database, fmt::format("PRAGMA integrity_check({})", most_lines));
     while (rows.executeStep()) {
@@ -60,7 +60,7 @@ Examination examine(SQLite::Database& database) {
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
     const std::set<std::string> schema = schema_of(database);
-    if (schema.empty()) return found;  // made, and not filled yet
+    if (schema.empty()) return found;  // the database was made and not filled yet
     const bool ours = schema == schema_wanted();
     if (!ours && (id != application_id || version > schema_version)) {
         found.foreign = true;
@@ -83,7 +83,7 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
-// The first name that is free. Without the ending .sqlite it is no database of the catalog.
+// Returns the first free name. Without the ending .sqlite it is not a database of the catalog.
 fs::path name_aside(const fs::path& path) {
     const std::string stem = path.native() + ".damaged-" + format_compact(now_utc());
     fs::path name = stem;
@@ -92,7 +92,8 @@ fs::path name_aside(const fs::path& path) {
     return name;
 }
 
-// The new database until it takes its place. It is whole once the damaged one is not there.
+// Returns the path of the new database until it takes its place. It is whole once the damaged one
+// is gone.
 fs::path mending_of(const fs::path& path) {
     return path.native() + ".mending";
 }
@@ -117,10 +118,10 @@ Result<Examination> examine_database(const fs::path& path) {
 
 namespace {
 
-// A database with the rows of files that are gone, under the name of mending_of().
+// Makes a database with the rows of files that are gone, under the name of mending_of().
 Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
     const fs::path mending = mending_of(path);
-    for (const char* ending : {"", "-wal", "-shm"}) {  // of a repair that was cut short
+    for (const char* ending : {"", "-wal", "-shm"}) {  // of a repair that was interrupted
         const fs::path left = mending.native() + ending;
         if (!is_there(left)) continue;
         if (Status removed = real_file_system().remove(left); !removed) return removed;
@@ -150,7 +151,7 @@ Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
 Status adopt_mended_database(const fs::path& path) {
     const fs::path mending = mending_of(path);
     if (is_there(path) || !is_there(mending)) return {};
-    // The damaged one's WAL must not be taken for the new one's.
+    // The damaged database's WAL must not be taken for that of the new one.
     FileSystem& disk = real_file_system();
     const fs::path aside = name_aside(path);
     for (const char* ending : {"-wal", "-shm"}) {
@@ -162,7 +163,7 @@ Status adopt_mended_database(const fs::path& path) {
     return disk.sync_directory(path.parent_path());
 }
 
-// At any instant the damaged database or the whole new one can be had: the new one is made first.
+// The new database is made first, so at any instant either the damaged or the whole new one exists.
 Result<Repair> repair_database(const fs::path& path, const std::string& station,
                                const std::string& damage) {
     Repair repair;

@@ -1,9 +1,10 @@
-// catalog/salvage.h -- what can still be read of a damaged database; used by repair.h alone.
+// catalog/salvage.h -- reads what is still readable in a damaged database; used only by repair.h.
 //
-// Reads whatever SQLite can reach: rows before the damage, behind it, and, between the two, one by
-// one. What stood on a damaged page is lost; how many file rows that were is counted by the gaps in
-// their numbers (rows that had moved to another station leave gaps, too, so it is at most that).
-// Thread contract: functions without state; nothing may write the database meanwhile.
+// It reads whatever SQLite can reach: rows before the damage, rows after it, and those in between
+// one by one. Rows on a damaged page are lost. The gaps in the numbers of file rows say at most how
+// many were lost; rows that had moved to another station leave gaps, too.
+//
+// Threads   Functions without state. Nothing may write the database meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +20,19 @@ struct SalvagedVolume {
     int generation = 0;
 };
 
-// A row of the table `file` that makes sense, as it stood there.
+// A row of the table `file` that makes sense, unchanged.
 struct SalvagedFile {
-    FileFacts facts;  // volumes apart
+    FileFacts facts;  // without the volumes
     UtcTime registered_time;
-    std::vector<SalvagedVolume> volumes;  // file order; without those that could not be read
+    std::vector<SalvagedVolume> volumes;  // in file order, without those that could not be read
 };
 
 struct Salvage {
     std::vector<SalvagedFile> files;  // in the order in which they were registered
-    std::int64_t unread_files = 0;    // at most so many rows were lost
+    std::int64_t unread_files = 0;    // at most this many rows were lost
 };
 
-// Never fails: of a file that is no database at all, nothing is read.
+// Never fails: if the file is not a database at all, nothing is read.
 [[nodiscard]] Salvage salvage(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -3,13 +3,13 @@
 
 namespace stormcellar::catalog {
 
-// Kept in SQLite's user_version. A database with a higher number was made by later software.
+// Stored in SQLite's user_version. A database with a higher number was made by later software.
 inline constexpr int schema_version = 1;
 
-// "SCat": kept in SQLite's application_id, so that another program's database is recognised.
+// "SCat", stored in SQLite's application_id, to recognize the database of another program.
 inline constexpr int application_id = 0x53436174;
 
-// From nothing to version 1. Paths are blobs: a file name may hold any byte but NUL.
+// Creates version 1 from nothing. Paths are blobs, because a file name may hold any byte but NUL.
 inline constexpr const char* create_version_1 = R"sql(
 CREATE TABLE file (
     id            INTEGER PRIMARY KEY,

@@ -15,7 +15,7 @@ void bind_path(SQLite::Statement& statement, int index, const fs::path& path) {
     statement.bind(index, bytes.data(), static_cast<int>(bytes.size()));
 }
 
-// Until the statement is stepped on.
+// The bytes are valid until the next step of the statement.
 std::string_view bytes_of(const SQLite::Column& blob) {
     const auto* const bytes = static_cast<const char*>(blob.getBlob());
     return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(blob.getBytes())};
@@ -68,7 +68,7 @@ LentStatement StationDatabase::prepared(const char* sql) {
 std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
                                            const VolumeFacts& facts) {
     const std::int64_t start = *milliseconds(facts.start_time);
-    // The same volume in a file with the same contents is the same volume.
+    // The same volume in a file with the same content is the same volume.
     LentStatement same = prepared(
         "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
         "JOIN file f ON f.id = p.file_id "
@@ -113,8 +113,8 @@ void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_
     part->exec();
 }
 
-// What was settled survives a power cut: the file may be gone when we look again. A sync takes
-// milliseconds, though, and a file that grows is registered with every chunk.
+// Settled files survive a power cut, because the file itself may be gone later. But a sync takes
+// milliseconds, and a growing file is registered with every chunk.
 void StationDatabase::set_durable(bool durable) {
     if (durable == is_durable_) return;
     database_.exec(durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
@@ -140,7 +140,7 @@ std::vector<fs::path> StationDatabase::register_files(const std::vector<FileFact
     return left_out;
 }
 
-// Inside a transaction.
+// Call it inside a transaction.
 std::optional<std::int64_t> StationDatabase::find_file(const FileFacts& facts, bool& is_same) {
     LentStatement known = prepared(
         "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
@@ -173,7 +173,7 @@ std::int64_t StationDatabase::write_file(const FileFacts& facts) {
     return file->getColumn(0).getInt64();
 }
 
-// Its parts, and the volumes that are in no other file.
+// Removes the parts of the file, and the volumes that are in no other file.
 void StationDatabase::drop_volumes(std::int64_t file_id) {
     std::vector<std::int64_t> volumes;
     {
@@ -195,7 +195,7 @@ void StationDatabase::drop_volumes(std::int64_t file_id) {
     }
 }
 
-// Inside a transaction.
+// Call it inside a transaction.
 Registered StationDatabase::register_row(const FileFacts& facts) {
     bool is_same = false;
     const std::optional<std::int64_t> known = find_file(facts, is_same);
@@ -203,12 +203,14 @@ Registered StationDatabase::register_row(const FileFacts& facts) {
     if (!known && !make_room()) return Registered::left_out;
     const std::int64_t file_id = write_file(facts);
     if (facts.state == FileState::gone) may_have_gone_ = true;
-    // The file's volumes are described anew: a growing file must not become its own re-send.
+    // The volumes of the file are described anew, so that a growing file does not become its own
+    // re-send.
     if (known) drop_volumes(file_id);
     int ordinal = 0;
     const std::size_t kept = std::min(facts.volumes.size(), most_volumes_a_file);
     for (const VolumeFacts& volume : std::span{facts.volumes}.first(kept)) {
-        if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
+        // metadata alone, without a time: there is nothing to look up
+        if (!volume.start_time) continue;
         insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }
     return known ? Registered::updated : Registered::added;
@@ -239,7 +241,7 @@ void StationDatabase::restore_gone(const std::vector<SalvagedFile>& files) {
         file.bind(4, static_cast<std::int64_t>(facts.content_hash));
         file.bind(5, facts.reason);
         file.bind(6, salvaged.registered_time.time_since_epoch().count());
-        if (file.exec() == 0) continue;  // one path, two rows: only damage makes that
+        if (file.exec() == 0) continue;  // one path with two rows, which only damage makes
         const std::int64_t file_id = database_.getLastInsertRowid();
         int ordinal = 0;
         for (const SalvagedVolume& volume : salvaged.volumes) {
@@ -391,7 +393,7 @@ std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
 std::optional<CatalogEntry> StationDatabase::first(bool latest) {
     const std::string order = latest ? "ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC "
                                      : "ORDER BY v.start_ms, v.generation, f.path ";
-    // What claims to be of the future is the latest only where there is nothing else.
+    // A volume that claims to be from the future is the latest only if there is nothing else.
     for (const UtcTime until : {now_utc() + tolerated_future, UtcTime::max()}) {
         SQLite::Statement rows(database_, std::string{entry_columns} + entry_join +
                                               "WHERE v.start_ms <= ? " + order + "LIMIT 1");

@@ -1,7 +1,8 @@
-// catalog/station_database.h -- one station's SQLite database; used by the catalog alone.
+// catalog/station_database.h -- one station's SQLite database. Used only by Catalog.
 //
-// Methods throw SQLite::Exception, which the catalog turns into errors. Thread contract: one thread
-// at a time; the catalog holds a mutex for each.
+// Methods throw SQLite::Exception, which Catalog turns into errors.
+//
+// Threads   One thread at a time; Catalog holds a mutex for each database.
 #pragma once
 
 #include <filesystem>
@@ -21,11 +22,11 @@
 
 namespace stormcellar::catalog {
 
-// What an SQLite failure is to a caller. Every statement of ours fits a sound database and breaks
-// no constraint of it, so one that does not was met in a damaged one.
+// Returns the error code of an SQLite failure. Every statement of ours fits a sound database and
+// violates no constraint, so a statement that does not was run on a damaged one.
 [[nodiscard]] ErrorCode code_of(const SQLite::Exception& error);
 
-// A statement that is kept for the next time, lent. Given back it keeps no lock and no values.
+// A prepared statement on loan. When it is given back it holds no lock and no values.
 class LentStatement {
   public:
     explicit LentStatement(SQLite::Statement& statement) : statement_(statement) {}
@@ -45,55 +46,56 @@ class LentStatement {
 
 class StationDatabase {
   public:
-    // Creates the file and its tables when they are missing. unsupported or corrupt for a database
-    // of a later version or of another program.
+    // Creates the file and its tables if they are missing. Errors: unsupported or corrupt for a
+    // database of a later version or of another program.
     static Result<std::unique_ptr<StationDatabase>> open_for_writing(
         const std::filesystem::path& path, std::string station);
     static Result<std::unique_ptr<StationDatabase>> open_for_reading(
         const std::filesystem::path& path, const std::string& station);
 
-    // For looking alone, of whatever stands there: nothing is asked of it yet, so most of what is
-    // wrong with it comes out later.
+    // Opens whatever is there for reading only. Nothing is read yet, so most faults are noticed
+    // later.
     static Result<std::unique_ptr<SQLite::Database>> open_connection(
         const std::filesystem::path& path);
 
-    // Opened as a file that nobody writes: what is written later is not seen by this object.
+    // Returns true if it was opened as a file that nobody writes: later writes are not seen by this
+    // object.
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
-    // From now on a new row is written only while the database takes less, or while rows of files
-    // that are gone can make room.
+    // From now on a new row is only written while the database takes less than this, or if rows of
+    // files that are gone can make room.
     void set_most_bytes(std::uint64_t most_bytes) { most_bytes_ = most_bytes; }
-    // What its rows and indices take, without pages that are free.
+    // Returns the bytes that rows and indices take, without free pages.
     std::uint64_t used_bytes();
 
     Registered register_file(const FileFacts& facts);
-    // All in one transaction; gives the paths of those that found no room.
+    // Registers all in one transaction. Returns the paths that found no room.
     std::vector<std::filesystem::path> register_files(const std::vector<FileFacts>& files);
-    // Rows of files that are gone, verbatim but for their state; in one transaction. For a new
-    // database.
+    // Inserts rows of files that are gone, unchanged except for their state, in one transaction.
+    // For a new database.
     void restore_gone(const std::vector<SalvagedFile>& files);
-    // In one transaction; gives how many rows were marked.
+    // Marks in one transaction. Returns how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);
-    // Of the rows that are not gone those with a number above `after`: `most` rows at once, as a
-    // database may hold more paths than memory.
+    // Returns the rows that are not gone and have a number above `after`, at most `most` at once,
+    // because a database may hold more paths than fit into memory.
     struct Paths {
         std::vector<std::filesystem::path> paths;
-        std::int64_t last = 0;  // the number of the last row that was looked at
-        bool are_all = true;    // there is none behind it
+        std::int64_t last = 0;  // the number of the last row read
+        bool are_all = true;    // there are no more rows
     };
     Paths paths_below(const std::filesystem::path& directory, std::int64_t after,
                       std::int64_t most);
     void forget(const std::filesystem::path& path);
-    // The rows' numbers of files that are gone and were last registered before that time.
+    // Returns the row numbers of files that are gone and were last registered before that time.
     std::vector<std::int64_t> gone_before(UtcTime before);
-    // Deletes those of them that still are so, in one transaction; gives how many.
+    // Deletes those of them that are still so, in one transaction. Returns how many.
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
-    // Deletes the oldest of these, in one transaction; gives how many.
+    // Deletes the oldest of these in one transaction. Returns how many.
     std::int64_t forget_oldest_gone(std::int64_t most);
-    // Shows the paths of all rows, in whatever state. False where there may be more than `most`
-    // rows, of which none is looked at then.
+    // Passes the paths of all rows, in any state, to `look`. Returns false, without reading any, if
+    // there may be more than `most` rows.
     bool look_at_paths(const std::function<void(std::string_view)>& look, std::int64_t most);
-    // None when the path has no row.
+    // Returns none if the path has no row.
     std::optional<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                                    std::int64_t modified_ns);
 
@@ -105,14 +107,14 @@ class StationDatabase {
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
 
-    // The statement of that text, which has to live as long as the program.
+    // Returns the statement of that text, which must live as long as the program.
     LentStatement prepared(const char* sql);
     void set_durable(bool durable);
     Registered register_row(const FileFacts& facts);
-    // Inside a transaction: whether a new row may be written.
+    // Called inside a transaction: returns true if a new row may be written.
     bool make_room();
     std::int64_t delete_oldest_gone(std::int64_t most);
-    // The id of its row; is_same is set where the row says the same already.
+    // Returns the id of its row; is_same is set if the row already says the same.
     std::optional<std::int64_t> find_file(const FileFacts& facts, bool& is_same);
     std::int64_t write_file(const FileFacts& facts);
     void drop_volumes(std::int64_t file_id);
@@ -127,9 +129,9 @@ class StationDatabase {
     std::string station_;
     std::map<const char*, SQLite::Statement> statements_;
     bool is_snapshot_ = false;
-    bool is_durable_ = true;  // of the next transaction, where it may write
+    bool is_durable_ = true;  // of the next transaction that may write
     std::uint64_t most_bytes_ = CatalogOptions::no_limit;
-    bool may_have_gone_ = true;  // rows of files that are gone; false: there are none
+    bool may_have_gone_ = true;  // there may be rows of files that are gone; false: there are none
 };
 
 }  // namespace stormcellar::catalog

@@ -1,4 +1,4 @@
-// How a station's database is opened, made and recognised; what stands in it: station_database.cpp.
+// Opens, makes and identifies a station's database; its contents are in station_database.cpp.
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -19,18 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How long a statement waits for another process's write before it gives up.
+// how long a statement waits for another process's write before it gives up
 constexpr int busy_timeout_ms = 10'000;
-// Of the write-ahead log, from where it is brought into the database, and what is left of its file
-// then. A registration writes some five pages.
+// Pages of the write-ahead log: when it is transferred to the database, and what is left of its
+// file then. A registration writes some five pages.
 constexpr int most_log_pages = 128;
 constexpr int most_log_bytes = 512 << 10;
-// Of pages that a connection keeps in memory; SQLite's usual 2 MB for each of 200 stations would be
-// more than all else. The kernel's cache has the rest.
+// KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200 stations
+// would be more than everything else. The kernel's cache has the rest.
 constexpr int most_cached_kib = 128;
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
-    // SQLite says of a file without permission only that it cannot be opened.
+    // If permission is missing, SQLite only says that a file cannot be opened.
     const bool is_unopened = error.getErrorCode() == SQLITE_CANTOPEN;
     if (is_unopened && ::access(path.c_str(), R_OK) != 0 && errno == EACCES) {
         return fail(ErrorCode::permission, "{}: {}", path.native(),
@@ -50,9 +50,9 @@ Status check_regular(const fs::path& path) {
     return {};
 }
 
-// Whether the database is ours and of a version that we know; empty ones are ours to fill.
+// Checks that the database is ours and of a version that we know. An empty one may be filled.
 Status check_identity(SQLite::Database& database, const fs::path& path) {
-    // One snapshot: another process may be making the tables just now.
+    // One snapshot, because another process may be making the tables.
     const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
@@ -78,7 +78,7 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
     return {};
 }
 
-// SQLite does not wait for others here, as it does everywhere else.
+// Here, unlike everywhere else, SQLite does not wait for others.
 void enter_wal(SQLite::Database& database) {
     const auto limit =
         std::chrono::steady_clock::now() + std::chrono::milliseconds(busy_timeout_ms);
@@ -95,7 +95,8 @@ void enter_wal(SQLite::Database& database) {
 }
 
 void migrate(SQLite::Database& database) {
-    // To begin to write is to wait for whoever writes, which a database that stands need not.
+    // Beginning to write would wait for other writers, which is not necessary for an existing
+    // database.
     if (database.execAndGet("PRAGMA user_version").getInt() >= schema_version) return;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     if (database.execAndGet("PRAGMA user_version").getInt() < 1) {
@@ -106,8 +107,9 @@ void migrate(SQLite::Database& database) {
     transaction.commit();
 }
 
-// A reader that may not write cannot make the WAL's index. While a writer has the database open the
-// index exists; when there is no WAL nobody writes, and the file alone is the truth.
+// A reader without write permission cannot make the index of the WAL. While a writer has the
+// database open, the index exists; if there is no WAL, nobody writes, and the file alone is
+// complete.
 template <class Open>
 auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
     if (Status regular = check_regular(path); !regular) return pass_on(regular);
@@ -162,7 +164,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
         enter_wal(database);
         database.exec("PRAGMA synchronous = FULL");
-        // Each station that is open has a log of its own, so none may grow to SQLite's usual 4 MB.
+        // Each open station has a log of its own, so none may grow to SQLite's default of 4 MB.
         database.exec(fmt::format("PRAGMA wal_autocheckpoint = {}", most_log_pages));
         database.exec(fmt::format("PRAGMA journal_size_limit = {}", most_log_bytes));
         database.exec(fmt::format("PRAGMA cache_size = -{}", most_cached_kib));

@@ -1,4 +1,4 @@
-// stormcellar: the command line. Each subcommand is in a file of its own; see cli/subcommands.h.
+// stormcellar: the command line. One subcommand for each file; see cli/shared/commands.h.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -20,7 +20,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// No option and no argument means anything when it is empty.
+// No option and no argument may be empty.
 void refuse_empty(CLI::App& command) {
     const auto complaint = [](const std::string& value) {
         return value.empty() ? std::string{"is empty"} : std::string{};
@@ -32,13 +32,13 @@ void refuse_empty(CLI::App& command) {
         refuse_empty(*inner);
 }
 
-// CLI11 would only say that a subcommand is missing.
+// CLI11 would only report that a subcommand is missing.
 std::optional<std::string> unknown_command(int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-' || find_subcommand(argv[1]) != nullptr) return std::nullopt;
     return argv[1];
 }
 
-// "stormcellar loop" when the error is in what follows that command.
+// Returns "stormcellar loop" if the error is in what follows that command.
 std::string help_of(const CLI::App& app) {
     for (const CLI::App* command : app.get_subcommands()) {
         return fmt::format("stormcellar {}", command->get_name());
@@ -46,9 +46,10 @@ std::string help_of(const CLI::App& app) {
     return "stormcellar";
 }
 
-// A misspelt option is the cause where a required one is missing too; CLI11 would name the other.
+// A misspelled option is also the cause if a required one is missing; CLI11 would report the
+// latter.
 std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
-    // Of "--prodct volume" the option, not what follows it.
+    // For "--prodct volume" the option, and not what follows it.
     std::vector<std::string> unknown = app.remaining(true);
     std::stable_partition(unknown.begin(), unknown.end(),
                           [](const std::string& word) { return word.starts_with('-'); });
@@ -59,7 +60,7 @@ std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
     return fmt::format("The following argument was not expected: {}", unknown.front());
 }
 
-// What was printed counts as done only when it arrived.
+// Output only counts as done when it was written.
 int flushed(int status) {
     const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     if (!failed) return status;
@@ -67,7 +68,7 @@ int flushed(int status) {
     return status == exit_done ? exit_failed : status;
 }
 
-// Hidden: for the build of the package (cli/reference/reference.h).
+// Hidden; used by the build of the package (cli/reference/reference.h).
 int print_reference(const CLI::App& app, const std::string& kind) {
     const std::optional<std::string> text = reference_text(app, kind);
     if (!text) {

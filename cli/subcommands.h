@@ -19,7 +19,7 @@ struct Subcommand {
     const char* footer = "";  // what its help says below the options
 };
 
-// Sorted by name, as --help shows them.
+// sorted by name, as --help shows them
 [[nodiscard]] std::span<const Subcommand> subcommands();
 // Null: there is none of this name.
 [[nodiscard]] const Subcommand* find_subcommand(std::string_view name);

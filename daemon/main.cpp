@@ -50,7 +50,7 @@ struct Arguments {
     bool version = false;
 };
 
-// bad_argument: what makes no sense.
+// Errors: bad_argument for invalid arguments.
 Result<Arguments> parse(int argc, char** argv) {
     Arguments arguments;
     for (int i = 1; i < argc; ++i) {
@@ -82,8 +82,9 @@ Result<Arguments> parse(int argc, char** argv) {
     return arguments;
 }
 
-// Volumes that grow and databases of all stations are some 1,000 descriptors, which is where the
-// soft limit stands that old programs need. What cannot be had comes out where it is missing.
+// Growing volumes and databases of all stations take some 1,000 descriptors, which is the usual
+// soft limit for the sake of old programs. If the limit cannot be raised, the error appears where a
+// descriptor is missing.
 void raise_descriptor_limit() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -103,7 +104,8 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// The part of a path that stands where a directory should, or would be made; empty: none does.
+// Returns the part of a path that exists but is no directory where one is needed; empty: there is
+// none.
 std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     std::error_code error;
     while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
@@ -111,7 +113,7 @@ std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     return std::filesystem::is_directory(directory, error) ? "" : directory;
 }
 
-// What is no mistake of the file's, but may not be meant.
+// Reports what is valid but may not be intended.
 void print_notes(const Config& config) {
     const PathsConfig& paths = config.fixed.paths;
     const auto note = [](const std::string& what) {
@@ -213,7 +215,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
         case Stopped::cleanly:
             return EXIT_SUCCESS;
         case Stopped::with_jobs:
-            // What the jobs have written appears whole or not at all, so this loses nothing.
+            // Everything that jobs write appears whole or not at all, so this loses nothing.
             std::_Exit(exit_failed);
     }
     return exit_failed;

@@ -40,9 +40,10 @@ namespace {
 
 using level2::Volume;
 
-// First and last time of the radials; of none that is plausible, the volume's start.
+// The first and the last time of the radials. If none is plausible, both are the start of the
+// volume.
 struct Coverage {
-    UtcTime start, end;  // whole seconds, the volume within them
+    UtcTime start, end;  // whole seconds that include the volume
     bool times_increase = true;
 };
 
@@ -66,7 +67,7 @@ Coverage coverage_of(const Volume& volume) {
     return coverage;
 }
 
-// Who runs the radar: Level II does not say, but the site does.
+// Returns who runs the radar. Level II does not say, but the site does.
 std::string institution_of(const std::optional<Station>& station) {
     if (!station) return "unknown";
     return station->kind == RadarKind::tdwr ? "TDWR network of the FAA"

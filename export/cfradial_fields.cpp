@@ -16,11 +16,10 @@ using level2::SweepMoment;
 
 // No code is negative.
 constexpr int fill_code = -1;
-// Flags of the clutter filter, which CFP has below its first valid code, stand in the status
-// variable as this plus the code.
+// The flags of CFP, codes 0 to 7, are stored in its status variable as this number plus the code.
 constexpr int first_filter_flag = 16;
 // A chunk holds at most half a sweep of half-degree radials. Sweeps and chunks do not end together,
-// so the last two chunks are kept at hand: an int takes four bytes.
+// so the last two chunks are kept unpacked; an int takes four bytes.
 constexpr std::size_t chunk_rows = 360;
 constexpr std::size_t chunk_codes = std::size_t{1} << 18;
 constexpr std::size_t chunk_cache_bytes = 2 * 4 * chunk_codes;
@@ -84,7 +83,7 @@ int define_codes(const CfradialParts& parts, const CfradialField& field) {
     file.text(codes, "long_name", text.long_name);
     if (text.cfradial_name != nullptr) file.text(codes, "standard_name", text.cfradial_name);
     file.text(codes, "units", level2::moment_units(kind.moment));
-    // A scale of 0 says that the code is the value.
+    // A scale of 0 means that the code is the value.
     const double scale = kind.scale == 0 ? 1.0 : static_cast<double>(kind.scale);
     const double offset = kind.scale == 0 ? 0.0 : static_cast<double>(kind.offset);
     file.number(codes, "scale_factor", 1 / scale);
@@ -131,7 +130,7 @@ struct SweepGates {
     std::vector<signed char> states;
 };
 
-// One sweep's rows; a null moment gives rows without gates. The vectors are reused.
+// Unpacks the rows of one sweep. A null moment gives rows without gates. The vectors are reused.
 void unpack(const SweepMoment* moment, std::size_t radials, std::size_t gates, SweepGates& to) {
     to.codes.assign(radials * gates, fill_code);
     to.states.assign(radials * gates, static_cast<signed char>(GateStatus::no_data));

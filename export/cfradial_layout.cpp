@@ -10,7 +10,7 @@ namespace {
 
 using level2::SweepMoment;
 
-// Bits are compared, so that two scales that are no numbers are the same scale.
+// Compares bits, so that two scales that are NaN are the same scale.
 bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
@@ -50,8 +50,8 @@ Status check_arrays(const SweepMoment& moment, std::size_t sweep, std::size_t ra
                 sweep, level2::moment_name(moment.moment), radials);
 }
 
-// Puts a sweep's gates into the field of their kind, or into a new one. A sweep that holds one kind
-// twice needs two fields.
+// Puts the gates of a sweep into the field of their kind, or into a new field. A sweep that holds
+// one kind twice needs two fields.
 void add(CfradialLayout& layout, const SweepMoment& moment, std::size_t sweep,
          std::size_t sweep_count) {
     const std::size_t radials = radials_with_gates(moment);

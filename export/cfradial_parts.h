@@ -1,4 +1,6 @@
 // export/cfradial_parts.h -- the parts of a CfRadial file; internal to export/cfradial.
+//
+// Threads   Hold library_mutex() (export/netcdf_builder.h).
 #pragma once
 
 #include <string>
@@ -13,20 +15,20 @@ namespace stormcellar::netcdf {
 
 inline constexpr std::size_t string_length = 32;
 
-// Where the parts write to, and what.
+// What the parts write, and where to.
 struct CfradialParts {
     NetcdfBuilder& file;
     const level2::Volume& volume;
     const CfradialLayout& layout;
-    UtcTime reference;  // what `time` counts from, a whole second
+    UtcTime reference;  // `time` counts from this whole second
     int deflate_level;
     int time, sweep, letter;  // dimensions
-    std::vector<int> ranges;  // the dimension of each of the layout's axes
+    std::vector<int> ranges;  // the dimension of each axis of the layout
 
-    // A variable with the attributes that every one has.
+    // Makes a variable with the attributes that every variable has.
     int variable(const char* name, int type, const std::vector<int>& dimensions,
                  const char* long_name, const char* units) const;
-    // One word for each of the dimension's elements; no dimension: one word.
+    // Writes one word for each element of the dimension, or one word without a dimension.
     int words(const char* name, const std::vector<int>& dimensions, const char* long_name,
               const std::vector<std::string>& values) const;
 };

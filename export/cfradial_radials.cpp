@@ -1,4 +1,4 @@
-// The variables of a CfRadial file that have one element a sweep or a radial.
+// The variables of a CfRadial file that have one element for each sweep or each radial.
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -15,8 +15,8 @@ using level2::Sweep;
 
 using Known = std::optional<float>;  // none: Level II does not say
 
-// The fixed angle of the VCP, else the median of the measured elevations: a few radials that were
-// taken while the antenna moved do not shift that.
+// Returns the fixed angle of the VCP, else the median of the measured elevations. The median does
+// not shift if a few radials were taken while the antenna moved.
 float fixed_angle_deg(const Sweep& sweep) {
     if (sweep.vcp_elevation_deg) return *sweep.vcp_elevation_deg;
     std::vector<float> elevations_deg;
@@ -49,7 +49,7 @@ std::vector<Value> of_each_radial(const CfradialParts& parts, Function function)
     return values;
 }
 
-// A float where it is known, _FillValue where not; no variable at all where it is never known.
+// Writes a float, with _FillValue where it is not known. If it is never known, no variable is made.
 int write_known(const CfradialParts& parts, const char* name, int dimension, const char* long_name,
                 const char* units, const std::vector<Known>& values) {
     const auto known = [](const Known& value) { return value.has_value(); };
@@ -64,7 +64,7 @@ int write_known(const CfradialParts& parts, const char* name, int dimension, con
     return variable;
 }
 
-// Level II says 0 for what it does not know.
+// Level II writes 0 for what it does not know.
 Known unless_zero(float value) {
     return value == 0 ? std::nullopt : Known{value};
 }
@@ -127,7 +127,7 @@ void write_instrument(const CfradialParts& parts) {
           [](const Radial& radial) { return radial.vertical_calibration_dbz; });
 }
 
-// What Level II says of each radial that CfRadial has no name for.
+// Writes what Level II says about each radial, and CfRadial has no name for.
 void write_level2_facts(const CfradialParts& parts) {
     const auto ints = [&](auto function) { return of_each_radial<int>(parts, function); };
     write_ints(parts, "azimuth_number", parts.time, "number of the radial in its sweep",

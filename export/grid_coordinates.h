@@ -1,11 +1,13 @@
-// export/grid_coordinates.h -- where the cells of a grid file are, as CF says it; internal to
+// export/grid_coordinates.h -- where the cells of a grid file are, in the terms of CF; internal to
 // export.
 //
-// Dimensions are y and x whatever the projection. Of a plane projection the coordinates y and x are
-// metres and lat and lon give each column's place; of latitude_longitude y and x are themselves
-// latitude and longitude. Longitudes are within 180 degrees of the centre's, so they go on across
-// the antimeridian (179.5, 180.5). The mapping variable bears the name of its CF grid mapping
-// (CF-1.8, appendix F).
+// The dimensions are y and x for every projection. For a projection with a plane, the coordinates y
+// and x are meters, and lat and lon give the place of each column. For latitude_longitude, y and x
+// are latitude and longitude themselves. Longitudes are within 180 degrees of the center's, so they
+// continue across the antimeridian (179.5, 180.5). The mapping variable has the name of its CF grid
+// mapping (CF-1.8, appendix F).
+//
+// Threads   Hold library_mutex() (export/netcdf_builder.h).
 #pragma once
 
 #include "export/netcdf_builder.h"
@@ -17,15 +19,15 @@ struct MapDimensions {
     int y = 0, x = 0;
 };
 
-// azimuthal_equidistant, latitude_longitude or lambert_conformal_conic.
+// Returns azimuthal_equidistant, latitude_longitude or lambert_conformal_conic.
 [[nodiscard]] const char* mapping_name(grid::Projection projection);
 
 void write_mapping(NetcdfBuilder& file, const grid::GridSpec& spec);
 void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size);
-// lat and lon of each column; nothing where y and x say it already.
+// Writes lat and lon of each column, or nothing if y and x give them already.
 void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size,
                      int deflate_level);
-// What a field on this map says of it.
+// Adds the attributes with which a field refers to this map.
 void refer_to_map(NetcdfBuilder& file, int variable, const grid::GridSpec& spec);
 
 }  // namespace stormcellar::netcdf

@@ -27,8 +27,8 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
     return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// Cells in the file's order: x fastest, then y, then z. Row by row, so that reads and writes both
-// stay within the processor's cache.
+// Writes cells in the order of the file: x fastest, then y, then z. It goes row by row, so that
+// both reads and writes stay within the processor's cache.
 template <class Cell, class From>
 std::vector<Cell> in_file_order(const grid::GridSpec& spec, From from) {
     std::vector<Cell> cells(spec.cell_count());
@@ -176,7 +176,8 @@ void write_details(NetcdfBuilder& file, const Grid& grid, const Dimensions& size
     }
 }
 
-// Of a mosaic. Both are known everywhere, and 0 where no site sees a cell.
+// Writes the counts and weights of a mosaic. Both are known everywhere, and are 0 where no site
+// sees a cell.
 void write_overlap(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
                    int deflate_level) {
     if (!grid.site_counts.empty()) {
@@ -218,7 +219,7 @@ void write_sites(NetcdfBuilder& file, const Grid& grid) {
     file.numbers(NetcdfBuilder::file, "station_antenna_altitude_m", altitudes_m);
 }
 
-// A line a range class, over all sweeps.
+// Returns a line for each class of ranges, over all sweeps.
 std::string audit_text(const Grid& grid) {
     const std::string_view unit = grid::difference_unit(grid.moment);
     std::vector<std::string> lines = {"grid minus gates, scanned as the radar did"};

@@ -1,5 +1,4 @@
-// export/moment_text.h -- what a moment is called in netCDF files: export's layer over
-// stormcellar/level2/moment.h.
+// export/moment_text.h -- the names of a moment in netCDF files; internal to export.
 #pragma once
 
 #include "stormcellar/level2/volume.h"
@@ -8,8 +7,8 @@ namespace stormcellar::netcdf {
 
 struct MomentText {
     const char* long_name;
-    const char* cf_name;        // standard name of CF's own table; null where it has none
-    const char* cfradial_name;  // proposed by CfRadial 1.4, section 6.1; null where it has none
+    const char* cf_name;        // standard name in CF's own table; null if it has none
+    const char* cfradial_name;  // proposed by CfRadial 1.4, section 6.1; null if it has none
 };
 
 [[nodiscard]] MomentText text_of(level2::Moment moment);

@@ -16,7 +16,7 @@ std::mutex& library_mutex() {
 }
 
 NetcdfBuilder::NetcdfBuilder() {
-    // The name is never used: the file exists in memory only.
+    // The name is never used, because the file exists in memory only.
     open_ = good(nc_create_mem("memory.nc", NC_NETCDF4 | NC_CLOBBER, 0, &id_), "begin");
 }
 
@@ -56,7 +56,7 @@ void NetcdfBuilder::chunks(int variable, const std::vector<std::size_t>& sizes) 
 void NetcdfBuilder::chunk_cache(int variable, std::size_t bytes) {
     if (failure_ != NC_NOERR) return;
     constexpr std::size_t slots = 101;       // of the hash table
-    constexpr float written_go_first = 1.0;  // a chunk that is full is not needed again
+    constexpr float written_go_first = 1.0;  // a full chunk is not needed again
     good(nc_set_var_chunk_cache(id_, variable, bytes, slots, written_go_first), "chunk cache");
 }
 
@@ -167,7 +167,7 @@ Result<std::vector<std::byte>> NetcdfBuilder::finish() {
     }
     const auto* first = static_cast<const std::byte*>(memory.memory);
     std::vector<std::byte> bytes(first, first + memory.size);
-    std::free(memory.memory);  // the library gives its buffer away
+    std::free(memory.memory);  // the library hands over its buffer
     return bytes;
 }
 

@@ -1,9 +1,9 @@
 // export/netcdf_builder.h -- builds a netCDF-4 file in memory; internal to export.
 //
-// The first failure sticks: later calls do nothing, and finish() gives it. So a writer may say all
-// that a file holds and check once.
-// Thread contract: the netCDF library is not thread-safe; hold library_mutex() while a builder
-// lives.
+// The first failure is kept: later calls do nothing, and finish() returns it. So a writer may
+// describe the whole file and check once.
+//
+// Threads   The netCDF library is not thread-safe, so hold library_mutex() while a builder lives.
 #pragma once
 
 #include <cstddef>
@@ -26,18 +26,20 @@ class NetcdfBuilder {
     NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
     ~NetcdfBuilder();
 
-    // Stands for "no variable" and "the file": its attributes are the global ones.
+    // Stands for "no variable" and for "the file", whose attributes are the global ones.
     static constexpr int file = -1;
 
-    // Of size 0: netCDF knows that as an unlimited dimension with nothing in it yet.
+    // A dimension of size 0 becomes an unlimited dimension with nothing in it yet, as netCDF has
+    // it.
     int dimension(const char* name, std::size_t size);
-    // Types are those of netcdf.h. No dimensions: a scalar.
+    // Types are those of netcdf.h. A variable without dimensions is a scalar.
     int variable(const char* name, int type, const std::vector<int>& dimensions);
     void chunks(int variable, const std::vector<std::size_t>& sizes);
-    // How much of a chunked variable is kept unpacked until the end; netCDF keeps 16 MiB or more.
+    // Sets how much of a chunked variable is kept unpacked until the end; netCDF keeps 16 MiB or
+    // more.
     void chunk_cache(int variable, std::size_t bytes);
     void deflate(int variable, int level);
-    // The value that stands for nothing, in the variable's own type.
+    // Sets the value that stands for "no value", in the type of the variable.
     void fill_value(int variable, double value);
     void text(int variable, const char* name, std::string_view value);
     void number(int variable, const char* name, double value);
@@ -45,15 +47,16 @@ class NetcdfBuilder {
     void numbers(int variable, const char* name, std::span<const double> values);
     void bytes(int variable, const char* name, std::span<const signed char> values);
 
-    // A whole variable; netCDF turns the numbers into the variable's type. Nothing for no values.
+    // Writes a whole variable; netCDF converts the numbers to its type. Does nothing without
+    // values.
     void write(int variable, std::span<const double> values);
     void write(int variable, std::span<const float> values);
     void write(int variable, std::span<const int> values);
     void write(int variable, std::span<const signed char> values);
-    // Rows of equal length, one after the other, as a variable of characters.
+    // Writes rows of equal length, one after the other, as a variable of characters.
     void write(int variable, std::span<const char> characters);
 
-    // Some rows of a variable of two dimensions, each over its whole second dimension.
+    // Some rows of a variable with two dimensions, each over its whole second dimension.
     struct Rows {
         std::size_t first = 0;
         std::size_t count = 0;
@@ -62,7 +65,7 @@ class NetcdfBuilder {
     void write_rows(int variable, const Rows& rows, std::span<const int> values);
     void write_rows(int variable, const Rows& rows, std::span<const signed char> values);
 
-    // The bytes of the file; the builder is then closed.
+    // Returns the bytes of the file. The builder is then closed.
     Result<std::vector<std::byte>> finish();
 
   private:

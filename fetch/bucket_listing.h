@@ -1,8 +1,10 @@
-// fetch/bucket_listing.h -- what a public bucket of Level II files holds, by its listing API.
+// fetch/bucket_listing.h -- reads the listing of a public bucket of Level II files.
 //
-// The bucket's keys are YYYY/MM/DD/STATION/NAME (docs/data-sources.md); a listing is a
-// GET of ?list-type=2&prefix=..., in pages that a token continues (Amazon S3, ListObjectsV2). Other
-// servers answer the same. Thread contract: functions are pure.
+// The keys of the bucket are YYYY/MM/DD/STATION/NAME (docs/data-sources.md). A listing is a GET of
+// ?list-type=2&prefix=..., in pages that a token continues (Amazon S3, ListObjectsV2). Other
+// servers give the same answers.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +24,7 @@ struct BucketObject {
     std::string key;
     std::uint64_t size_bytes = 0;
     std::optional<UtcTime> modified;
-    std::string tag;  // of its contents (ETag), in quotes; empty: the listing has none
+    std::string tag;  // of its content (ETag), in quotes; empty: the listing has none
 };
 
 struct ListingPage {
@@ -30,24 +32,25 @@ struct ListingPage {
     std::string next_token;  // empty: this is the last page
 };
 
-// Errors: corrupt where the text is no listing, or one that says that it goes on and not where.
+// Parses a page. Errors: corrupt if the text is not a listing, or says that it continues and not
+// where.
 [[nodiscard]] Result<ListingPage> parse_listing(std::span<const std::byte> xml);
 
-// `source`: the bucket's address, "https://HOST" or "https://HOST/BUCKET".
+// `source` is the address of the bucket, "https://HOST" or "https://HOST/BUCKET".
 [[nodiscard]] std::string listing_url(std::string_view source, std::string_view prefix,
                                       std::string_view token);
 [[nodiscard]] std::string object_url(std::string_view source, std::string_view key);
 
-// "2017/01/01/KTLX/" for each day from `from` to `to` and each station. The day before `from` is
-// not among them: a volume stands under the day of its start.
+// Returns "2017/01/01/KTLX/" for each day from `from` to `to` and each station. The day before
+// `from` is not included, because a volume is listed under the day of its start.
 [[nodiscard]] std::vector<std::string> prefixes_of(const std::vector<std::string>& stations,
                                                    UtcTime from, UtcTime to);
 
-// The last part of a key.
+// Returns the last part of a key.
 [[nodiscard]] std::string_view name_of_key(std::string_view key);
-// The start that a name like KTLX20170101_030027_V06 gives; none where it gives none.
+// Returns the start that a name such as KTLX20170101_030027_V06 gives, or none.
 [[nodiscard]] std::optional<UtcTime> start_in_name(std::string_view name);
-// Metadata without radials, as KTLX20170101_030027_V06_MDM.
+// Returns true for metadata without radials, such as KTLX20170101_030027_V06_MDM.
 [[nodiscard]] bool is_metadata_name(std::string_view name);
 
 }  // namespace stormcellar::fetch

@@ -1,5 +1,5 @@
-// Loads the module that fetches, stormcellar_fetch.so, when something is to be fetched: libcurl
-// brings two dozen libraries, which no other command is to start with.
+// Loads the module that downloads, stormcellar_fetch.so, when it is first needed. libcurl brings
+// two dozen libraries, which would slow down the start of all other commands.
 #include "stormcellar/fetch/fetch.h"
 
 #include "base/load_module.h"

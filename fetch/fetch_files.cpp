@@ -1,4 +1,4 @@
-// The module stormcellar_fetch.so: lists a bucket and fetches what was asked for.
+// The module stormcellar_fetch.so: lists a bucket and downloads the files that were requested.
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // of one page
-// Of one station and day: a page has 1,000 names, and a radar makes some 600 files a day.
+constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // for one page
+// For one station and day: a page has 1,000 names, and a radar makes some 600 files a day.
 constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
-// A file on its way: what has come stands beside its place, hidden.
+// A file that is being downloaded. What has come is kept beside its final place, in a hidden file.
 struct Download {
     BucketObject object;
     fs::path target, part;
@@ -54,7 +54,8 @@ void set_time(const fs::path& path, UtcTime time) {
     (void)::utimensat(AT_FDCWD, path.c_str(), times, 0);
 }
 
-// Where a file is put while it comes. What was begun of other contents goes by another name.
+// Returns the name of a file while it is being downloaded. A part of another content has another
+// name.
 std::string part_name_of(const BucketObject& object) {
     const std::int64_t modified = object.modified ? object.modified->time_since_epoch().count() : 0;
     const std::string contents =
@@ -63,14 +64,14 @@ std::string part_name_of(const BucketObject& object) {
                        xxh3_64(std::as_bytes(std::span{contents})));
 }
 
-// A header is made of it, so it must be one quoted word.
+// The tag becomes part of a header, so it must be one quoted word.
 bool is_plain_tag(std::string_view tag) {
     const auto is_plain = [](char c) { return c > ' ' && c < 0x7F && c != '"'; };
     return tag.size() > 2 && tag.front() == '"' && tag.back() == '"' &&
            std::ranges::all_of(tag.substr(1, tag.size() - 2), is_plain);
 }
 
-// Letters, digits, '_', '-' and dots inside: what the names of raw files have.
+// Letters, digits, '_', '-' and dots inside are what the names of raw files have.
 bool is_plain_name(std::string_view name) {
     const auto is_plain = [](char c) {
         return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
@@ -120,7 +121,7 @@ class Fetching {
             auto listing = outcome.good
                                ? parse_listing(*body)
                                : Result<ListingPage>{fail(ErrorCode::io, "{}", outcome.reason)};
-            // A listing that was cut on the way is no listing either.
+            // A listing that was cut on the way is not a listing either.
             const bool again = outcome.good ? !listing : outcome.may_be_tried_again;
             if (!listing && again && tries + 1 < request_.tries) {
                 list(prefix, token, page, tries + 1);
@@ -143,7 +144,7 @@ class Fetching {
                        tries == 0 ? std::chrono::milliseconds{0} : wait_before(tries - 1));
     }
 
-    // A listing may name what was not asked for.
+    // A listing may name objects that were not requested.
     void take(const std::string& prefix, BucketObject object) {
         const std::string name{name_of_key(object.key)};
         const auto start = start_in_name(name);

@@ -9,7 +9,7 @@
 namespace stormcellar::fetch {
 namespace {
 
-constexpr int longest_poll_ms = 100;  // how often the flag is looked at
+constexpr int longest_poll_ms = 100;  // how often the flag is checked
 constexpr long connect_timeout_s = 20;
 constexpr long most_redirects = 5;
 constexpr long http_ok = 200;
@@ -20,7 +20,8 @@ constexpr long http_too_many = 429;
 constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
 
-// Whether the same may go well later: what the network or the server's load does.
+// Returns true if the same request may succeed later: for errors of the network or of a busy
+// server.
 bool is_passing(CURLcode code, long status) {
     switch (code) {
         case CURLE_OK:
@@ -48,8 +49,8 @@ struct Transfers::Running {
     CURL* easy = nullptr;
     bool has_begun = false;
     bool was_refused = false;
-    bool has_wrong_range = false;   // it answers with another part than was asked for
-    std::uint64_t error_bytes = 0;  // the body of an error
+    bool has_wrong_range = false;   // the server answers with another part than was requested
+    std::uint64_t error_bytes = 0;  // size of the body of an error
     curl_slist* headers = nullptr;
     std::array<char, CURL_ERROR_SIZE> error{};
 
@@ -60,7 +61,7 @@ struct Transfers::Running {
         if (easy != nullptr) curl_easy_cleanup(easy);
         curl_slist_free_all(headers);
     }
-    // Whether the part begins where it was asked for: "Content-Range: bytes 500-999/1000".
+    // Returns true if the part begins where it was requested: "Content-Range: bytes 500-999/1000".
     [[nodiscard]] bool has_right_range() const {
         curl_header* header = nullptr;
         if (curl_easy_header(easy, "Content-Range", 0, CURLH_HEADER, -1, &header) != CURLHE_OK) {
@@ -78,7 +79,7 @@ struct Transfers::Running {
         auto& running = *static_cast<Running*>(self);
         const long status = running.status();
         const std::size_t length = size * count;
-        // The body of an error is nobody's, and one without an end an error of its own.
+        // The body of an error is of no use, and one without an end is an error itself.
         if (status != http_ok && status != http_partial) {
             running.error_bytes += length;
             return running.error_bytes <= most_error_bytes ? length : 0;
@@ -128,7 +129,7 @@ bool Transfers::start(Transfer transfer) {
     const std::string agent = fmt::format("stormcellar/{}", software_version);
     curl_easy_setopt(easy, CURLOPT_URL, running->transfer.url.c_str());
     curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
-    // What was asked for safely is not answered otherwise.
+    // A request over https must not be redirected to http.
     const bool is_safe = running->transfer.url.starts_with("https");
     curl_easy_setopt(easy, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
     curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 1L);

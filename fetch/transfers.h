@@ -1,6 +1,8 @@
 // fetch/transfers.h -- HTTP GETs, several at a time, with libcurl.
 //
-// Inside the module stormcellar_fetch alone. Thread contract: one thread.
+// This is used only inside the module stormcellar_fetch.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <atomic>
@@ -22,25 +24,27 @@
 
 namespace stormcellar::fetch {
 
-// One thing to get.
+// One object to get.
 struct Transfer {
     std::string url;
-    std::uint64_t from_byte = 0;  // 0: all of it
-    // Of the contents that are wanted, where not all of them are: what has others answers 412.
+    std::uint64_t from_byte = 0;  // 0: the whole object
+    // The tag of the wanted content, if only a part is requested. A server with another content
+    // answers 412.
     std::string tag;
-    // Takes the body; false: it cannot be taken, and the transfer fails for good.
+    // Takes the body. It returns false if it cannot be taken, and the transfer then fails for good.
     std::function<bool(const std::byte* bytes, std::size_t count)> take;
-    // Called before the body of each answer. `from_byte`: where it begins, which is 0 where the
-    // server gives all though a part was asked for.
+    // Called before the body of each answer. `from_byte` is where the body begins, which is 0 if
+    // the server sends the whole object although a part was requested.
     std::function<bool(std::uint64_t from_byte)> begin;
     struct Outcome {
         bool good = false;
         bool may_be_tried_again = false;
-        bool part_is_useless = false;  // it cannot go on at from_byte: only all of it can be had
-        std::string reason;            // where it is not good
+        // it cannot continue at from_byte; only the whole object can be had
+        bool part_is_useless = false;
+        std::string reason;  // set if it is not good
         std::optional<UtcTime> modified;
     };
-    // May add further transfers, this one with another from_byte among them.
+    // May add further transfers, including this one with another from_byte.
     std::function<void(const Outcome& outcome)> ended;
 };
 
@@ -56,9 +60,9 @@ class Transfers {
     Transfers& operator=(const Transfers&) = delete;
     ~Transfers();
 
-    // Begins when there is room and `wait` has passed.
+    // Adds a transfer, which begins when there is room and `wait` has passed.
     void add(Transfer transfer, std::chrono::milliseconds wait = {});
-    // Until all have ended, or the flag is set. `turn` is called often.
+    // Runs until all transfers have ended or the flag is set. Calls `turn` often.
     void run(const std::atomic<bool>* stop, const std::function<void()>& turn);
 
   private:

@@ -11,7 +11,7 @@ namespace {
 constexpr double clear_echo_dbz = 5;
 constexpr double clearly_none_dbz = -5;
 
-// What the truth says of a cell; NaN where there is nothing to compare with.
+// The truth of a cell; NaN if there is nothing to compare with.
 class CellTruth {
   public:
     CellTruth(const grid::GridScene& scene, const Scene& truth) : scene_(scene), truth_(truth) {
@@ -84,7 +84,7 @@ Result<std::vector<TruthRow>> compare_with_truth(grid::GridScene& scene, const S
     std::vector<TruthRow> rows;
     for (const grid::NamedChain& named :
          grid::named_chains(scene.options().moment, grid::Averaging::in_db)) {
-        // Simulated beams bend over a 4/3 earth.
+        // simulated beams bend over a 4/3 earth
         if (named.choice.method.beam != grid::BeamKind::four_thirds) continue;
         const auto cells = scene.evaluate(named.choice, sample);
         if (!cells) return pass_on(cells);

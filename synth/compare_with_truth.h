@@ -20,8 +20,8 @@ struct TruthRow {
     std::string chain;
     accuracy::ErrorSummary error;
     double mean = 0;           // of the signed errors
-    double echo_missed = 0;    // share of cells seen whose truth is above 5 dBZ and that hold none
-    double echo_invented = 0;  // share of cells above 5 dBZ whose truth is below -5 dBZ
+    double echo_missed = 0;    // share of the seen cells with a truth above 5 dBZ that hold none
+    double echo_invented = 0;  // share of the cells above 5 dBZ with a truth below -5 dBZ
 };
 
 // One row for each chain of the ladder whose beam is that of the simulation. Errors: those of

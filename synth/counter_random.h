@@ -1,10 +1,11 @@
-// synth/counter_random.h -- random numbers that depend on their place alone.
+// synth/counter_random.h -- random numbers that depend only on their place.
 //
-// Four words of 32 bits for each (seed, purpose, volume, cut, radial, gate), by a counter-based
-// generator without state: the same in any order and on any number of threads.
-// Source   Salmon, Moraes, Dror and Shaw (2011), Parallel random numbers: as easy as 1, 2, 3:
-//          Philox4x32-10. Its published answers are a test.
-// Threads  all functions are pure.
+// A counter-based generator without state gives four words of 32 bits for each (seed, purpose,
+// volume, cut, radial, gate), which are the same in any order and on any number of threads.
+//
+// Source    Salmon, Moraes, Dror and Shaw (2011), Parallel random numbers: as easy as 1, 2, 3:
+//           Philox4x32-10. A test checks its published answers.
+// Threads   Pure functions.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ using RandomWords = std::array<std::uint32_t, 4>;
 
 [[nodiscard]] RandomWords philox(RandomWords counter, std::array<std::uint32_t, 2> key);
 
-// What numbers are drawn for: different purposes are independent.
+// The purpose of a number. Numbers with different purposes are independent.
 enum class Draw : std::uint32_t {
     gate = 1,
     clutter = 2,
@@ -25,7 +26,7 @@ enum class Draw : std::uint32_t {
     replay_fault = 5
 };
 
-// Whose numbers they are.
+// The place that a number belongs to.
 struct DrawPlace {
     std::uint32_t volume = 0;
     std::uint32_t cut = 0;
@@ -34,10 +35,10 @@ struct DrawPlace {
 };
 [[nodiscard]] RandomWords draw(std::uint32_t seed, Draw purpose, const DrawPlace& place);
 
-// In (0, 1), each of 2^32 values equally likely.
+// Returns a number in (0, 1), with each of 2^32 values equally likely.
 [[nodiscard]] double uniform_of(std::uint32_t word);
 
-// Two independent numbers of mean 0 and deviation 1 (Box and Muller 1958), at most 6.8 off.
+// Two independent numbers with mean 0 and deviation 1 (Box and Muller 1958), at most 6.8 off.
 struct NormalPair {
     double first = 0;
     double second = 0;

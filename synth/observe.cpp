@@ -9,16 +9,16 @@
 namespace stormcellar::synth {
 namespace {
 
-// A real radar's, 2022.
+// from a real radar, 2022
 constexpr float calibration_dbz = -42.875F;
 constexpr float vertical_calibration_dbz = -42.5F;
 constexpr float horizontal_noise_dbm = -81.5F;
 constexpr float vertical_noise_dbm = -81.25F;
 constexpr std::int16_t attenuation_thousandths = -12;
 
-// Where in the turn of its cut a radial is, and where the antenna points.
+// The place of a radial in the turn of its cut, and where the antenna points.
 struct Pointing {
-    std::size_t number = 0;  // from 0, lost radials counted
+    std::size_t number = 0;  // from 0, lost radials included
     double azimuth_deg = 0;  // [0, 360)
     double elevation_deg = 0;
     std::chrono::milliseconds since_start{0};  // of the volume
@@ -39,7 +39,7 @@ level2::Radial radial_of(const Cut& cut, const Pointing& pointing, UtcTime volum
     radial.elevation_calibration_db = calibration_dbz;
     radial.azimuth_number = static_cast<std::uint16_t>(pointing.number + 1);
     radial.cut_sector = 1;
-    radial.azimuth_indexing = cut.azimuth_spacing_deg < 1 ? 25 : 50;  // hundredths of a degree
+    radial.azimuth_indexing = cut.azimuth_spacing_deg < 1 ? 25 : 50;  // in hundredths of a degree
     return radial;
 }
 
@@ -53,7 +53,7 @@ class Antenna {
           scene_s_(std::chrono::duration<double>(start_ - scene.schedule.start).count()),
           beam_(scene.site.latitude_deg, scene.site.antenna_altitude_m) {}
 
-    // A sweep without radials when all are missing.
+    // Returns a sweep, which has no radials if all are missing.
     level2::Sweep run(const Cut& cut, int elevation_number) {
         const std::vector<Pointing> pointings = turn(cut, elevation_number);
         level2::Sweep sweep;
@@ -67,7 +67,7 @@ class Antenna {
         RadialObserver observer(scene_, beam_, cut, sweep.radials.front(),
                                 {number_, elevation_number, pointings.size()});
         for (std::size_t row = 0; row < pointings.size(); ++row) {
-            // The radial's own time, to the millisecond, is the one that its data are true for.
+            // The data are true for the radial's own time, to the millisecond.
             const double t_s =
                 scene_s_ + std::chrono::duration<double>(pointings[row].since_start).count();
             observer.observe(row, pointings[row].number, sweep.radials[row], t_s);
@@ -77,12 +77,12 @@ class Antenna {
     }
 
   private:
-    // One turn of the antenna, without the radials that are lost, and the move to the next cut.
+    // Makes one turn of the antenna, without the radials that are lost, and moves to the next cut.
     std::vector<Pointing> turn(const Cut& cut, int elevation_number) {
         const Instrument& instrument = scene_.instrument;
         const double spacing_deg = cut.azimuth_spacing_deg;
         const auto count = static_cast<std::size_t>(std::lround(360 / spacing_deg));
-        // Radials are centred on odd multiples of half their spacing.
+        // The centers of radials are at odd multiples of half their spacing.
         const double first = std::ceil(azimuth_deg_ / spacing_deg);
         std::vector<Pointing> pointings;
         for (std::size_t i = 0; i < count; ++i) {
@@ -113,14 +113,14 @@ class Antenna {
         const double azimuth_deg =
             pointing.azimuth_deg + instrument.azimuth_jitter_deg * off.azimuth;
         const double turned_deg = std::fmod(azimuth_deg + 360, 360);
-        // A float next below 360 would say 360.
+        // The float next below 360 would be shown as 360.
         pointing.azimuth_deg = static_cast<float>(turned_deg) < 360.0F ? turned_deg : 0;
     }
 
     const Scene& scene_;
     int number_;
     UtcTime start_;
-    double scene_s_;  // from the scene's start to the volume's
+    double scene_s_;  // from the start of the scene to that of the volume
     grid::BeamGeometry beam_;
     double elapsed_s_ = 0;
     double azimuth_deg_ = 0;
@@ -129,7 +129,7 @@ class Antenna {
 level2::VolumeBlock block_of(const Scene& scene) {
     constexpr int usual_tower_m = 20;
     const int altitude_m = scene.site.antenna_altitude_m;
-    // A tower as high as its site would read as a TDWR's way of writing.
+    // A tower as high as its site would look like a TDWR's way of writing heights.
     const int tower_m = altitude_m == 2 * usual_tower_m ? usual_tower_m - 1 : usual_tower_m;
     level2::VolumeBlock block;
     block.version_major = 2;

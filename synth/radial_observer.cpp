@@ -29,14 +29,14 @@ double range_of(std::size_t gate) {
     return first_gate_m + static_cast<double>(gate_spacing_m) * static_cast<double>(gate);
 }
 
-// Gate centres of one cut: where each lies in the plane of its azimuth.
+// Returns the centers of the gates of one cut: where each lies in the plane of its azimuth.
 std::vector<grid::EarthPoint> gate_points(const grid::BeamGeometry& beam, const Cut& cut) {
     const double elevation_deg = cut.elevation_deg;
     const std::size_t most = cut.waveform == Waveform::doppler ? most_doppler_gates : most_gates;
     std::vector<grid::EarthPoint> points;
     for (std::size_t gate = 0; gate < most; ++gate) {
         points.push_back(beam.forward({range_of(gate), elevation_deg}));
-        // Gate counts are multiples of four, as the RDA's are.
+        // The number of gates is a multiple of four, as in those of the RDA.
         if (points.back().height_m > observed_height_m && points.size() % 4 == 0) break;
     }
     return points;
@@ -63,7 +63,7 @@ std::uint8_t code_of(double value, const SweepMoment& moment) {
     return static_cast<std::uint8_t>(std::clamp(code, 2.0, 255.0));
 }
 
-// Which gates of a ray lie inside some disc: a superset of those with echo.
+// The gates of a ray that may lie inside a disc. They include all gates with echo.
 struct GateSpan {
     std::size_t first = 0;
     std::size_t end = 0;
@@ -119,7 +119,7 @@ void RadialObserver::make_parts() {
     }
 }
 
-// Gates that need equally many points make a band.
+// Gates that need equally many points form a band.
 void RadialObserver::make_bands(Part& part) const {
     const Instrument& instrument = scene_.instrument;
     const double width_deg = instrument.beam_width_deg;
@@ -152,7 +152,7 @@ void RadialObserver::make_bands(Part& part) const {
     }
 }
 
-// Has the gates lie on a ray at the radial's elevation.
+// Computes the places of the gates on a ray at the elevation of the radial.
 void RadialObserver::aim(const level2::Radial& radial) {
     const double elevation_deg = radial.elevation_deg;
     if (elevation_deg == aimed_deg_) return;
@@ -162,12 +162,14 @@ void RadialObserver::aim(const level2::Radial& radial) {
     }
 }
 
-// The first time all gates; then, as the antenna jitters, those that may lie over the disc.
+// The first call computes all gates; later calls, as the antenna jitters, only those that may lie
+// over the disc.
 void RadialObserver::aim(Part& part, double elevation_deg, const Disc& disc) const {
     if (elevation_deg == part.aimed_deg) return;
     const bool first_time = std::isnan(part.aimed_deg);
     part.aimed_deg = elevation_deg;
-    constexpr double slack_m = 3000;  // more than a beam's edges lie before or behind its axis
+    // more than the distance of a beam's edges before or behind its axis
+    constexpr double slack_m = 3000;
     const double distance_m = std::hypot(disc.x_m, disc.y_m);
     for (Band& band : part.bands) {
         for (Row& row : band.rows) {
@@ -183,7 +185,7 @@ void RadialObserver::aim(Part& part, double elevation_deg, const Disc& disc) con
     }
 }
 
-// Whether some ray of the beam may pass over a disc.
+// Returns true if some ray of the beam may pass over a disc.
 bool RadialObserver::may_meet(const Disc& disc, const level2::Radial& radial) const {
     const double distance_m = std::hypot(disc.x_m, disc.y_m);
     if (distance_m <= disc.radius_m) return true;
@@ -249,7 +251,7 @@ void RadialObserver::write_gate(std::size_t row, std::size_t gate, const GateEch
     sw_.codes8[at(sw_)] = folded ? folded_code : code_of(echo.width_mps, sw_);
 }
 
-// The whole of it when the instrument does nothing.
+// This is all that is needed if the instrument has no effects.
 void RadialObserver::observe_points(std::size_t row, const level2::Radial& radial, double t_s) {
     const Ray axis{radial.azimuth_deg, radial.elevation_deg, 1, 0, points_.size(), &points_};
     const double elevation_cosine = std::cos(radial.elevation_deg * degree);
@@ -332,8 +334,8 @@ void RadialObserver::add_clutter(const level2::Radial& radial) {
     }
 }
 
-// Only cuts with velocity that sample with ambiguity; the reflectivity of all cuts is that of a
-// surveillance cut.
+// Only cuts with velocity that are sampled with ambiguity are folded. The reflectivity of all cuts
+// is that of a surveillance cut.
 std::vector<bool> RadialObserver::find_folded() const {
     const bool ambiguous = cut_.waveform == Waveform::doppler || cut_.waveform == Waveform::batch;
     if (!scene_.instrument.range_folding || !ambiguous) return {};
@@ -346,12 +348,13 @@ std::vector<bool> RadialObserver::find_folded() const {
     return overlaid_gates(power, trip_gates, static_cast<double>(folding_threshold_db));
 }
 
-// What is estimated of a gate's echo, or of none.
+// Returns the estimate for the echo of a gate, or for none.
 GateEcho RadialObserver::estimate(std::size_t number, std::size_t gate) const {
     const Instrument& instrument = scene_.instrument;
     GateEcho echo = echoes_[gate];
     const auto nyquist = static_cast<double>(nyquist_mps(cut_));
-    const double of_noise_mps = nyquist / std::numbers::sqrt3;  // which has all velocities alike
+    // noise has all velocities with equal probability
+    const double of_noise_mps = nyquist / std::numbers::sqrt3;
     if (instrument.noise_db > 0 || instrument.velocity_noise_mps > 0) {
         const RandomWords words =
             draw(instrument.seed, Draw::gate,

@@ -1,8 +1,8 @@
-// synth/radial_observer.h -- the gates of one sweep as its radials are observed: samples of the
+// synth/radial_observer.h -- observes the gates of one sweep, radial by radial: samples of the
 // truth, then the effects of the instrument, then codes.
 //
-// Units    metres, degrees, seconds since the scene's start.
-// Threads  one thread; the scene and the beam must outlive it.
+// Units     Meters, degrees, seconds since the start of the scene.
+// Threads   One thread at a time. The scene and the beam must outlive it.
 #pragma once
 
 #include <optional>
@@ -23,18 +23,18 @@ class RadialObserver {
         int cut = 1;              // from 1
         std::size_t radials = 0;  // rows of the sweep
     };
-    // `like` is any radial of the sweep: its calibration sets what is shown.
+    // `like` is any radial of the sweep; its calibration decides what is shown.
     RadialObserver(const Scene& scene, const grid::BeamGeometry& beam, const Cut& cut,
                    const level2::Radial& like, const Place& place);
 
-    // Fills a row. `number` is the radial's in the full turn, lost ones counted.
+    // Fills a row. `number` is the radial's number in the full turn, lost radials included.
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
-    // What was observed; nothing may follow.
+    // Returns what was observed. Nothing may be observed after that.
     [[nodiscard]] std::vector<level2::SweepMoment> take();
 
   private:
-    // Gates [first, end) of one straight ray inside the beam.
+    // The gates [first, end) of one straight ray inside the beam.
     struct Ray {
         double azimuth_deg = 0;
         double elevation_deg = 0;
@@ -43,7 +43,7 @@ class RadialObserver {
         std::size_t end = 0;
         const std::vector<grid::EarthPoint>* points = nullptr;
     };
-    // Rays that share elevation and offset in range.
+    // Rays that share their elevation and their offset in range.
     struct Row {
         double elevation_offset_deg = 0;
         double range_offset_m = 0;
@@ -57,11 +57,11 @@ class RadialObserver {
         std::vector<BeamNode> azimuths;
         std::vector<Row> rows;
     };
-    // A feature of the weather and how it is sampled.
+    // A feature of the weather, and how it is sampled.
     struct Part {
         Weather weather;
         double ceiling_m = 0;
-        double aimed_deg = 0;  // the elevation that its points are for; NaN: none yet
+        double aimed_deg = 0;  // the elevation for which its points were computed; NaN: none yet
         std::vector<Band> bands;
     };
     // Sums over the beam, in mm^6/m^3.
@@ -95,10 +95,10 @@ class RadialObserver {
     const grid::BeamGeometry& beam_;
     Cut cut_;
     Place place_;
-    std::vector<grid::EarthPoint> points_;  // of the gates, on the beam's axis
-    std::vector<double> limits_dbz_;        // weakest reflectivity shown, by gate
+    std::vector<grid::EarthPoint> points_;  // of the gates, on the axis of the beam
+    std::vector<double> limits_dbz_;        // weakest reflectivity that is shown, by gate
     double ceiling_m_ = 0;                  // no echo is higher
-    double aimed_deg_ = 0;                  // the elevation that the points are for
+    double aimed_deg_ = 0;                  // the elevation for which the points were computed
     std::vector<Part> parts_;               // for a beam with a width
     std::vector<BeamSum> sums_;
     std::vector<GateEcho> echoes_;

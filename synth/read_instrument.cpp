@@ -8,7 +8,7 @@ namespace stormcellar::synth {
 namespace {
 
 constexpr TomlRange directions_deg{-360, 360};
-// More would have radials overtake one another.
+// With larger jitters radials would overtake one another.
 constexpr TomlRange jitters_deg{0, 0.25};
 
 bool read_switch(TomlTable& table, std::string_view key) {

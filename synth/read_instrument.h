@@ -1,4 +1,4 @@
-// synth/read_instrument.h -- the [instrument] table of a scene; docs/scenes.md has its keys.
+// synth/read_instrument.h -- reads the [instrument] table of a scene; docs/scenes.md has its keys.
 #pragma once
 
 #include "base/toml_file.h"
@@ -6,7 +6,8 @@
 
 namespace stormcellar::synth {
 
-// `cuts`: how many the pattern has. What is wrong is complained about, its default stands for it.
+// `cuts` is the number of cuts in the pattern. A wrong value is recorded as a complaint, and its
+// default is used.
 [[nodiscard]] Instrument read_instrument(TomlTable table, int cuts);
 
 }  // namespace stormcellar::synth

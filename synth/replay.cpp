@@ -30,19 +30,19 @@ Status make_directory(const fs::path& path) {
     return {};
 }
 
-// "20220317-000842" of "20220317_000842".
+// Turns "20220317_000842" into "20220317-000842".
 std::string volume_in_chunk_names(UtcTime time) {
     std::string text = format_compact(time);
     std::replace(text.begin(), text.end(), '_', '-');
     return text;
 }
 
-// A file that comes piece by piece.
+// A file that is written piece by piece.
 struct Growing {
     std::vector<std::byte> bytes;
-    std::vector<std::size_t> ends;  // of its pieces
+    std::vector<std::size_t> ends;  // the ends of its pieces
     std::vector<Arrival> arrivals;
-    std::size_t next = 0;  // arrival
+    std::size_t next = 0;  // index in arrivals
     bool ends_volume = false;
 
     [[nodiscard]] std::span<const std::byte> piece(std::size_t number) const {
@@ -73,7 +73,7 @@ class Player {
     }
 
   private:
-    // When a file, or a piece of one, is due.
+    // When a file, or a piece of a file, is due.
     struct Due {
         double seconds = 0;
         std::size_t item = 0;
@@ -87,7 +87,7 @@ class Player {
     Status play_whole() {
         double due_s = 0;
         for (const Arrival& arrival : arrivals_of(options_.faults, 0, items_.size())) {
-            // One that comes behind the next comes at the next one's time.
+            // A piece that comes after the next one comes at the next one's time.
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
             if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
@@ -132,7 +132,7 @@ class Player {
         return {};
     }
 
-    // One piece; begins the file and forgets it behind the last.
+    // Writes one piece. The first piece begins the file; after the last one it is forgotten.
     Status play_next(std::size_t item) {
         auto place = growing_.find(item);
         if (place == growing_.end()) {
@@ -192,7 +192,7 @@ class Player {
         return to_string(name);
     }
 
-    // Gives how many of its bytes are to be written.
+    // Returns how many of its bytes are to be written.
     std::size_t note_arrival(const ReplayItem& item, const fs::path& name, std::size_t chunk,
                              const Arrival& arrival, std::size_t bytes) {
         const std::size_t kept = kept_bytes(arrival, bytes);
@@ -210,7 +210,7 @@ class Player {
         if (options_.replayed) options_.replayed(report_.files);
     }
 
-    // Looks at the flag ten times a second; false when it is set.
+    // Waits, checking the flag ten times a second. Returns false if the flag is set.
     [[nodiscard]] bool wait_until(double seconds, std::size_t item) const {
         const auto end = begin_ + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(seconds));

@@ -29,7 +29,7 @@ Status set(FaultRates& rates, std::string_view key, std::string_view value) {
          {"truncate", &rates.truncate}}};
     for (const auto& [name, probability] : probabilities) {
         if (name != key) continue;
-        // The second also refuses what is no number.
+        // The second condition also refuses NaN.
         if (!read_number(value, *probability) || !is_within(*probability, 0.0, 1.0)) {
             return fail(ErrorCode::bad_argument,
                         "faults: {} is a probability from 0 to 1, not '{}'", key, value);

@@ -1,15 +1,18 @@
-// synth/replay_faults.h -- what goes wrong on the way to a drop directory, on purpose.
+// synth/replay_faults.h -- makes faults on purpose on the way to a drop directory.
 //
-// What comes is a row: a file's pieces where they come one by one, else the files in their order.
-//   drop      it never comes. In a file that grows its bytes are missing in the midst.
-//   repeat    it comes a second time behind itself: appended again, or its file written again with
-//             the same bytes.
-//   reorder   it comes behind the next of its row.
-//   truncate  its last bytes are missing, one at least and not all: a random number.
-// Each has one fault at most; one behind which a reordered one comes has none. The last of a row is
-// not reordered, and a piece of less than two bytes not truncated. Random numbers depend on the
-// seed and on the place in the row alone: the same sources give the same faults at any speed.
-// Threads: pure functions.
+// The unit of a fault is an element of a row: a piece of a file if files come piece by piece, else
+// a file, in order.
+//   drop      It never comes. In a file that grows, its bytes are missing in the middle.
+//   repeat    It comes a second time after itself: it is appended again, or its file is written
+//             again with the same bytes.
+//   reorder   It comes after the next element of its row.
+//   truncate  Its last bytes are missing: a random number, at least one and not all.
+// Each element has at most one fault, and one that a reordered element comes after has none. The
+// last element of a row is not reordered, and a piece of less than two bytes is not truncated.
+// Random numbers depend only on the seed and on the place in the row, so the same sources give the
+// same faults at any speed.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -25,26 +28,27 @@ enum class Fault : std::uint8_t { none, drop, repeat, reorder, truncate };
 [[nodiscard]] std::string_view to_string(Fault fault);
 
 struct FaultRates {
-    double drop = 0, repeat = 0, reorder = 0, truncate = 0;  // probabilities; at most 1 in all
+    // probabilities; their sum is at most 1
+    double drop = 0, repeat = 0, reorder = 0, truncate = 0;
     std::uint32_t seed = 1;
 };
 
-// "drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7": any of them, each once at most.
-// Errors: bad_argument, with what is wrong and what there is.
+// Parses "drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7": any of these, each at most
+// once. Errors: bad_argument, with what is wrong and what is allowed.
 [[nodiscard]] Result<FaultRates> parse_fault_rates(std::string_view text);
 
-// One write. A dropped one is listed too, with nothing to write.
+// One write. A dropped element is listed too, with nothing to write.
 struct Arrival {
     std::size_t piece = 0;
     Fault fault = Fault::none;
-    bool again = false;  // the second of a repeated one
-    double kept = 1;     // of its bytes, in (0, 1)
+    bool again = false;  // the second write of a repeated element
+    double kept = 1;     // share of its bytes, in (0, 1)
 };
 
-// In the order in which they come. `row` is the number of the row.
+// Returns the writes in the order in which they come. `row` is the number of the row.
 [[nodiscard]] std::vector<Arrival> arrivals_of(const FaultRates& rates, std::uint32_t row,
                                                std::size_t pieces);
-// What is left of so many bytes: all of them unless it was truncated.
+// Returns how many of these bytes are left: all of them unless it was truncated.
 [[nodiscard]] std::size_t kept_bytes(const Arrival& arrival, std::size_t bytes);
 
 }  // namespace stormcellar::synth

@@ -1,4 +1,4 @@
-// find_replay_items(): what there is to play, and in which order.
+// find_replay_items(): finds what there is to play, and in which order.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -36,7 +36,7 @@ void read_facts(ReplayItem& item, std::span<const std::byte> bytes) {
     if (item.station.empty()) item.station = station_in_name(item.name.filename().string());
 }
 
-// What cannot be read says so when its turn comes.
+// Reads the start of a file. A file that cannot be read is reported when its turn comes.
 void read_start(ReplayItem& item) {
     std::vector<char> start(start_bytes);
     std::ifstream file(item.source, std::ios::binary);
@@ -45,7 +45,7 @@ void read_start(ReplayItem& item) {
     read_facts(item, std::as_bytes(std::span(start)));
 }
 
-// Of a tar or zip archive its members; none where it is none.
+// Returns the members of a tar or zip archive, or none if it is not an archive.
 std::vector<ReplayItem> members_of(const fs::path& source) {
     std::vector<ReplayItem> items;
     const Descriptor file{::open(source.c_str(), O_RDONLY | O_CLOEXEC)};
@@ -97,7 +97,7 @@ Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
     return items;
 }
 
-// Known times first, then names.
+// Compares by time if it is known, then by name.
 bool earlier(const ReplayItem& a, const ReplayItem& b) {
     if (a.time.has_value() != b.time.has_value()) return a.time.has_value();
     if (a.time && *a.time != *b.time) return *a.time < *b.time;
@@ -121,7 +121,7 @@ Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& s
                         item.source.native());
         }
         std::error_code ignored;
-        // Of members it is known.
+        // For members it is known already.
         if (fs::exists(item.source, ignored)) read_start(item);
     }
     std::sort(items.begin(), items.end(), earlier);

@@ -1,6 +1,7 @@
-// synth/replay_pieces.h -- the pieces in which a volume's file comes, as LDM's chunks.
+// synth/replay_pieces.h -- cuts a volume's file into the pieces in which it comes, like LDM's
+// chunks.
 //
-// Threads: pure functions.
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +10,18 @@
 
 namespace stormcellar::synth {
 
-// Where the pieces of a file end, rising; the last is its size. A piece is an LDM record (the first
-// with the header before it; a second header in the midst begins a piece too). What has no LDM
-// records comes in sixteenths.
+// Returns where the pieces of a file end, rising; the last one is its size. A piece is an LDM
+// record; the first one includes the header before it, and a second header also begins a piece. A
+// file without LDM records comes in sixteenths.
 [[nodiscard]] std::vector<std::size_t> piece_ends(std::span<const std::byte> bytes);
 
-// Whether LDM records begin here, or behind a header.
+// Returns true if LDM records begin here or after a header.
 [[nodiscard]] bool has_ldm_records(std::span<const std::byte> bytes);
 
-// Whether the control word of the last LDM record says that the volume ends.
+// Returns true if the control word of the last LDM record says that the volume ends.
 [[nodiscard]] bool ends_volume(std::span<const std::byte> bytes);
 
-// What is inside of gzip, as far as it can be read; other bytes as they are.
+// Returns what is inside gzip, as far as it can be read. Other bytes are returned unchanged.
 [[nodiscard]] std::vector<std::byte> without_gzip(std::vector<std::byte> bytes);
 
 }  // namespace stormcellar::synth

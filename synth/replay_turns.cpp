@@ -36,7 +36,7 @@ std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
     double start_s = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
         const ReplayItem& item = items[i];
-        if (!item.time) {  // behind all that have one
+        if (!item.time) {  // after all that have a time
             turns[i].start_s = start_s;
             continue;
         }
@@ -66,7 +66,7 @@ std::string_view why_not_in_chunks(const ReplayItem& item) {
 
 Result<std::vector<fs::path>> targets_of(const std::vector<ReplayItem>& items, Delivery delivery) {
     std::vector<fs::path> targets;
-    std::map<std::string, std::set<int>> numbers;  // that are taken, by station
+    std::map<std::string, std::set<int>> numbers;  // numbers in use, by station
     for (const ReplayItem& item : items) {
         if (delivery != Delivery::chunks) {
             targets.push_back(item.name);

@@ -1,6 +1,6 @@
 // synth/replay_turns.h -- when each file of a replay begins, how long it takes, and its name.
 //
-// Threads: pure functions.
+// Threads   Pure functions.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace stormcellar::synth {
 
-// Seconds of the replay.
+// In seconds of the replay.
 struct ReplayTurn {
     double start_s = 0;
-    double span_s = 0;  // from its first piece to where the one behind its last would come
+    double span_s = 0;  // from its first piece to when the piece after its last would come
 };
 [[nodiscard]] std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
                                                const ReplayOptions& options);
 
-// Below the drop directory: the file, or for chunks the directory of the volume.
-// Errors: bad_argument as in replay().
+// Returns the target of each item below the drop directory: the file, or for chunks the directory
+// of the volume. Errors: bad_argument as in replay().
 [[nodiscard]] Result<std::vector<std::filesystem::path>> targets_of(
     const std::vector<ReplayItem>& items, Delivery delivery);
 

@@ -1,7 +1,7 @@
 // synth/replay_writer.h -- writes pieces into files as LDM's pqact does.
 //
-// Errors: io with the path and the system's reason.
-// Threads: one.
+// Threads   One thread at a time.
+// Errors    io, with the path and the system's reason.
 #pragma once
 
 #include <cstddef>
@@ -16,25 +16,25 @@ namespace stormcellar::synth {
 
 class PieceWriter {
   public:
-    // So many files stay open behind append(); 0: each is closed at once.
+    // Up to `most_open` files stay open after append(). With 0, each is closed at once.
     explicit PieceWriter(std::size_t most_open) : most_open_(most_open) {}
     PieceWriter(const PieceWriter&) = delete;
     PieceWriter& operator=(const PieceWriter&) = delete;
     ~PieceWriter();
 
-    // Makes the file where there is none.
+    // Appends to a file, which is made if it does not exist.
     [[nodiscard]] Status append(const std::filesystem::path& path,
                                 std::span<const std::byte> bytes);
-    // The file holds these bytes and nothing else, and is closed.
+    // Writes a file that holds these bytes and nothing else, and closes it.
     [[nodiscard]] Status put(const std::filesystem::path& path, std::span<const std::byte> bytes);
-    // Closes all that are open.
+    // Closes all open files.
     [[nodiscard]] Status close();
 
   private:
     [[nodiscard]] Status close_oldest();
 
     std::size_t most_open_;
-    std::list<std::pair<std::filesystem::path, int>> open_;  // written last at the end
+    std::list<std::pair<std::filesystem::path, int>> open_;  // the last written one at the end
 };
 
 }  // namespace stormcellar::synth

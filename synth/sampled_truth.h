@@ -1,17 +1,16 @@
-// synth/sampled_truth.h -- the truth of a scene where and when others ask for it: at places on the
-// earth and times of the clock, at places as its radar has them, and as velocity seen from any
-// site.
+// synth/sampled_truth.h -- samples the truth of a scene at places on the earth and times of the
+// clock, at places as its radar has them, and as velocity seen from any site.
 //
-// Units    degrees (WGS84), metres, heights above mean sea level, m/s positive away from the site.
-// Model    the weather lies in the azimuthal equidistant plane about the scene's radar
-//          (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and north
-//          of a motion are those of that plane. Radial velocity is the horizontal motion times the
-//          cosine of the elevation at the antenna, as in synth/observe.h; from a site other than
-//          the scene's the direction is that in the plane, whose scale errs by (arc / earth
-//          radius)^2 / 6 across the radius: 0.02 % at 230 km.
-// Accuracy 1e-6 m in place within 500 km; the rest is synth/truth.h. Enforced by
-//          tests/synth/sampled_truth_test.cpp.
-// Threads  immutable; the scene must outlive it.
+// Units     Degrees (WGS84), meters, heights above mean sea level, m/s positive away from the site.
+// Model     The weather lies in the azimuthal equidistant plane about the scene's radar
+//           (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and
+//           north of a motion are those of that plane. Radial velocity is the horizontal motion
+//           times the cosine of the elevation at the antenna, as in synth/observe.h. From a site
+//           other than the scene's, the direction is that in the plane, whose scale errs by (arc /
+//           earth radius)^2 / 6 across the radius: 0.02 % at 230 km.
+// Accuracy  1e-6 m in place within 500 km, and that of synth/truth.h. Enforced by
+//           tests/synth/sampled_truth_test.cpp.
+// Threads   Immutable; the scene must outlive it.
 #pragma once
 
 #include <optional>
@@ -37,18 +36,18 @@ class SampledTruth {
   public:
     explicit SampledTruth(const Scene& scene) : scene_(scene) {}
 
-    // Seconds since the scene's start, negative before it.
+    // Returns the seconds since the start of the scene, negative before it.
     [[nodiscard]] double seconds_at(UtcTime time) const;
-    // Where a place lies in the scene's plane.
+    // Returns the place in the plane of the scene.
     [[nodiscard]] Point point_of(const Place& place) const;
     [[nodiscard]] static Point point_of(const PolarPlace& place);
 
-    // Minus infinity dBZ where there is nothing.
+    // Returns the echo; minus infinity dBZ where there is nothing.
     [[nodiscard]] Echo at(const Place& place, UtcTime time) const;
     [[nodiscard]] Echo at(const PolarPlace& place, UtcTime time) const;
 
-    // What a radar without instrument effects would measure there, aliasing left out; none where
-    // there is no echo. `site`'s height is its antenna's.
+    // Returns what a radar without instrument effects would measure there, without aliasing, or
+    // none if there is no echo. The height of `site` is that of its antenna.
     [[nodiscard]] std::optional<double> radial_velocity_mps(const Place& place, const Place& site,
                                                             UtcTime time) const;
     // The same from the scene's radar.

@@ -12,7 +12,7 @@ namespace stormcellar::synth {
 namespace {
 
 constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
-constexpr double most_normal = 6.8;  // normals_of() gives no more
+constexpr double most_normal = 6.8;  // the largest number that normals_of() returns
 
 double linear(double db) {
     return std::pow(10, db / 10);
@@ -34,7 +34,8 @@ double velocity_deviation_mps(double dbz, double noise_level_dbz, double velocit
 double wrapped_mps(double velocity_mps, double nyquist_mps) {
     const double turns = std::floor((velocity_mps + nyquist_mps) / (2 * nyquist_mps));
     const double wrapped = velocity_mps - turns * 2 * nyquist_mps;
-    return wrapped < nyquist_mps ? wrapped : -nyquist_mps;  // rounded up to the end
+    // it was rounded up to the end of the interval
+    return wrapped < nyquist_mps ? wrapped : -nyquist_mps;
 }
 
 std::vector<bool> overlaid_gates(std::span<const double> power, double gates_a_trip,
@@ -105,7 +106,7 @@ Jitter jitter_at(std::uint32_t seed, int volume, int cut, double since_start_s) 
         const double turns = since_start_s / period_s;
         jitter.azimuth += std::sin(2 * std::numbers::pi * (turns + uniform_of(words[0]))) / 3;
         jitter.elevation += std::sin(2 * std::numbers::pi * (turns + uniform_of(words[1]))) / 3;
-        ++place.radial;  // the next wave's
+        ++place.radial;  // for the next wave
     }
     return jitter;
 }

@@ -1,8 +1,9 @@
-// synth/synth_effects.h -- instrument effects one at a time: noise, folding, clutter, jitter, loss.
+// synth/synth_effects.h -- the effects of the instrument one at a time: noise, folding, clutter,
+// jitter, loss.
 //
-// Units    dBZ, dB, m/s, metres, degrees, seconds. Minus infinity dBZ is no echo.
-// Accuracy the formulas in double.
-// Threads  all functions are pure; what is random comes from synth/counter_random.h.
+// Units     dBZ, dB, m/s, meters, degrees, seconds. Minus infinity dBZ means no echo.
+// Accuracy  The formulas in double.
+// Threads   Pure functions. synth/counter_random.h gives the random numbers.
 #pragma once
 
 #include <span>
@@ -13,40 +14,43 @@
 
 namespace stormcellar::synth {
 
-// What a gate returns, each part weighted by its reflectivity in mm^6/m^3.
+// What a gate returns, with each part weighted by its reflectivity in mm^6/m^3.
 struct GateEcho {
     double dbz = 0;
     double away_mps = 0;
     double width_mps = 0;  // of the spectrum
 };
 
-// An estimate of the reflectivity from the power of echo and noise together, less the mean noise:
-//   (S + N) exp(k g - k^2 / 2) - N,   k = noise_db ln(10) / 10,   g of mean 0 and deviation 1.
-// So it is right in the mean of mm^6/m^3, its deviation is noise_db far above the noise and to
-// first order noise_db (1 + N/S) (a power of M independent samples, less the noise, deviates by
-// (1 + N/S) / sqrt(M); Doviak & Zrnic 1993, chapter 6). Without echo it is noise alone.
+// Returns an estimate of the reflectivity from the power of echo and noise together, less the mean
+// noise:
+//   (S + N) exp(k g - k^2 / 2) - N,   k = noise_db ln(10) / 10,   g with mean 0 and deviation 1.
+// The mean in mm^6/m^3 is thus right. The deviation is noise_db far above the noise, and to first
+// order noise_db (1 + N/S). (The power of M independent samples, less the noise, has the deviation
+// (1 + N/S) / sqrt(M); Doviak & Zrnic 1993, chapter 6.) Without echo the estimate is noise alone.
 [[nodiscard]] double noisy_dbz(double dbz, double noise_level_dbz, double noise_db, double normal);
 
-// The deviation of a velocity: velocity_noise_mps (1 + N/S). Estimators' formulas (there) have N/S
-// and its square with coefficients that hang on the spectrum's width; this is both with one.
+// Returns the deviation of a velocity: velocity_noise_mps (1 + N/S). The formulas of estimators
+// (same source) have N/S and its square with coefficients that depend on the width of the spectrum;
+// here both coefficients are one.
 [[nodiscard]] double velocity_deviation_mps(double dbz, double noise_level_dbz,
                                             double velocity_noise_mps);
 
-// What a velocity shows as: in [-nyquist, nyquist), a multiple of 2 nyquist off.
+// Returns the velocity that is shown: in [-nyquist, nyquist), off by a multiple of 2 nyquist.
 [[nodiscard]] double wrapped_mps(double velocity_mps, double nyquist_mps);
 
-// Echo of several trips overlaid. `power` is each gate's, as Z over the range squared; gates of one
-// radial, equally spaced. A gate is folded where its own power is less than `threshold_db` above
-// the sum of those that arrive with it: all whole multiples of the unambiguous range away, to the
-// nearest gate. Echo beyond the last gate does not come back.
+// Returns which gates are folded, because echo of several trips overlaps. The gates belong to one
+// radial and are equally spaced; `power` is Z over the square of the range. A gate is folded if its
+// own power is less than `threshold_db` above the sum of the powers that arrive with it: those at
+// all whole multiples of the unambiguous range away, to the nearest gate. Echo beyond the last gate
+// does not come back.
 [[nodiscard]] std::vector<bool> overlaid_gates(std::span<const double> power, double gates_a_trip,
                                                double threshold_db);
 
 // Ground clutter in a beam:
 //   peak - (peak - 10) range / range_m - 80 log10(2) (elevation / beam width)^2 + texture_db g
-// with the elevation's part 0 for beams below the horizon: the two-way Gaussian pattern of a beam
-// above it. g is of mean 0 and deviation 1 and belongs to the ground: half a degree by 250 m, the
-// same in every cut and volume. Ends below -20 dBZ.
+// The part with the elevation is the two-way Gaussian pattern of a beam above the horizon, and 0
+// for beams below it. g has mean 0 and deviation 1 and belongs to the ground: it changes every half
+// degree and 250 m, and is the same in every cut and volume. Clutter ends below -20 dBZ.
 struct ClutterBeam {
     double azimuth_deg = 0;  // [0, 360)
     double elevation_deg = 0;
@@ -54,23 +58,23 @@ struct ClutterBeam {
 };
 [[nodiscard]] double clutter_dbz(const Clutter& clutter, std::uint32_t seed,
                                  const ClutterBeam& beam, double range_m);
-// None beyond this range, in any beam.
+// Returns the range beyond which no beam has clutter.
 [[nodiscard]] double clutter_reach_m(const Clutter& clutter);
-inline constexpr double clutter_width_mps = 0.3;  // of its spectrum, about 0 m/s
+inline constexpr double clutter_width_mps = 0.3;  // of its spectrum, around 0 m/s
 
-// Of two echoes: reflectivities add in mm^6/m^3, velocity and squared width are those of the sum of
-// the two spectra.
+// Returns the sum of two echoes: reflectivities add in mm^6/m^3; velocity and squared width are
+// those of the sum of the two spectra.
 [[nodiscard]] GateEcho sum_of(const GateEcho& a, const GateEcho& b);
 
-// The antenna's deviation at a time after the start of its cut, at most 1 either way: the mean of
-// three sines of 7.3, 3.1 and 1.7 seconds with phases of their own in each cut and volume.
+// The antenna's deviation at a time after the start of its cut, at most 1 in either direction: the
+// mean of three sines of 7.3, 3.1 and 1.7 seconds, with phases of their own in each cut and volume.
 struct Jitter {
     double azimuth = 0;
     double elevation = 0;
 };
 [[nodiscard]] Jitter jitter_at(std::uint32_t seed, int volume, int cut, double since_start_s);
 
-// Whether a radial is lost. Cuts count from 1, radials from 0 in the order of the sweep.
+// Tells whether a radial is lost. Cuts count from 1, radials from 0 in the order of the sweep.
 struct RadialPlace {
     int volume = 0;
     int cut = 1;

@@ -19,8 +19,8 @@ constexpr TomlRange peaks_dbz{edge_dbz + 1, 90};
 constexpr TomlRange directions_deg{-360, 360};
 constexpr double km = 1000;
 
-// Keys that must be there. What is missing or wrong is complained about, and the least stands for
-// it.
+// Reads a required key. If it is missing or wrong, that is recorded as a complaint, and the least
+// value is used.
 double needed_number(TomlTable& table, std::string_view key, TomlRange range) {
     if (!table.has(key)) table.complain(key, "is missing");
     return table.number(key, range).value_or(range.least);
@@ -41,7 +41,7 @@ struct Pair {
     double second = 0;
 };
 
-// Two numbers, as [east, north].
+// Reads two numbers, as [east, north].
 Pair pair_or(TomlTable& table, std::string_view key, TomlRange range, Pair otherwise) {
     const auto numbers = table.numbers(key);
     if (!numbers) return otherwise;
@@ -73,7 +73,7 @@ Site read_site(TomlTable radar) {
     const auto known = find_station(site.station);
     const auto read = [&](std::string_view key, TomlRange range, double Station::*field) {
         if (known) return radar.number(key, range).value_or((*known).*field);
-        // A wrong name would only seem to have no position.
+        // A radar with a wrong name would only seem to have no position.
         return named ? needed_number(radar, key, range) : radar.number(key, range).value_or(0);
     };
     site.latitude_deg = read("latitude_deg", {-90, 90}, &Station::latitude_deg);
@@ -240,7 +240,8 @@ Box read_box(TomlTable& table) {
     return box;
 }
 
-// Where the radar stands in the plane about the weather's own origin; none: that is the radar.
+// Returns where the radar stands in the plane about the weather's own origin; none: the radar is
+// the origin.
 std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
     const bool has_latitude = weather.has("latitude_deg");
     if (has_latitude != weather.has("longitude_deg")) {
@@ -298,7 +299,7 @@ Stand stand_of(const Site& site, double latitude_deg, double longitude_deg) {
     const grid::PolarPoint there = origin.to_polar({site.latitude_deg, site.longitude_deg});
     const grid::PolarPoint back = radar.to_polar({latitude_deg, longitude_deg});
     const grid::PlanePoint place = grid::SiteFrame::to_plane(there);
-    // At the origin itself north is north.
+    // At the origin itself there is no turn.
     const double turn_deg =
         there.arc_m > 0 ? std::remainder(there.azimuth_deg + 180 - back.azimuth_deg, 360) : 0;
     return {place.x_m, place.y_m, turn_deg};

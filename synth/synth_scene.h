@@ -1,7 +1,10 @@
-// synth/synth_scene.h -- what a simulated radar is to see: one site, its schedule and the weather.
+// synth/synth_scene.h -- what a simulated radar sees: one site, its schedule and the weather.
 //
-// Read from TOML; docs/scenes.md has every key, with units and defaults. Errors are bad_argument
-// (or what reading the file gives) and name the file, the line and the key.
+// A scene is read from TOML; docs/scenes.md has every key, with units and defaults.
+//
+// Units     Each member names its unit.
+// Threads   Plain data and pure functions.
+// Errors    bad_argument, naming the file, the line and the key; those of reading the file.
 #pragma once
 
 #include <filesystem>
@@ -20,13 +23,13 @@ struct Site {
     std::string station;  // ICAO; names the files
     double latitude_deg = 0;
     double longitude_deg = 0;
-    int antenna_altitude_m = 0;  // whole metres, as message 31 has it
+    int antenna_altitude_m = 0;  // whole meters, as in message 31
 };
 
 struct Schedule {
     int count = 1;
     UtcTime start;            // of the first volume; t = 0 of the weather
-    double interval_s = 300;  // from start to start; never shorter than the pattern takes
+    double interval_s = 300;  // from one start to the next; never shorter than the pattern takes
     Pattern pattern;
 
     [[nodiscard]] UtcTime start_of(int volume) const;
@@ -39,8 +42,8 @@ struct Scene {
     Instrument instrument;
 };
 
-// Where a radar stands in the plane of weather whose origin is that place: so two scenes with one
-// origin are two radars that look at the same weather.
+// Returns where a radar stands in the plane of weather whose origin is that place. So two scenes
+// with one origin are two radars that look at the same weather.
 [[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
 // `name` stands for the file in messages.

@@ -20,7 +20,7 @@ struct Offset {
     double north_m = 0;
 };
 
-// Clockwise.
+// Turns an offset clockwise.
 Offset turned(const Offset& offset, double turn_deg) {
     const double sine = std::sin(turn_deg * degree);
     const double cosine = std::cos(turn_deg * degree);
@@ -28,7 +28,7 @@ Offset turned(const Offset& offset, double turn_deg) {
             offset.north_m * cosine - offset.east_m * sine};
 }
 
-// The footprint as a radar has it that stands there.
+// Moves a footprint into the plane of a radar that stands there.
 void move(Footprint& footprint, const Stand& stand) {
     const Offset place =
         turned({footprint.x_m - stand.x_m, footprint.y_m - stand.y_m}, -stand.turn_deg);
@@ -54,21 +54,21 @@ void move(Storm& storm, const Stand& stand) {
     storm.hook->to_deg -= stand.turn_deg;
 }
 
-// Of a point from a footprint's centre, which leans by `lean`.
+// Returns the offset of a point from the center of a footprint that leans by `lean`.
 Offset offset_from(const Footprint& footprint, const Point& point, double t_s,
                    const Offset& lean = {}) {
     return {point.x_m - footprint.x_m - footprint.motion.east_mps * t_s - lean.east_m,
             point.y_m - footprint.y_m - footprint.motion.north_mps * t_s - lean.north_m};
 }
 
-// What squared_radii is at least: the same, had the ellipse its larger axis all round. It spares
-// most points the rotation.
+// Returns a lower bound of squared_radii(): its value if the larger axis held all round. It saves
+// the rotation for most points.
 double least_squared_radii(const Footprint& footprint, const Offset& offset) {
     return (square(offset.east_m) + square(offset.north_m)) /
            square(std::max(footprint.major_m, footprint.minor_m));
 }
 
-// The squared distance from the centre in units of the half axes.
+// Returns the squared distance from the center in units of the half axes.
 double squared_radii(const Footprint& footprint, const Offset& offset) {
     const double sine = std::sin(footprint.orientation_deg * degree);
     const double cosine = std::cos(footprint.orientation_deg * degree);
@@ -81,7 +81,7 @@ Offset lean_of(const Storm& storm, double z_m) {
     return {storm.tilt_east * (z_m - storm.core_m), storm.tilt_north * (z_m - storm.core_m)};
 }
 
-// The mean of three sines that run in different directions and never repeat together.
+// Returns the mean of three sines that run in different directions and never repeat together.
 double ripple_db(const Ripple& ripple, const Offset& offset, double z_m) {
     if (ripple.most_db == 0) return 0;
     const double scale = 2 * std::numbers::pi / ripple.length_m;
@@ -103,10 +103,10 @@ double storm_dbz(const Storm& storm, const Offset& offset, double z_m) {
     return storm.peak_dbz - depth_db * fall + ripple_db(storm.ripple, offset, z_m);
 }
 
-// `from_center_m` is the point's distance from the centre of the circle.
+// `from_center_m` is the point's distance from the center of the circle.
 double distance_to_arc(const Hook& hook, double east_m, double north_m, double from_center_m) {
     const double azimuth_deg = std::atan2(east_m, north_m) / degree;
-    // Clockwise from the arc's beginning, 0 to 360.
+    // Clockwise from the beginning of the arc, 0 to 360.
     const double turn_deg =
         azimuth_deg - hook.from_deg - 360 * std::floor((azimuth_deg - hook.from_deg) / 360);
     if (turn_deg <= hook.to_deg - hook.from_deg) return std::abs(from_center_m - hook.radius_m);
@@ -165,7 +165,7 @@ double box_dbz(const Box& box, const Point& point, double t_s) {
     return flat_dbz + box.wave.most_db * std::sin(2 * std::numbers::pi * way_m / box.wave.length_m);
 }
 
-// Adds features up in mm^6/m^3, and their motion weighted by it.
+// Adds up features in mm^6/m^3, and their motion weighted by it.
 class Sum {
   public:
     void add(double dbz, const Motion& motion) {
@@ -190,7 +190,7 @@ class Sum {
     double north_ = 0;
 };
 
-// In units of its radii, how far a feature reaches before it ends.
+// Returns how far a feature reaches before it ends, in units of its radii.
 double reach(double peak_dbz, double extra_db) {
     return (peak_dbz + extra_db - weakest_dbz) / (peak_dbz - edge_dbz);
 }
@@ -210,7 +210,7 @@ double storm_ceiling_m(const Storm& storm) {
     return storm.hook ? std::max(own_m, hook_ceiling_m(*storm.hook)) : own_m;
 }
 
-// Heights below sea level count down to here, the lowest of any site.
+// Heights below sea level count down to this one, the lowest of any site.
 constexpr double floor_m = -500;
 
 Disc storm_disc(const Storm& storm, double t_s) {

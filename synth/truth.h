@@ -1,27 +1,29 @@
 // synth/truth.h -- an analytic atmosphere: the reflectivity at any point and time, in closed form.
 //
-// Storms and layers drift with constant velocity over a plane. What is here is the truth that a
-// simulated radar observes and that a grid made from its data can be compared with.
-// Units     metres, seconds, m/s, dBZ, degrees. x points east, y north of the scene's origin (the
-//           radar), in the azimuthal equidistant plane about it; z is the height above mean sea
-//           level; t is the time since the start of the scene. Directions are azimuths: degrees
-//           clockwise from north.
-// Formulas  Each feature has a reflectivity of its own; it ends where that falls below -20 dBZ.
-//           Where features overlap, their reflectivities add as mm^6/m^3.
-//   storm   peak - (peak - 10) (r^2 + h^2) + ripple
-//           r: distance from the axis in units of the radii; the axis leans with height by `tilt`
-//           and stands at (x, y) at the height of the core. h = (z - core) / (top - core) above
-//           the core, 0 below. So a storm is 10 dBZ at its radii and at its top.
-//   hook    dbz - (dbz - 10) ((d / width)^2 + (z / top)^2)
-//           d: horizontal distance from an arc of a circle, which moves and leans with its storm.
+// Storms and layers drift with constant velocity over a plane. This is the truth that a simulated
+// radar observes, and with which a grid from its data can be compared.
+//
+// Each feature has its own reflectivity, and ends where that falls below -20 dBZ. Where features
+// overlap, their reflectivities add as mm^6/m^3.
+//   storm   peak - (peak - 10) (r^2 + h^2) + ripple r is the distance from the axis in units of the
+//           radii. The axis leans with height by `tilt` and is at (x, y) at the height of the core.
+//           h = (z - core) / (top - core) above the core, 0 below. So a storm has 10 dBZ at its
+//           radii and at its top.
+//   hook    dbz - (dbz - 10) ((d / width)^2 + (z / top)^2) d is the horizontal distance from an arc
+//           of a circle, which moves and leans with its storm.
 //   layer   dbz - (dbz - 10) r^4 + bright_band exp(-((z - melting) / depth)^2)
-//           - lapse max(0, z - melting) + ripple, between base and top only
-//   box     dbz - (dbz - 10) (d / edge)^2 + wave sin(2 pi s / length), between base and top only
-//           d: horizontal distance from the rectangle; s: distance from its centre along an
-//           azimuth. So a box is flat, 10 dBZ at `edge` beyond its sides, and cut off sharply at
-//           its base and its top.
-// Accuracy  the formulas in double.
-// Threads   all functions are pure.
+//             - lapse max(0, z - melting) + ripple, only between base and top
+//   box     dbz - (dbz - 10) (d / edge)^2 + wave sin(2 pi s / length), only between base and top d
+//           is the horizontal distance from the rectangle, s the distance from its center along an
+//           azimuth. So a box is flat, has 10 dBZ at `edge` beyond its sides, and is cut off
+//           sharply at its base and its top.
+//
+// Units     Meters, seconds, m/s, dBZ, degrees. x points east and y north of the origin of the
+//           scene (the radar), in the azimuthal equidistant plane about it. z is the height above
+//           mean sea level, and t the time since the start of the scene. Directions are azimuths in
+//           degrees, clockwise from north.
+// Accuracy  The formulas in double.
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -43,9 +45,9 @@ struct Motion {
     double north_mps = 0;
 };
 
-// An upright ellipse in the plane, drifting.
+// An upright ellipse in the plane, which drifts.
 struct Footprint {
-    double x_m = 0;  // the centre at t = 0
+    double x_m = 0;  // the center at t = 0
     double y_m = 0;
     Motion motion;
     double major_m = 10000;  // half axes
@@ -53,16 +55,16 @@ struct Footprint {
     double orientation_deg = 0;  // azimuth of the major axis
 };
 
-// A smooth pattern that moves with its feature: the mean of three waves of different directions.
+// A smooth pattern that moves with its feature: the mean of three waves in different directions.
 struct Ripple {
     double most_db = 0;  // largest change, up or down
     double length_m = 5000;
-    double turn_deg = 0;  // the waves' directions, clockwise
+    double turn_deg = 0;  // the directions of the waves, clockwise
 };
 
 // The arc of a hook echo, seen from its storm's axis.
-struct Hook {
-    double x_m = 0;  // centre of the circle, east and north of the axis
+struct Hook {        // The arc of a hook echo, as seen from the axis of its storm.
+    double x_m = 0;  // center of the circle, east and north of the axis
     double y_m = 0;
     double radius_m = 5000;
     double from_deg = 0;  // the arc runs clockwise between these azimuths
@@ -77,7 +79,7 @@ struct Storm {
     double core_m = 4000;
     double top_m = 12000;
     double peak_dbz = 50;
-    double tilt_east = 0;  // metres of lean for each metre of height
+    double tilt_east = 0;  // meters of lean for each meter of height
     double tilt_north = 0;
     Ripple ripple;
     std::optional<Hook> hook;
@@ -102,7 +104,7 @@ struct Wave {
     double azimuth_deg = 90;  // across the stripes
 };
 
-// A plateau with sides as steep as one likes; the half axes of its footprint are half its sides.
+// A plateau with sides of any steepness. The half axes of its footprint are half its sides.
 struct Box {
     Footprint footprint;
     double base_m = 0;
@@ -118,22 +120,23 @@ struct Weather {
     std::vector<Box> boxes = {};
 };
 
-// Where another radar stands in the plane, and how far its north is turned from the plane's y,
-// clockwise: meridians meet.
+// Where another radar stands in the plane, and how far its north is turned clockwise from the
+// plane's y, because meridians converge.
 struct Stand {
     double x_m = 0;
     double y_m = 0;
     double turn_deg = 0;
 };
-// The same weather in the plane about that radar, as if both planes were one: off by the difference
-// of their scales across the radius, (arc / earth radius)^2 / 6, 50 m where both are 200 km away.
+// Returns the same weather in the plane about that radar, as if both planes were one. The error is
+// the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m where both
+// radars are 200 km away.
 [[nodiscard]] Weather seen_from(const Weather& weather, const Stand& stand);
 
-// The reflectivity, minus infinity where there is nothing.
+// Returns the reflectivity, or minus infinity where there is nothing.
 [[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
 
-// What a radar measures at a point: the reflectivity, and the motion of the features there, each
-// weighted by its reflectivity in mm^6/m^3 (zero where there is nothing).
+// What a radar measures at a point: the reflectivity and the motion of the features there, each
+// weighted by its reflectivity in mm^6/m^3; zero where there is nothing.
 struct Echo {
     double dbz = 0;
     Motion motion;
@@ -147,8 +150,8 @@ struct LinearEcho {
 };
 [[nodiscard]] LinearEcho linear_truth(const Weather& weather, const Point& point, double t_s);
 
-// Discs that contain everything at a time, whatever the height: beyond them truth_dbz is minus
-// infinity. One for each feature.
+// Discs, one for each feature, that contain everything at a time, at any height. Beyond them
+// truth_dbz() is minus infinity.
 struct Disc {
     double x_m = 0;
     double y_m = 0;
@@ -156,7 +159,7 @@ struct Disc {
 };
 [[nodiscard]] std::vector<Disc> echo_discs(const Weather& weather, double t_s);
 
-// No echo is higher than this, at any time.
+// Returns a height that no echo exceeds at any time.
 [[nodiscard]] double echo_ceiling_m(const Weather& weather);
 
 }  // namespace stormcellar::synth

@@ -30,7 +30,8 @@ constexpr auto doppler = Waveform::doppler;
 constexpr auto batch = Waveform::batch;
 constexpr auto high = Waveform::doppler_without_ambiguity;
 
-// One line of a pattern as message 5 has it: rate in its units, threshold in eighths of a decibel.
+// One line of a pattern as in message 5: the rate in its units, the threshold in eighths of a
+// decibel.
 struct Line {
     double elevation_deg;
     Waveform waveform;
@@ -92,7 +93,7 @@ constexpr Line lines_215[] = {
     {16.6992, high, 18672, 0, 0, 8, 50, 8},        {19.5117, high, 18672, 0, 0, 8, 50, 8},
 };
 
-// A PRF of the table, whatever the scene says.
+// Returns a PRF of the table, whatever the scene says.
 const PrfFacts& facts_of(const Cut& cut) {
     const int number = has_velocity(cut) ? cut.doppler_prf : cut.surveillance_prf;
     return prf_facts[static_cast<std::size_t>(std::clamp(number, 0, 8))];
@@ -103,7 +104,7 @@ std::array<std::uint8_t, 22> doppler_sectors(const Cut& cut) {
     std::array<std::uint8_t, 22> rest{};
     if (!has_velocity(cut)) return rest;
     constexpr std::array<std::uint16_t, 3> edges = {0x1558, 0x9558, 0xEE38};
-    // A sector is an edge, a PRF and pulses; behind each but the first two spare bytes follow.
+    // A sector has an edge, a PRF and pulses. Two spare bytes follow each sector but the first.
     constexpr std::array<std::size_t, 3> places = {0, 6, 14};
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const std::size_t at = places[i];
@@ -115,8 +116,8 @@ std::array<std::uint8_t, 22> doppler_sectors(const Cut& cut) {
     return rest;
 }
 
-// Flags of message 5: half degree radials (1), 250 m reflectivity (2), Doppler to 300 km (4). The
-// flag of dual polarization stays off: simulated radars do not send it.
+// Returns the flags of message 5: half degree radials (1), 250 m reflectivity (2), Doppler to 300
+// km (4). The flag of dual polarization stays off, because simulated radars do not send it.
 std::uint8_t resolution_flags(const Cut& cut) {
     unsigned flags = 2;
     if (cut.azimuth_spacing_deg < 1) flags |= 1U;
@@ -162,7 +163,7 @@ double duration_s(const Cut& cut) {
 }
 
 double duration_s(const Pattern& pattern) {
-    double total_s = -move_s;  // none after the last
+    double total_s = -move_s;  // there is no move after the last cut
     for (const Cut& cut : pattern.cuts) {
         total_s += duration_s(cut);
     }

@@ -1,9 +1,11 @@
 // synth/vcp.h -- the volume coverage patterns that simulated radars run.
 //
-// Angles, rates, pulses, PRFs and thresholds of the patterns that are built in are those of message
-// 5 in real volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1
+// Angles, rates, pulses, PRFs and thresholds of the built-in patterns are those of message 5 in
+// real volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1
 // minutes) and 35 (2022, clear air, 12 cuts in 7.2 minutes). The lowest three angles are split
 // cuts.
+//
+// Threads   Plain data and pure functions.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +16,7 @@
 
 namespace stormcellar::synth {
 
-enum class Waveform : std::uint8_t {  // as message 5 numbers them
+enum class Waveform : std::uint8_t {  // with the numbers of message 5
     surveillance = 1,                 // REF only, to the longest range
     doppler = 2,                      // REF, VEL, SW: the second half of a split cut
     doppler_without_ambiguity = 3,    // REF, VEL, SW: high angles
@@ -38,25 +40,26 @@ struct Pattern {
     std::vector<Cut> cuts;
 };
 
-// Nearest angle and rate that message 5 can say.
+// Return the nearest angle and rate that message 5 can express.
 [[nodiscard]] float nearest_elevation_deg(double elevation_deg);
 [[nodiscard]] double nearest_rate_deg_s(double rate_deg_s);
 
-// The pattern of this number; null when it is not built in. Numbers built in, rising.
+// Return the pattern of this number (null if it is not built in), and the built-in numbers, rising.
 [[nodiscard]] const Pattern* find_pattern(int number);
 [[nodiscard]] std::span<const int> pattern_numbers();
 
-// What the PRFs of a cut bring.
+// Return what the PRFs of a cut give.
 [[nodiscard]] float nyquist_mps(const Cut& cut);
 [[nodiscard]] float unambiguous_range_m(const Cut& cut);
 [[nodiscard]] bool has_velocity(const Cut& cut);
 
-// Time from the first radial of a cut to the first of the next: the turn, and the antenna's move.
+// The time from the first radial of a cut to the first of the next is the turn, and this move of
+// the antenna.
 inline constexpr double move_s = 1.2;
 [[nodiscard]] double duration_s(const Cut& cut);
 [[nodiscard]] double duration_s(const Pattern& pattern);
 
-// As message 5.
+// Returns the pattern as message 5.
 [[nodiscard]] level2::Vcp to_message(const Pattern& pattern);
 
 }  // namespace stormcellar::synth

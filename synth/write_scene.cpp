@@ -10,14 +10,14 @@
 namespace stormcellar::synth {
 namespace {
 
-// Observes and writes the volumes of a scene; shared by the threads.
+// Observes and writes the volumes of a scene; the threads share it.
 class Work {
   public:
     Work(const Scene& scene, const std::filesystem::path& directory, FileSystem& file_system,
          const WriteSceneOptions& options)
         : scene_(scene), directory_(directory), file_system_(file_system), options_(options) {}
 
-    // Nothing more once one failed or somebody asked to stop.
+    // Does nothing more once one volume has failed or somebody has asked to stop.
     void run(int number) {
         if (stopped() || failed_) return;
         const auto path = directory_ / volume_file_name(scene_, number);
@@ -63,7 +63,7 @@ class Work {
     FileSystem& file_system_;
     const WriteSceneOptions& options_;
     std::atomic<bool> failed_{false};
-    std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // guards what follows
     std::vector<std::pair<int, std::filesystem::path>> done_;
     WrittenScene written_;
     std::optional<Error> error_;

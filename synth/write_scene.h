@@ -1,4 +1,6 @@
-// synth/write_scene.h -- a scene as Level II files.
+// synth/write_scene.h -- writes a scene as Level II files.
+//
+// Threads   write_scene() uses `threads` threads of its own.
 #pragma once
 
 #include <atomic>
@@ -13,7 +15,7 @@
 namespace stormcellar::synth {
 
 struct WriteSceneOptions {
-    int threads = 1;                          // volumes observed and written at once
+    int threads = 1;  // volumes that are observed and written at the same time
     const std::atomic<bool>* stop = nullptr;  // when set, no further volume is begun
     // Called after each volume, by one thread at a time.
     std::function<void(const std::filesystem::path& file)> written;
@@ -25,9 +27,9 @@ struct WrittenScene {
     bool stopped = false;
 };
 
-// Writes every volume into `directory`, which is made if it does not exist; files of the same name
-// are replaced. Each file appears whole or not at all. The bytes are the same every time, whatever
-// the number of threads. The first error ends the work; files written before it stay.
+// Writes every volume into `directory`, which is made if it does not exist. Files with the same
+// name are replaced. Each file appears whole or not at all. The bytes are the same every time, for
+// any number of threads. The first error ends the work; files written before it stay.
 [[nodiscard]] Result<WrittenScene> write_scene(const Scene& scene,
                                                const std::filesystem::path& directory,
                                                FileSystem& file_system,

@@ -1,5 +1,5 @@
-// stormcellar accuracy [FILE...]: what accuracy costs in time, on real volumes or a simulated
-// scene.
+// stormcellar accuracy [FILE...]: measures what accuracy costs in time, on real volumes or a
+// simulated scene.
 #include <algorithm>
 #include <memory>
 
@@ -146,7 +146,7 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
     }
 }
 
-// The rows of the ladder and, of a simulated scene, those of the truth.
+// Returns the rows of the ladder and, for a simulated scene, those of the truth.
 Result<Measured> measure(const Subject& subject, const GridRequest& request,
                          const grid::GridSpec& spec, const EffectRequest& effects,
                          const AccuracyOptions& options) {
@@ -241,7 +241,7 @@ int run_held_out(const AccuracyOptions& options, const GridRequest& request) {
     return report_over_time(options, request, observe_sequence(*scene));
 }
 
-// Plots, notes and tables of a ladder.
+// Writes plots, notes and tables of a ladder.
 int report_ladder(const AccuracyOptions& options, const GridRequest& request,
                   const std::string& subject, const Measured& measured) {
     const accuracy::ValueUnit unit = grid::value_unit_of(request.moment);
@@ -262,7 +262,7 @@ int report_ladder(const AccuracyOptions& options, const GridRequest& request,
     return exit_done;
 }
 
-// Of several sites, or for an instant, a mosaic's own steps; else volumes held out.
+// For several sites, or for an instant, a mosaic's own steps; else volumes that are held out.
 int run_files(const AccuracyOptions& options, const GridRequest& request) {
     auto sources = load_mosaic(options.grid.files, request);
     if (!sources) return report_error(sources.error());

@@ -1,12 +1,14 @@
-// cli/accuracy/ladder_markdown.h -- the ladder as a table of docs/accuracy.md: what that page shows
-// is what `stormcellar accuracy --markdown` prints.
+// cli/accuracy/ladder_markdown.h -- prints the ladder of accuracy as the table of docs/accuracy.md:
+// that page shows the output of `stormcellar accuracy --markdown`.
 //
 //   step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max (UNIT) |
 //   status differs (%) | Pareto
-// time_s is the time with kept geometry, or the first time where there is no other. Figures have
-// three significant digits, rounded up, percentages two decimals; "-" where a row has none.
-// Of pictures (cli/picture/picture_ladder.h): step | rung | time_s | colour p99 (dE) | Pareto.
-// Threads: pure.
+// time_s is the time with kept geometry, or the first time if there is no other. Figures have three
+// significant digits, rounded up; percentages have two decimals; "-" stands for a missing value.
+// Ladders of pictures (cli/picture/picture_ladder.h): step | rung | time_s | color p99 (dE) |
+// Pareto.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <span>
@@ -16,7 +18,7 @@
 
 namespace stormcellar::cli {
 
-// Lines end with "\n"; no rows give the head alone.
+// Lines end with "\n". Without rows only the head is returned.
 [[nodiscard]] std::string ladder_markdown(std::span<const accuracy::LadderRow> rows,
                                           accuracy::ValueUnit unit);
 

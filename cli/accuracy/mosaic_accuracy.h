@@ -12,7 +12,7 @@
 
 namespace stormcellar::cli {
 
-// Overlapping by the moment's default rule. Errors name the file.
+// The volumes overlap by the default rule of the moment. Errors name the file.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(
     const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
     int rounds);

@@ -1,5 +1,5 @@
-// cli/accuracy/site_pairs_accuracy.h -- `stormcellar accuracy A B... --compare-sites`: what sites
-// that overlap say otherwise than each other (pipeline/mosaic/pair_comparison.h).
+// cli/accuracy/site_pairs.h -- `stormcellar accuracy A B... --compare-sites`: how overlapping sites
+// differ (pipeline/mosaic/pair_comparison.h).
 #pragma once
 
 #include <string>
@@ -15,23 +15,23 @@
 namespace stormcellar::cli {
 
 struct SitePairs {
-    UtcTime instant;  // the middle of what the newest volumes show
+    UtcTime instant;  // the middle of the times that the newest volumes cover
     std::vector<std::string> stations;
-    std::vector<grid::SiteComparison> pairs;  // of those that may overlap, by their names
+    std::vector<grid::SiteComparison> pairs;  // those that may overlap, by their names
 };
 
-// Files of two sites or more; of a site with two volumes the motion of the weather is known, and
-// with it clocks can be compared. Errors: bad_argument for another moment than REF or files of one
-// site; those of load_mosaic() and pipeline::grid_volumes().
+// Compares files of two sites or more. If a site has two volumes, the motion of the weather is
+// known, so that clocks can be compared. Errors: bad_argument for another moment than REF or files
+// of one site; those of load_mosaic() and grid_sources().
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
                                                    const EffectRequest& effects);
 
-// A table, and below it what was named and what could not be told.
+// Returns a table, followed by the faults and what could not be determined.
 [[nodiscard]] std::string format_site_pairs(const SitePairs& compared, bool markdown);
 [[nodiscard]] nlohmann::ordered_json site_pairs_json(const SitePairs& compared);
 
-// Compares and prints; the exit status.
+// Compares and prints. Returns the exit status.
 int run_site_pairs(const GridOptions& options, const GridRequest& request,
                    const EffectRequest& effects, bool markdown);
 

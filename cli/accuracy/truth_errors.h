@@ -1,7 +1,9 @@
 // cli/accuracy/truth_errors.h -- how far grids are from the truth of a simulated scene
 // (synth/compare_with_truth.h), as a table and as JSON.
 //
-// Thread contract: pure functions.
+// That is the sampling error: what the radar did not see, and what the storm did in the meantime.
+// The truth is taken at the center of each cell, at the middle of the volume's time. Cells count
+// that hold a value where the truth has echo above the weakest shown (-20 dBZ).
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ struct FetchOptions {
     bool json = false;
 };
 
-// The stations of the table that stand within the bounds.
+// Returns the stations of the table within the bounds.
 Result<std::vector<std::string>> stations_within(const std::string& text) {
     const auto bounds = parse_bounds(text);
     if (!bounds) return pass_on(bounds);

@@ -1,4 +1,4 @@
-// stormcellar info FILE [--json] [--to OUT.nc]: decode a Level II file and describe it.
+// stormcellar info FILE [--json] [--to OUT.nc]: decodes a Level II file and describes it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -69,7 +69,7 @@ void print_times(const level2::Volume& volume) {
     }
 }
 
-// Each moment once, with its gates, as "REF 1832 x 250 m".
+// Lists each moment once with its gates, as "REF 1832 x 250 m".
 std::string moments_text(const level2::Sweep& sweep) {
     std::string text;
     for (const level2::Moment name : level2::all_moments) {
@@ -114,7 +114,7 @@ void print_problems(const level2::DecodeReport& report) {
     }
 }
 
-// Of a file that holds several.
+// For a file with several volumes.
 void print_volumes(const std::vector<level2::VolumePart>& parts) {
     if (parts.size() < 2) return;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -150,7 +150,7 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
     print_problems(report);
 }
 
-// Of a directory: of the files in it.
+// For a directory: the sum of the files in it.
 std::uintmax_t size_of(const std::filesystem::path& path) {
     std::error_code error;
     if (!std::filesystem::is_directory(path, error)) {
@@ -165,7 +165,7 @@ std::uintmax_t size_of(const std::filesystem::path& path) {
     return sum;
 }
 
-// Before long work: whether the CfRadial file can appear where it shall.
+// Checks before long work that the CfRadial file can be written.
 Status check_output(const InfoOptions& options) {
     if (options.to.empty()) return {};
     std::error_code ignored;
@@ -175,7 +175,7 @@ Status check_output(const InfoOptions& options) {
     return check_output_file(options.to, {".nc", ".nc4"}, "CfRadial is netCDF", options.json);
 }
 
-// Which volume of the file is to be written, from 0.
+// Returns the number of the volume that is to be written, from 0.
 Result<std::size_t> chosen_volume(const InfoOptions& options, std::size_t count) {
     if (options.volume == 0 && count > 1) {
         return fail(ErrorCode::bad_argument,

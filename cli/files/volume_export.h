@@ -1,4 +1,4 @@
-// cli/files/volume_export.h -- one volume of a decoded file as CfRadial netCDF.
+// cli/files/volume_export.h -- writes one volume of a decoded file as CfRadial netCDF.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace stormcellar::cli {
 
-// Writes volumes[number] of those that `source` holds; problems of the file become notes. Replaces
-// a file that is there. Errors are those of netcdf::write_volume.
+// Writes volumes[number] of the volumes of `source`. Problems found in the file become notes. An
+// existing file is replaced. Errors: those of netcdf::write_volume().
 [[nodiscard]] Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
                                    const level2::DecodeReport& report,
                                    const std::filesystem::path& source,

@@ -1,4 +1,4 @@
-// stormcellar grid FILE... -o OUT.nc: decode volumes, grid them, write the grid to a file.
+// stormcellar grid FILE... -o OUT.nc: decodes volumes, grids them, and writes the grid as netCDF.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -44,13 +44,13 @@ grid::GridderOptions gridder_options(const GridRequest& request, const EffectReq
     return gridder;
 }
 
-// What is made, and the plan that it was made by, if one was asked for.
+// The grid, and the plan by which it was made, if a plan was requested.
 struct Made {
     grid::Grid grid;
     std::optional<accuracy::Plan> plan;
 };
 
-// Without a plan: the default, as the effects' settings change it.
+// Without a plan: the default, changed by the settings of the effects.
 Result<grid::Grid> grid_plainly(const SourceVolume& source, const grid::GridSpec& spec,
                                 const GridRequest& request, const EffectRequest& effects,
                                 Timings& timings) {

@@ -14,7 +14,7 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr double beyond_sites_m = 230'000;  // what a mosaic shows about its outermost sites
+constexpr double beyond_sites_m = 230'000;  // what a mosaic shows beyond its outermost sites
 
 // Whole cells that hold all sites and 230 km about them, in kilometers.
 std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,

@@ -16,29 +16,29 @@
 
 namespace stormcellar::cli {
 
-// As they were typed.
+// The options as they were typed.
 struct MosaicOptions {
     std::string overlap;
     std::optional<double> overlap_km;
 };
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-// Errors: bad_argument, naming the option: also for one that only several files have a use for.
-// The averaging is the default: it is among the effects.
+// Errors: bad_argument, naming the option, also for an option that only makes sense with several
+// files. The averaging is the default one, because it is among the effects.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,
                                                        const GridRequest& request);
 
-// About the centre that is asked for, else the middle of the sites; without an extent 230 km beyond
-// them. Errors: those of spec_about().
+// Returns a grid about the requested center, else about the middle of the sites; without an extent,
+// up to 230 km beyond them. Errors: those of spec_about().
 [[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                                  GridRequest request);
 
-// The volumes of a mosaic and the grid that holds them.
+// The volumes of a mosaic, and the grid that holds them.
 struct MosaicSources {
     std::vector<SourceVolume> volumes;
-    std::vector<std::string> files;  // one a volume
+    std::vector<std::string> files;  // one for each volume
     grid::GridSpec spec;
     double read_s = 0, decode_s = 0;
 

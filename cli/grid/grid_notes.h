@@ -1,7 +1,9 @@
-// cli/grid/grid_notes.h -- what `stormcellar grid` and `accuracy` say on stderr though nothing
+// cli/grid/grid_notes.h -- what `stormcellar grid` and `accuracy` report on stderr although nothing
 // failed.
 //
-// Each gives a line without its end, or none where there is nothing to say. Threads: pure.
+// Each function returns a line without its line end, or none if there is nothing to report.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <optional>
@@ -13,15 +15,15 @@
 
 namespace stormcellar::cli {
 
-// The air between the antenna and a sounding that begins more than 500 m above it is a guess.
+// For a sounding that begins more than 500 m above the antenna: the air below it is a guess.
 [[nodiscard]] std::optional<std::string> note_on_sounding(const EffectRequest& effects,
                                                           const grid::SitePosition& site);
-// The time asked for lies more than an hour before the first or after the last radial used.
+// For a requested time more than an hour before the first or after the last radial used.
 [[nodiscard]] std::optional<std::string> note_on_frame_time(const grid::Grid& grid);
-// The radar sees no cell.
+// For a grid of which the radar sees no cell.
 [[nodiscard]] std::optional<std::string> note_on_cells(const grid::Grid& grid);
 
-// All that there is to say of a grid, that a profile was given in vain included.
+// Returns all notes on a grid, including one on a profile that was given in vain.
 [[nodiscard]] std::vector<std::string> notes_on(const grid::Grid& grid,
                                                 const EffectRequest& effects);
 

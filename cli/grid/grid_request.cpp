@@ -80,7 +80,8 @@ std::string_view unit_name(SizeUnit unit) {
     return unit == SizeUnit::km ? "km" : "degree";
 }
 
-// `cells` of one spacing each make up an extent, if they are few enough.
+// Returns `cells` if they are few enough; each has this spacing, and together they make up an
+// extent.
 Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit) {
     constexpr int most = grid::GridSpec::greatest_side;
     if (cells <= most) return static_cast<int>(cells);
@@ -90,7 +91,7 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
-// How many cells make up an extent; it must be a whole number.
+// Returns how many cells make up an extent, which must be a whole number.
 Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
@@ -101,7 +102,7 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     return count_of(cells, extent, spacing, unit);
 }
 
-// As many cells as cover the extent; a millionth of a cell is rounding.
+// Returns the cells that cover the extent; a millionth of a cell counts as rounding.
 Result<int> cells_over(double extent_deg, double spacing_deg) {
     const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
     if (!(cells >= 1)) {
@@ -111,7 +112,7 @@ Result<int> cells_over(double extent_deg, double spacing_deg) {
     return count_of(cells, extent_deg, spacing_deg, SizeUnit::degrees);
 }
 
-// One spacing and one extent, each in kilometres or in degrees.
+// Reads one spacing and one extent, each in kilometers or in degrees.
 Status parse_size(const GridOptions& options, GridRequest& request) {
     const bool any_degrees = options.spacing_deg || !options.extent_deg.empty();
     if (any_degrees && !grid::facts_of(request.projection).in_degrees) {
@@ -169,7 +170,7 @@ Result<level2::Moment> parse_moment(const std::string& name) {
 constexpr std::string_view counts_field = "counts";
 constexpr std::string_view weights_field = "weights";
 
-// Adds one of --fields; false where there is none of that name.
+// Adds one of --fields. Returns false if there is none of that name.
 bool add_field(std::string_view name, bool mosaic, GridRequest& request) {
     const bool all = name == "all";
     request.site_counts = request.site_counts || name == counts_field || (all && mosaic);
@@ -284,7 +285,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     request.threads = options.threads > 0
                           ? options.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    // Of several sites the extent, and the spacing that goes into it, is known with them.
+    // For several sites, the extent, and the spacing that fits it, are known only with the sites.
     const bool has_extent = request.extent_given || options.files.size() == 1;
     if (has_extent && (request.center_deg || grid::facts_of(request.projection).is_polar)) {
         const auto [latitude_deg, longitude_deg] =

@@ -1,4 +1,4 @@
-// cli/grid/grid_request.h -- the options of `stormcellar grid`, and what they ask for.
+// cli/grid/grid_request.h -- the options of `stormcellar grid`, and the request that they give.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class App;
 
 namespace stormcellar::cli {
 
-// As they were typed.
+// The options as they were typed.
 struct GridOptions {
     std::vector<std::string> files;
     std::string output;
@@ -38,16 +38,16 @@ struct GridOptions {
     bool json = false;
 };
 
-// FILE, --output, --time, --fields and those of add_spec_options().
+// Adds FILE, --output, --time, --fields and the options of add_spec_options().
 void add_grid_options(CLI::App& app, GridOptions& options);
-// Where the grid lies, and its cells and levels.
+// Adds the options for the place of the grid, and its cells and levels.
 void add_place_options(CLI::App& app, GridOptions& options);
-// Which grid, of which moment, on how many threads.
+// Adds the options for the grid, the moment and the number of threads.
 void add_spec_options(CLI::App& app, GridOptions& options);
 
 enum class SizeUnit { km, degrees };
 
-// What the options say, before the site is known.
+// What the options say before the site is known.
 struct GridRequest {
     std::optional<std::array<double, 2>> center_deg;
     grid::Projection projection = grid::Projection::azimuthal_equidistant;
@@ -56,29 +56,29 @@ struct GridRequest {
     bool extent_given = false;
     SizeUnit extent_unit = SizeUnit::km;
     double spacing = 1;
-    SizeUnit spacing_unit = SizeUnit::km;  // degrees are for latitude_longitude alone
+    SizeUnit spacing_unit = SizeUnit::km;  // degrees are only for latitude_longitude
     std::vector<double> levels_m;          // empty: those of grid::default_spec()
     level2::Moment moment = level2::Moment::ref;
-    std::optional<UtcTime> frame_time;  // sweeps are then the nearest in time to it
+    std::optional<UtcTime> frame_time;  // the sweeps nearest to this time are then used
     grid::DetailSet details;            // of one file
     bool site_counts = false;           // of several files
     bool site_weights = false;
-    SiteRequest site;  // of every file
-    // What the files' names stand for; none: each name is one file.
+    SiteRequest site;  // for every file
+    // The files that the names refer to; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;
     int threads = 1;
 };
 
-// The files that were named, and in their places those that archives and directories hold. Errors:
-// those of InputFiles::find().
+// Returns the files that were named, with archives and directories replaced by the files in them.
+// Errors: those of InputFiles::find().
 [[nodiscard]] Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options);
 
-// Errors: bad_argument, naming the option. With --center, and where the centre does not matter, the
-// spec is checked too.
+// Errors: bad_argument, naming the option. With --center, and if the center does not matter, the
+// spec is checked as well.
 [[nodiscard]] Result<GridRequest> parse_request(const GridOptions& options);
 
-// The grid asked for about a centre, valid. On a latitude-longitude grid kilometres become degrees
-// as the centre has them, rounded up to whole cells.
+// Returns the requested grid about a center, which is valid. For a latitude-longitude grid,
+// kilometers are converted to degrees at the center, rounded up to whole cells.
 [[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request,
                                                 double center_latitude_deg,
                                                 double center_longitude_deg);

@@ -42,7 +42,8 @@ Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& fil
     return decoded;
 }
 
-// The first volume of a file that holds the moment; of a file with several, a note says so.
+// Takes the first volume of a file that holds the moment. If the file has several volumes, a note
+// says so.
 level2::Volume take_volume(level2::Decoded decoded, level2::Moment moment, SourceVolume& source) {
     const bool damaged = decoded.report.damaged;
     std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));

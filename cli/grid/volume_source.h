@@ -1,4 +1,4 @@
-// cli/grid/volume_source.h -- a Level II file as the commands that grid it want it.
+// cli/grid/volume_source.h -- loads a Level II file for the commands that grid it.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ struct SourceVolume {
     double read_s = 0, decode_s = 0;
 };
 
-// Of one of the request's inputs: the first volume that holds the moment, that moment
-// alone. Errors name the file: those of reading and decoding, and of apply_site(); not_found where
-// nobody knows where the radar stands.
+// Returns the first volume of the file that holds the requested moment, with that moment alone.
+// Errors name the file: those of reading and decoding, and of apply_site(); not_found if the
+// position of the radar is not known.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request);
 
 }  // namespace stormcellar::cli

@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 using pipeline::ArchiveVolume;
 using pipeline::Domain;
 
-constexpr auto glance = std::chrono::milliseconds{50};  // how often the bar and Ctrl-C are seen to
-constexpr std::size_t most_names = 6;                   // of stations in a mosaic's name
+// how often the bar is updated and Ctrl-C is checked
+constexpr auto glance = std::chrono::milliseconds{50};
+constexpr std::size_t most_names = 6;  // of stations in a mosaic's name
 
 std::string mosaic_name(const ArchiveCall& call, const std::vector<std::string>& stations) {
     if (!call.domain.empty()) return call.domain;
@@ -94,7 +95,7 @@ Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call,
     return plan;
 }
 
-// Runs `work` beside a bar. Grids are committed whole, so an interrupt need not wait for it.
+// Runs `work` with a progress bar. Grids are committed whole, so an interrupt need not wait for it.
 template <class Work>
 Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Interrupt& interrupt,
                     Work work) {
@@ -120,7 +121,7 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
     return stations;
 }
 
-// A station that was named and is not there is a slip: `nothing` says so.
+// A station that was named but does not exist is a mistake, which `nothing` reports.
 Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();

@@ -1,5 +1,4 @@
-// cli/loop/archive_options.h -- what `loop --catalog` was asked for: which stations, times and
-// grid.
+// cli/loop/archive_options.h -- the options of `loop --catalog`: stations, times and grid.
 #pragma once
 
 #include <array>
@@ -20,12 +19,12 @@ class App;
 
 namespace stormcellar::cli {
 
-// As they were typed.
+// The options as they were typed.
 struct ArchiveOptions {
     std::string catalog;
     std::string stations;  // "KBGM,KENX"
     std::string bounds;    // "W,S,E,N"
-    GridOptions place;     // centre, projection, extent, spacing, levels
+    GridOptions place;     // center, projection, extent, spacing, levels
     std::string overlap;
     std::optional<double> overlap_km;
     bool keep_cache = true;
@@ -33,7 +32,7 @@ struct ArchiveOptions {
     [[nodiscard]] bool asked() const { return !catalog.empty(); }
 };
 
-// Puts them on the subcommand. `options` must outlive the parse.
+// Adds the options to the subcommand. `options` must outlive the parse.
 void add_archive_options(CLI::App& app, ArchiveOptions& options);
 
 struct ArchiveRequest {
@@ -41,20 +40,20 @@ struct ArchiveRequest {
     std::optional<pipeline::Bounds> bounds;
     GridRequest place;
     bool spacing_given = false;
-    bool place_given = false;  // a centre, a projection: a grid that is not the station's own
+    bool place_given = false;  // a center or a projection: a grid that is not the station's own
     std::optional<grid::Overlap> overlap;
     double overlap_length_m = 250'000;
 };
 
-// Errors: bad_argument, naming the option: also for one that goes without --catalog alone.
+// Errors: bad_argument, naming the option, also for one that only makes sense without --catalog.
 [[nodiscard]] Result<ArchiveRequest> parse_archive(const ArchiveOptions& options);
 
-// The grid that holds the sites and 230 km about them, or the bounds. Without a spacing the least
-// of 1, 2, 4 and 8 km by which no side has more than 1024 cells.
+// Returns the grid that holds the sites and 230 km around them, or the bounds. Without a spacing,
+// it is the smallest of 1, 2, 4 and 8 km with which no side has more than 1024 cells.
 [[nodiscard]] Result<grid::GridSpec> archive_spec(const ArchiveRequest& request,
                                                   const std::vector<grid::SitePosition>& sites);
 
-// "300", "90s", "5min", "1h"; bad_argument names the option.
+// Parses "300", "90s", "5min" or "1h". Errors: bad_argument, naming the option.
 [[nodiscard]] Result<std::chrono::seconds> parse_interval(const std::string& option,
                                                           const std::string& text);
 

@@ -1,4 +1,4 @@
-// stormcellar loop: the grids of a time range as animations.
+// stormcellar loop: animates the grids of a time range.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -52,7 +52,7 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const render::Scen
     return {};
 }
 
-// Draws and writes; `report` goes on from what is in it.
+// Draws and writes; adds to `report`.
 Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
                  const std::atomic<bool>& stop, LoopReport& report) {
     auto writers = make_writers(options.outputs, options.animation);
@@ -74,8 +74,9 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Sce
     return {};
 }
 
-// What cannot be opened is named, so that the file says how many frames it has. Gives the first
-// that can: how all are drawn is planned for it, and its method stands for all.
+// Names the grids that cannot be opened and removes them, so that the file states the true number
+// of frames. Returns the first grid that can be opened: the plan for it is used for all frames, and
+// its method represents theirs.
 std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
     std::optional<cache::GridFile> first;
     bool is_mixed = false;
@@ -102,7 +103,7 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
     return first;
 }
 
-// Plans for the first grid, and says in the file's metadata what the loop is.
+// Plans for the first grid, and writes the description of the loop into the metadata.
 Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions& options,
                render::Scene& scene) {
     const auto& description = first.description();
@@ -122,7 +123,7 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     return {};
 }
 
-// Adds the way back, without the two ends.
+// Adds the frames of the way back, without the two ends.
 void turn_back(std::vector<LoopFrame>& frames) {
     for (std::size_t i = frames.size(); i > 2; --i) {
         const LoopFrame frame = frames[i - 2];
@@ -130,7 +131,7 @@ void turn_back(std::vector<LoopFrame>& frames) {
     }
 }
 
-// Gives the exit status. An interrupted loop that is followed is no failure.
+// Returns the exit status. Interrupting a loop that is followed is no failure.
 int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
               SteadyTime start) {
     options.domain = grids.domain;
@@ -165,7 +166,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     return exit_done;
 }
 
-// None as long as there is no cache.
+// Returns none as long as there is no cache.
 Result<std::optional<cache::StoreReader>> open_if_there(const std::string& cache) {
     auto opened = cache::StoreReader::open(cache);
     if (opened) return std::optional{std::move(*opened)};
@@ -173,7 +174,7 @@ Result<std::optional<cache::StoreReader>> open_if_there(const std::string& cache
     return std::optional<cache::StoreReader>{};
 }
 
-// The grids that stand now; a cache that came meanwhile is opened.
+// Returns the grids that now exist; a cache that has appeared in the meantime is opened.
 Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::StoreReader>& store,
                                                   const LoopOptions& options,
                                                   level2::Moment moment) {
@@ -187,7 +188,7 @@ Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::StoreRead
     return entries_now(*store, options, moment);
 }
 
-// Each time of the grids that then stand.
+// Makes the loop again each time, from the grids that then exist.
 int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
     auto opened = open_if_there(options.cache);
     if (!opened) return report_error(opened.error());
@@ -205,7 +206,7 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
                   options.follow, interrupt.flag());
 }
 
-// What can be said before any grid is looked for. Sets what the options make of each other.
+// Makes all checks that need no grid, and resolves options that depend on each other.
 Result<render::Scene> check(LoopOptions& options) {
     if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return pass_on(fine);
@@ -218,7 +219,7 @@ Result<render::Scene> check(LoopOptions& options) {
     return scene;
 }
 
-// Writes nothing, and asks for no directory to be there.
+// Writes nothing, and needs no directory to exist.
 int only_check(const LoopOptions& options) {
     for (const std::string& output : options.outputs) {
         if (auto fine = render::check_animation_name(output); !fine) {
@@ -229,8 +230,8 @@ int only_check(const LoopOptions& options) {
     return range ? exit_done : report_error(range.error());
 }
 
-// The one output that is standard output, made in a temporary file: "-", or "-.gif" and so on for
-// another format than WebP. None: there is none.
+// Returns the output that is standard output, which is made in a temporary file: "-", or "-.gif"
+// and so on for a format other than WebP. None: there is none.
 Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     const auto is_piped = [](const std::string& output) {
         return is_stdout(output) || output.starts_with("-.");
@@ -257,7 +258,7 @@ int run_loop(LoopOptions options) {
     const auto scene = check(options);
     if (!scene) return report_error(scene.error());
     if (options.only_check) return only_check(options);
-    // What could never be written is refused before any grid is made.
+    // An output that could never be written is refused before any grid is made.
     if (const auto writers = make_writers(options.outputs, options.animation); !writers) {
         return report_error(writers.error());
     }

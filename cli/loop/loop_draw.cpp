@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// A grid that stands, or one that was made for the instant.
+// An existing grid, or one made for the instant.
 struct FrameGrid {
     std::optional<cache::GridFile> file;
     std::optional<pipeline::MosaicFrame> made;
@@ -23,7 +23,7 @@ struct FrameGrid {
     [[nodiscard]] Status check_whole() const { return file ? file->check_whole() : Status{}; }
 };
 
-// not_found where no volume is near.
+// Errors: not_found if no volume is near.
 Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between) {
     FrameGrid grid;
     if (frame.stored) {

@@ -1,4 +1,4 @@
-// cli/loop/loop_draw.h -- one frame of a loop.
+// cli/loop/loop_draw.h -- draws one frame of a loop.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct Drawing {
     render::FrameCache cache;
 };
 
-// One frame; none when the grid's file is damaged, which is noted in the report.
+// Returns one frame; none if the file of the grid is damaged, which the report records.
 [[nodiscard]] Result<std::optional<render::Image>> draw(
     const LoopFrame& frame, const LoopOptions& options,
     std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);

@@ -1,5 +1,5 @@
-// cli/loop/loop_encoding.h -- the frames of a loop into all its files, beside the drawing of the
-// next one.
+// cli/loop/loop_encoding.h -- encodes the frames of a loop into all of its files while the next
+// frame is drawn.
 #pragma once
 
 #include <atomic>
@@ -16,20 +16,20 @@ namespace stormcellar::cli {
 
 using Writers = std::vector<std::unique_ptr<render::AnimationWriter>>;
 
-// One writer an output, in this order.
+// Returns one writer for each output, in the same order.
 [[nodiscard]] Result<Writers> make_writers(const std::vector<std::string>& outputs,
                                            const render::AnimationOptions& options);
 
-// Encodes one frame behind the one that is being drawn, each writer on a thread of its own.
+// Encodes the previous frame while the next one is drawn, with a thread for each writer.
 class Encoding {
   public:
     explicit Encoding(Writers writers) : writers_(std::move(writers)) {}
 
-    // Takes the frame; gives the outcome of the one before.
+    // Takes a frame and returns the outcome of the previous one.
     Status add(render::Image frame);
-    // Stops before the next file when the flag is set.
+    // Stops before the next file if the flag is set.
     Status finish(const std::atomic<bool>& stop);
-    // Summed over the writers; after finish().
+    // Returns the sum over the writers. Call it after finish().
     [[nodiscard]] double encode_s() const { return encode_s_; }
 
   private:
@@ -37,13 +37,14 @@ class Encoding {
         Status status;
         double seconds = 0;
     };
-    // The first error, when all are done.
+    // Waits for all and returns the first error.
     Status wait();
 
     Writers writers_;
     render::Image frame_;
     double encode_s_ = 0;
-    std::vector<std::future<Timed>> running_;  // the last member: waited for before the rest goes
+    // the last member: waited for before the others are destroyed
+    std::vector<std::future<Timed>> running_;
 };
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// cli/loop/loop_grids.h -- which grids a loop is drawn from: those of a cache, or made of an
+// cli/loop/loop_grids.h -- the grids from which a loop is drawn: those of a cache, or made from an
 // archive.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace stormcellar::cli {
 
-// One frame: a grid that stands, or one that is made when the frame is drawn.
+// One frame: an existing grid, or one that is made when the frame is drawn.
 struct LoopFrame {
     UtcTime time;
     std::optional<cache::StoreEntry> stored;
@@ -26,23 +26,23 @@ struct LoopGrids {
     std::optional<cache::StoreReader> store;
     std::string domain;
     TimeRange range;
-    std::vector<LoopFrame> frames;  // rising in time; empty: nothing matched, which was said
-    std::filesystem::path sample;   // a grid that stands
-    std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not stand
-    std::optional<ArchiveCall> call;                // of an archive, and what became of it
+    std::vector<LoopFrame> frames;  // ascending in time; empty: nothing matched, which was reported
+    std::filesystem::path sample;   // an existing grid
+    std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not exist
+    std::optional<ArchiveCall> call;                // for an archive: the call and its result
     std::optional<ArchiveGrids> archive;
 };
 
-// Of a cache's grids as they are.
+// For the existing grids of a cache.
 [[nodiscard]] LoopGrids grids_of(const cache::StoreReader& store, const std::string& domain,
                                  const std::vector<cache::StoreEntry>& entries);
-// The grids of a cache that are asked for, as of now: relative times count from the call.
+// Returns the requested grids of a cache as of now: relative times count from the call.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& store,
                                                                  const LoopOptions& options,
                                                                  level2::Moment moment);
 
-// Errors: bad_argument, naming options that are missing or go ill together; those of the cache, the
-// catalog and of filling.
+// Errors: bad_argument, naming options that are missing or cannot be combined; those of the cache,
+// the catalog and of filling.
 [[nodiscard]] Result<LoopGrids> find_grids(const LoopOptions& options, const render::Scene& scene,
                                            Interrupt& interrupt);
 

@@ -1,4 +1,4 @@
-// cli/loop/loop_options.h -- what `loop` was asked for.
+// cli/loop/loop_options.h -- the options of `loop`.
 #pragma once
 
 #include <chrono>
@@ -20,37 +20,38 @@ namespace stormcellar::cli {
 class DrawnFrames;
 
 struct LoopOptions : LoopSettings {
-    std::string piped;  // of the outputs the one that goes to standard output
+    std::string piped;  // the output that goes to standard output
     std::string cache;
     ArchiveOptions archive;
     SceneFile scene_file;
     FollowOptions follow;
-    std::string interval;     // from frame to frame; empty: each grid that there is
+    std::string interval;     // between frames; empty: one frame for each grid
     std::string time_method;  // empty: advected
     bool json = false;
     bool quiet = false;
     bool only_check = false;  // nothing is drawn
     SceneOptions scene;
     PicturePlanOptions plan;
-    DrawnFrames* kept = nullptr;  // of a loop that is followed
+    DrawnFrames* kept = nullptr;  // for a loop that is followed
 };
 
-// Puts the options that are the loop's own on its subcommand, and those of the scene and the plan.
-// `options` must outlive the parse.
+// Adds to the subcommand the loop's own options and those of the scene and the plan. `options` must
+// outlive the parse.
 void add_loop_options(CLI::App& loop, LoopOptions& options);
 
-// When frames stand, and how they are made between grids.
+// At which times there are frames, and how frames between grids are made.
 struct Rhythm {
     std::optional<std::chrono::seconds> interval;
     grid::TimeMethod method = grid::TimeMethod::advected;
 };
-// bad_argument, naming the option.
+// Errors: bad_argument, naming the option.
 [[nodiscard]] Result<Rhythm> rhythm_of(const LoopOptions& options);
 
-// bad_argument where the grids' source is not said, or --follow goes with what cannot be followed.
+// Errors: bad_argument if the source of the grids is missing, or --follow is combined with a source
+// that cannot be followed.
 [[nodiscard]] Status check_sources(const LoopOptions& options);
 
-// bad_argument when two outputs are the same file.
+// Errors: bad_argument if two outputs are the same file.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& outputs);
 
 }  // namespace stormcellar::cli

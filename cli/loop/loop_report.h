@@ -1,4 +1,4 @@
-// cli/loop/loop_report.h -- what `loop` did, and what the file that it made says of itself.
+// cli/loop/loop_report.h -- what `loop` did, and the metadata of the file that it made.
 #pragma once
 
 #include <filesystem>
@@ -25,15 +25,15 @@ struct LoopReport {
     std::size_t frames = 0;
     std::vector<Skipped> skipped;
     UtcTime from, to;              // of the frames that were drawn
-    std::size_t interpolated = 0;  // of the frames
-    double between_s = 0;          // of making those
+    std::size_t interpolated = 0;  // number of frames
+    double between_s = 0;          // time for making them
     double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
     bool interrupted = false;
 };
 
 void warn_skipped(const Skipped& skipped);  // on stderr
 
-// For people to stderr, with --json as one document to stdout.
+// Prints the report for people to stderr, or with --json as one document to stdout.
 void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
                   const std::optional<ArchiveGrids>& archive = std::nullopt);
 

@@ -6,7 +6,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Empty when there is no such file.
+// Returns an empty key if there is no such file.
 std::string key_of(const std::filesystem::path& grid, const render::Scene& scene) {
     struct stat facts {};
     if (::stat(grid.c_str(), &facts) != 0) return {};
@@ -19,7 +19,8 @@ std::string key_of(const std::filesystem::path& grid, const render::Scene& scene
 
 Result<render::Image> DrawnFrames::frame(const std::filesystem::path& grid,
                                          const render::Scene& scene, const Draw& draw) {
-    // Asked before it is drawn: a grid that is replaced meanwhile is another one next time.
+    // Taken before the frame is drawn: if the grid is replaced in the meantime, its key differs
+    // next time.
     const std::string key = key_of(grid, scene);
     if (const auto found = frames_.find(key); found != frames_.end()) {
         found->second.is_wanted = true;

@@ -1,10 +1,11 @@
-// cli/picture/drawn_frames.h -- pictures that were drawn for a followed loop and will be wanted
-// again.
+// cli/picture/drawn_frames.h -- keeps the pictures of a followed loop that will be needed again.
 //
-// When one grid comes, all frames but one of the next loop are those of the last. A frame is known
-// by its grid's file (path, inode, time and size) and by what may differ in the scene from frame to
-// frame or from plan to plan: the camera's azimuth, slices, integration and rays.
-// Thread contract: one thread.
+// When one grid arrives, all frames of the next loop but one are those of the last loop. A frame is
+// identified by the file of its grid (path, inode, time and size) and by the parts of the scene
+// that may differ from frame to frame or from plan to plan: the azimuth of the camera, slices,
+// integration and rays.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -27,11 +28,11 @@ class DrawnFrames {
     explicit DrawnFrames(std::size_t limit_bytes = default_limit) : limit_(limit_bytes) {}
 
     using Draw = std::function<Result<render::Image>()>;
-    // The picture of the grid's file, drawn if there is none of it yet, and kept as far as there is
-    // room. Everything else in the scene must be the same at each call.
+    // Returns the picture of the grid's file. It is drawn if there is none yet, and kept as far as
+    // there is room. All other parts of the scene must be the same in each call.
     Result<render::Image> frame(const std::filesystem::path& grid, const render::Scene& scene,
                                 const Draw& draw);
-    // Between two loops: forgets what the last one did not want.
+    // Call it between two loops: forgets the pictures that the last loop did not use.
     void next_loop();
 
     [[nodiscard]] std::size_t count() const { return frames_.size(); }

@@ -1,4 +1,4 @@
-// stormcellar frame: one still picture of a grid in the cache.
+// stormcellar frame: draws one still picture of a grid in the cache.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -41,7 +41,7 @@ struct FrameOptions {
     PicturePlanOptions plan;
 };
 
-// The newest grid of the domain at or before the time; none when there is no such grid.
+// Returns the newest grid of the domain at or before the time; none if there is none.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
                                                    level2::Moment moment) {
@@ -91,7 +91,7 @@ Json json_of(const render::Probe& probe) {
     return json;
 }
 
-// A line for the place, one for what is there, one for how far the column was seen.
+// Prints a line for the place, one for what is there, and one for how far the column was seen.
 void print_probe(const render::Probe& probe, const FrameOptions& options,
                  const render::Scene& scene, const cache::GridDescription& grid) {
     fmt::print("{} {}, {}\n", printable(options.domain), format_utc(grid.time),

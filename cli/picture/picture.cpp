@@ -10,7 +10,7 @@ namespace stormcellar::cli {
 
 namespace {
 
-// Of which the domain keeps grids, whenever they are from.
+// Returns the moments of which the domain has grids of any time.
 std::vector<std::string_view> moments_kept(const cache::StoreReader& store,
                                            const std::string& domain) {
     std::vector<std::string_view> kept;

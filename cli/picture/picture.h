@@ -1,4 +1,4 @@
-// cli/picture/picture.h -- what `frame` and `loop` have in common beside the scene.
+// cli/picture/picture.h -- what `frame` and `loop` share besides the scene.
 #pragma once
 
 #include <string>
@@ -8,12 +8,13 @@
 
 namespace stormcellar::cli {
 
-// Says on stderr that no grid of the moment matched, and which domains there are, or which moments
-// the domain keeps; gives the exit status. `when` is empty or as " at or before 2005-08-22".
+// Reports on stderr that no grid of the moment matched, and which domains exist or which moments
+// the domain has. Returns the exit status. `when` is empty or of the form " at or before
+// 2005-08-22".
 int report_no_grid(const cache::StoreReader& store, const std::string& domain,
                    level2::Moment moment, const std::string& when);
 
-// Metadata of pictures is ASCII, names of files may be anything.
+// Makes a text ASCII for the metadata of a picture; names of files may be anything.
 [[nodiscard]] std::string ascii(std::string_view text);
 
 }  // namespace stormcellar::cli

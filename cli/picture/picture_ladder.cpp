@@ -23,7 +23,7 @@ Result<grid::BrickGrid> bricks_for(const SourceVolume& source, const GridRequest
     return grid::BrickGrid::from(*grid, grid::default_quantization(request.moment));
 }
 
-// Without light, and with all of it for the steps that are light's own.
+// Runs the ladder without light, and with all kinds of light for the steps of the light.
 Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
                                                   const GridRequest& request) {
     render::Scene scene;

@@ -1,9 +1,10 @@
-// cli/picture/picture_ladder.h -- what the accuracy of a volume's picture costs in time.
+// cli/picture/picture_ladder.h -- measures what the accuracy of a picture of a volume costs in
+// time.
 //
-// The volume is gridded as `stormcellar grid` does by default, and drawn as `stormcellar frame`
-// does: 796 x 532 pixels, the default view, the moment's colours. Rows without light are those of
-// the unlit picture; the rows of light are of one that asks for all kinds of it.
-// Times are the least of the rounds, each with everything made anew.
+// The volume is gridded as `stormcellar grid` does by default and drawn as `stormcellar frame`
+// does: 796 x 532 pixels, the default view, the colors of the moment. Rows without light are of the
+// picture without light; the rows of light are of a picture with all kinds of light. Times are the
+// smallest of the rounds; each round makes everything anew.
 #pragma once
 
 #include <vector>
@@ -15,7 +16,7 @@
 
 namespace stormcellar::cli {
 
-// Errors: those of gridding; not_found where the grid holds no value at all.
+// Errors: those of gridding; not_found if the grid holds no value at all.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_picture(const SourceVolume& source,
                                                                          const GridRequest& request,
                                                                          const grid::GridSpec& spec,

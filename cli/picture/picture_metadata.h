@@ -1,15 +1,22 @@
-// cli/picture/picture_metadata.h -- what a picture or a loop says of itself in its file.
+// cli/picture/picture_metadata.h -- the metadata that a file of a picture or a loop contains.
 //
-// Keyword and text, all of it printable ASCII; the same for the same picture on every machine.
-//   Title            domain and times             Moment, Units
-//   Description      the picture in a sentence    Grid             cells, spacing, levels
-//   First time       ISO 8601, UTC                Gridding         method, beam, averaging, effects
-//   Last time        of a loop                    Gridding error   as predicted, where it was
-//   Frames           of a loop                    Between grids    how frames were made there
-//   Domain, Stations                              Picture          slices, integration, light
-//   Product                                       Picture error    as planned and measured
-//   Software         and its version
-// Thread contract: pure functions.
+// It consists of keywords and texts in printable ASCII, and is the same for the same picture on
+// every machine.
+//   Title               domain and times
+//   Description         the picture in a sentence
+//   First time          ISO 8601, UTC
+//   Last time           of a loop
+//   Frames              of a loop
+//   Domain, Stations, Product, Moment, Units
+//   Grid                cells, spacing, levels
+//   Gridding            method, beam, averaging, effects
+//   Gridding error      as predicted, if it was predicted
+//   Between grids       how frames between grids were made
+//   Picture             slices, integration, light
+//   Picture error       as planned and measured
+//   Software            name and version
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <optional>
@@ -25,7 +32,7 @@ namespace stormcellar::cli {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-// What the grid does not say.
+// Facts that the grid does not contain.
 struct PictureFacts {
     std::string domain;
     UtcTime first, last;
@@ -34,7 +41,7 @@ struct PictureFacts {
     std::string error;                  // of the picture, by its plan; empty: not planned
 };
 
-// `scene` as it was drawn; `grid` stands for the method of all frames.
+// `scene` is the scene that was drawn; `grid` describes the method of all frames.
 [[nodiscard]] Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
                                    const render::Scene& scene);
 

@@ -47,13 +47,13 @@ bool chooses_slices(const std::string& effect) {
     return effect.starts_with("slices_");
 }
 
-// The effects that were asked for leave the number of slices alone, and no tolerance chooses it.
+// The requested effects do not concern the number of slices, and no tolerance chooses it.
 bool keeps_slices(const PicturePlanOptions& options) {
     return options.tolerance.empty() &&
            std::none_of(options.effects.begin(), options.effects.end(), chooses_slices);
 }
 
-// What the settings leave of the default.
+// Returns the default with the settings applied.
 render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scene& scene) {
     accuracy::Choice choice = render::rungs_of(chain, choice_of(scene));
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
@@ -63,7 +63,7 @@ render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scen
     return render::volume_choice(chain, choice);
 }
 
-// Against the chain's exact form, of the grid that was planned for.
+// Relative to the chain's exact form, for the grid of the plan.
 std::string error_text(const accuracy::Plan& plan) {
     std::string text = plan.budget.bounds_errors()
                            ? fmt::format("tolerance {}; ", accuracy::format_budget(plan.budget))
@@ -76,8 +76,8 @@ std::string error_text(const accuracy::Plan& plan) {
     return fmt::format("{} ({})", text, plan.description);
 }
 
-// The plan is for volumes: of another product's file it is an error, of a file whose volume was
-// made another product by --product it has nothing to say.
+// The plan is for volumes. In the file of another product it is an error; if --product replaced the
+// volume of the file, the plan has no effect.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
         return fail(ErrorCode::bad_argument,

@@ -16,7 +16,7 @@ class App;
 
 namespace stormcellar::cli {
 
-// What [plan] of a scene's file says, and whether the picture of the file is a volume.
+// The [plan] of a scene's file, and whether the picture of the file is a volume.
 struct ScenePlan {
     std::string file;
     std::string tolerance;
@@ -24,7 +24,7 @@ struct ScenePlan {
     bool of_volume = true;
 };
 
-// As they were typed, or stand in a scene's file.
+// The options as they were typed, or as a scene's file has them.
 struct PicturePlanOptions {
     std::string tolerance;
     std::vector<std::string> effects;
@@ -33,7 +33,7 @@ struct PicturePlanOptions {
     std::optional<ScenePlan> scene;  // none: no file was given
 
     [[nodiscard]] bool asked() const { return explain || !tolerance.empty() || !effects.empty(); }
-    // Nothing was typed beside the file.
+    // nothing was typed in addition to the file
     [[nodiscard]] bool is_scenes() const {
         return scene && !explain && tolerance == scene->tolerance && effects == scene->effects;
     }
@@ -42,18 +42,17 @@ struct PicturePlanOptions {
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 
 // A number of slices and a plan that chooses it (a tolerance, an effect slices_...) exclude each
-// other. What was typed wins over a scene's file, of which the other is left out; where both were
-// typed, or stand in the file, bad_argument names them.
+// other. Typed options override a scene's file, whose option is then left out. Errors:
+// bad_argument, naming both, if both were typed or both are in the file.
 [[nodiscard]] Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                                             const SceneOptions& scene);
 
-// Plans for this grid and sets the scene's slices, integration and rays as planned (slices that no
-// tolerance or effect chooses stay as they are); prints the plan
-// where that was asked for, to stderr with `json`, else to stdout. Gives what the plan knows of the
-// picture's error, in one line. Nothing happens, and the line is empty, when nothing was asked.
-// A plan of the scene's file is left out for a product that was typed and is no volume.
-// Errors: bad_argument for options that make no sense, or a product that is no volume;
-// unmet, naming the best there is, where nothing holds the tolerance.
+// Plans for this grid and sets the scene's slices, integration and rays (slices that no tolerance
+// or effect chooses stay). Prints the plan if requested: to stderr with `json`, else to stdout.
+// Returns what the plan knows about the error of the picture, in one line. Does nothing and returns
+// an empty line if nothing was requested. A plan of the scene's file is ignored for a typed product
+// that is no volume. Errors: bad_argument for invalid options, or a product that is no volume;
+// not_found, naming the best plan, if none meets the tolerance.
 [[nodiscard]] Result<std::string> plan_picture(const grid::BrickView& view,
                                                const render::FrameFacts& facts,
                                                const PicturePlanOptions& options, bool json,

@@ -42,7 +42,8 @@ struct Place {
     void complain(std::string_view why) const { table.complain(key, why); }
 };
 
-// A text that is not empty and of which `problem` says nothing: none, or the error's message.
+// Reads a text that is not empty and in which `problem` finds nothing wrong; else none, or the
+// message of the error.
 template <class Problem>
 void read_text(TomlTable& table, std::string_view key, std::string& value, Problem problem) {
     const auto text = table.text(key);
@@ -181,7 +182,7 @@ void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSet
     }
 }
 
-// What else is a .toml file here, by a section that only it has.
+// Recognizes our other .toml files by a section that only they have.
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     constexpr std::array<std::pair<const char*, const char*>, 3> others{
         std::pair{"radar", "a scene of simulated storms, for stormcellar synth"},
@@ -190,7 +191,7 @@ Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     const bool is_ours = std::any_of(sections.begin(), sections.end(),
                                      [&](const char* name) { return root.has(name); });
     for (const auto& [section, kind] : others) {
-        // The configuration has [[loop]] too.
+        // the configuration has [[loop]] too
         if (!root.has(section) || (is_ours && section != std::string_view("paths"))) continue;
         return fail(ErrorCode::bad_argument, "{}: {}; a picture's scene has [{}]", file.native(),
                     kind, fmt::join(sections, "], ["));
@@ -250,7 +251,7 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
             plan.scene = ScenePlan{path, plan.tolerance, plan.effects, scene.product == "volume"};
             if (const auto alone = scene_of(scene); !alone) file.alone = alone.error();
         }
-        // What is wrong with the file comes before what it might have said.
+        // An error in the file comes before anything that the file might have set.
         if (file.error || (loop != nullptr && !loop->domain.empty())) need_no_more(app, "--domain");
         if (file.error || (loop != nullptr && !loop->outputs.empty())) {
             need_no_more(app, "--output");

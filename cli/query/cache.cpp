@@ -25,7 +25,7 @@ struct CacheOptions {
     bool json = false;
 };
 
-// Every grid that the options name, of one domain or of all, whatever its moment.
+// Returns every grid that the options name, of one domain or of all, of any moment.
 Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
@@ -75,7 +75,7 @@ struct DomainTotal {
     std::uint64_t pinned_bytes = 0;
 };
 
-// What the newest grid of a domain and moment that was audited says of itself against its gates.
+// What the newest audited grid of a domain and moment says about its agreement with its gates.
 struct AuditedGrid {
     StoreEntry entry;
     std::vector<grid::AuditRow> rows;

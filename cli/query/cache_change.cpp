@@ -114,7 +114,7 @@ struct PinOptions {
     bool json = false;
 };
 
-// Pins or unpins every grid of the domain in the range; what is evicted meanwhile is left out.
+// Pins or unpins every grid of the domain in the range, except those evicted in the meantime.
 int run_pin(const PinOptions& options, bool pin) {
     const auto range = parse_time_range(options.times);
     if (!range) return report_error(range.error());
@@ -125,7 +125,7 @@ int run_pin(const PinOptions& options, bool pin) {
         const auto entries = store->list(options.domain, moment, range->from, range->to);
         if (!entries) return report_error(entries.error());
         for (const StoreEntry& entry : *entries) {
-            // Whether there was anything to do.
+            // whether there was anything to do
             const Result<bool> done =
                 pin ? cache::pin_grid(real_file_system(), entry.path).map([] { return true; })
                     : cache::unpin_grid(real_file_system(), entry.path);

@@ -1,4 +1,5 @@
-// cli/query/cache_change.h -- `stormcellar cache evict|pin|unpin`: what changes the cache.
+// cli/query/cache_change.h -- `stormcellar cache evict|pin|unpin`: the commands that change the
+// cache.
 #pragma once
 
 #include "cli/shared/commands.h"

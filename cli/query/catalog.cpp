@@ -32,7 +32,7 @@ struct CatalogOptions {
     GetOptions get;
 };
 
-// Of the volume: one of a file that holds several may be whole though another is not.
+// Returns the state of the volume: in a file with several, one may be whole though another is not.
 catalog::FileState state_of(const CatalogEntry& entry) {
     using catalog::FileState;
     const bool settled = entry.state == FileState::complete || entry.state == FileState::partial;
@@ -82,7 +82,8 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
     return entries.empty() ? report_nothing_matched() : exit_done;
 }
 
-// Databases that could not be read: each is its own station's trouble, the others were answered.
+// Reports databases that could not be read. Each affects only its own station; the others were
+// read.
 int report_troubles(const CatalogReader& catalog, int status) {
     for (const catalog::Trouble& trouble : catalog.troubles())
         status = report_error(trouble.error);
@@ -117,13 +118,13 @@ int run_stations(const CatalogOptions& options) {
     return stations->empty() && status == exit_done ? report_nothing_matched() : status;
 }
 
-// The chunks of a volume but for the first, in whose row it stands, hold no volume of their own.
+// All chunks of a volume but the first, whose row has the volume, have no volume of their own.
 bool is_part_of_a_volume(const CatalogEntry& entry) {
     return !entry.volume.start_time && entry.state != catalog::FileState::rejected &&
            level2::parse_chunk_name(entry.path.filename().native()).has_value();
 }
 
-// The entries that the options name, of one station or of all whose databases can be read.
+// Returns the entries that the options name, of one station or of all whose databases can be read.
 Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
                                            const CatalogReader& catalog) {
     const auto range = parse_time_range(options.times);
@@ -146,7 +147,7 @@ Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
     return all;
 }
 
-// A station that the catalog does not know is nothing that matched; a missing catalog is a failure.
+// For a station that the catalog does not know, nothing matched; a missing catalog is a failure.
 int report_query_error(const Error& error, const CatalogOptions& options) {
     const int status = report_error(error);
     const bool unknown = error.code == ErrorCode::not_found && fs::is_directory(options.directory);

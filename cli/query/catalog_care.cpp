@@ -1,4 +1,4 @@
-// stormcellar catalog check|rebuild: is the catalog sound, and making it so.
+// stormcellar catalog check|rebuild: checks whether the catalog is sound, and makes it so.
 #include "cli/query/catalog_care.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using catalog::Repair;
 using catalog::StationCheck;
 using catalog::Trouble;
 
-// By the text of --stations. By `any` the stations that have a database are admitted.
+// Follows the text of --stations. For `any`, the stations that have a database are admitted.
 Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     if (options.stations == "known") return std::make_shared<StationRule>();
     if (options.stations == "any") {
@@ -55,7 +55,7 @@ Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     return std::make_shared<StationRule>(StationRule::listed(listed));
 }
 
-// state/catalog lies in the directory that a daemon has locked.
+// state/catalog is in the directory that a daemon has locked.
 fs::path state_of(const std::string& catalog) {
     fs::path directory = fs::absolute(catalog).lexically_normal();
     if (!directory.has_filename()) directory = directory.parent_path();
@@ -132,7 +132,7 @@ void print_cleared(const ClearReport& report) {
     }
 }
 
-// While nobody else writes the catalog.
+// Runs while nobody else writes the catalog.
 Result<ClearReport> clear_unknown(const CareOptions& options, const StationRule& stations) {
     const auto lock = pipeline::InstanceLock::acquire(state_of(options.directory));
     if (!lock) {

@@ -9,14 +9,14 @@ struct CareOptions {
     std::string directory;  // state/catalog
     std::string drop;       // of rebuild
     std::string station;    // empty: all
-    // Which stations are known: "known" (the table), "any", or a list of names and "known".
+    // The known stations: "known" (the table), "any", or a list of names and "known".
     std::string stations = "known";
-    bool clear_unknown = false;  // of check: first remove the databases of other stations
+    bool clear_unknown = false;  // of check: first removes the databases of unknown stations
     bool json = false;
 };
 
-// Both print what they found and give the exit status: 0 only where nothing is wrong (check), or
-// nothing is wrong any more (rebuild; rows that were lost are said and are no failure).
+// Both print what they found and return the exit status: 0 if nothing is wrong (check) or nothing
+// is wrong any more (rebuild). Lost rows are reported and are no failure.
 int check_catalog(const CareOptions& options);
 int rebuild_catalog(const CareOptions& options);
 

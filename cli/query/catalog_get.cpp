@@ -38,15 +38,15 @@ std::vector<MatchedFile> files_of(const std::vector<CatalogEntry>& entries) {
     return files;
 }
 
-// What a run has written, so that it never puts one file in the place of another.
+// The files that a run has written, so that it never replaces one by another.
 class Targets {
   public:
     explicit Targets(const GetOptions& options) : options_(options) {}
 
-    // The path of this name in the output directory, when it may be written.
+    // Returns the path of this name in the output directory if it may be written.
     Result<fs::path> claim(const std::string& name) {
         fs::path to = fs::path{options_.output} / name;
-        // Of two files of one name the second has a number behind it.
+        // If two files have one name, the second gets a number.
         for (int number = 2; !taken_.insert(to).second; ++number) {
             const fs::path plain{name};
             to = fs::path{options_.output} /
@@ -63,14 +63,15 @@ class Targets {
     std::set<fs::path> taken_;
 };
 
-// As the archives name a volume's file: "KLOT20220317_000842".
+// Returns the name that the archives give to a volume's file: "KLOT20220317_000842".
 std::string name_of_file(const CatalogEntry& entry) {
     if (!pipeline::is_of_chunks(entry)) {
-        // Of a member of an archive its own name.
+        // For a member of an archive its own name.
         const auto member = archive::member_path_of(entry.path);
         return (member ? fs::path{member->member} : entry.path).filename().string();
     }
-    const std::string time = format_utc(*entry.volume.start_time);  // 2022-03-17T00:08:42Z
+    // format_utc() gives 2022-03-17T00:08:42Z
+    const std::string time = format_utc(*entry.volume.start_time);
     std::string name = entry.station;
     for (const char letter : time.substr(0, 19)) {
         if (letter == 'T') name += '_';
@@ -79,7 +80,7 @@ std::string name_of_file(const CatalogEntry& entry) {
     return name;
 }
 
-// With what is worth saying about it on stderr.
+// Prints remarks about it on stderr.
 Result<std::vector<std::byte>> read_raw(const catalog::CatalogReader& catalog,
                                         const CatalogEntry& entry) {
     auto volume = pipeline::read_cataloged_volume(catalog, entry);
@@ -101,7 +102,7 @@ Status copy_raw(const catalog::CatalogReader& catalog, const MatchedFile& file, 
     return {};
 }
 
-// "KTLX19990503_235621" of "KTLX19990503_235621.gz".
+// Returns "KTLX19990503_235621" for "KTLX19990503_235621.gz".
 std::string name_without_compression(const fs::path& path) {
     const std::string extension = path.extension().string();
     const bool compressed = extension == ".gz" || extension == ".bz2" || extension == ".Z";
@@ -122,7 +123,7 @@ Result<level2::Decoded> decode_raw(const catalog::CatalogReader& catalog,
     return decoded;
 }
 
-// The volumes of the file that matched; all of a file that holds one.
+// Returns the volumes of the file that matched; all of them if it has only one.
 std::vector<std::size_t> matched_volumes(const MatchedFile& file,
                                          const std::vector<level2::Volume>& volumes) {
     std::vector<std::size_t> matched;
@@ -172,7 +173,7 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
     return written ? output->finish() : written;
 }
 
-// The one file that matched.
+// For the one file that matched.
 Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<MatchedFile>& files,
                      bool decode) {
     if (files.size() != 1) {

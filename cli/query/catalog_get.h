@@ -9,15 +9,15 @@
 namespace stormcellar::cli {
 
 struct GetOptions {
-    std::string output;   // a directory, made when it is not there; "-": standard output
-    bool force = false;   // replace files that are there
-    bool decode = false;  // write volumes as CfRadial instead of copying files
+    std::string output;   // a directory, made if it is missing; "-": standard output
+    bool force = false;   // replaces existing files
+    bool decode = false;  // writes volumes as CfRadial instead of copying files
 };
 
-// Copies each file once under its own name; or writes each volume as NAME.nc, NAME without what
-// says that it is compressed, and as NAME_volumeN.nc when the file holds several. Prints the path
-// of each. Goes on after a failure; gives the exit status of the last one.
-// A file that is no longer the one that was cataloged is not copied and is a failure.
+// Copies each file once under its own name; or writes each volume as NAME.nc, without the ending of
+// a compression, and as NAME_volumeN.nc if the file has several. Prints the path of each. Continues
+// after a failure and returns the exit status of the last one. A file that is no longer the one
+// that was cataloged is not copied and is a failure.
 [[nodiscard]] int get_files(const catalog::CatalogReader& catalog,
                             const std::vector<catalog::CatalogEntry>& entries,
                             const GetOptions& options);

@@ -1,4 +1,4 @@
-// stormcellar status: what the running daemon says of itself.
+// stormcellar status: shows what the running daemon reports about itself.
 #include <memory>
 
 #include <CLI/CLI.hpp>

@@ -43,7 +43,7 @@ Error system_error(const fs::path& path, int error_number) {
             fmt::format("{}: {}", path.native(), std::system_category().message(error_number))};
 }
 
-// False when the time is over.
+// Returns false when the time is over.
 bool wait_for(int descriptor, short what, Clock::time_point end) {
     while (true) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -71,7 +71,7 @@ Result<std::string> read_answer(const Descriptor& socket, const fs::path& path,
     return fail(ErrorCode::corrupt, "{}: the answer is too long", path.native());
 }
 
-// An object, or nothing.
+// Returns an object, or none.
 std::optional<nlohmann::json> parse_object(std::string_view text) {
     auto document = nlohmann::json::parse(text, nullptr, false);
     if (!document.is_object()) return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<nlohmann::json> read_status_file(const fs::path& file) {
     return parse_object({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
-// The objects in the list of a status's loops.
+// Returns the objects in the list of a status's loops.
 std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     std::vector<nlohmann::json> loops;
     const auto all = document.find("loops");
@@ -97,20 +97,20 @@ std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     return loops;
 }
 
-// Whether a daemon says so of its loops.
+// Returns true if the daemon says this of its loops.
 bool are_elsewhere(const nlohmann::json& document) {
     const auto& loops = document.at("loops");
     return loops.contains("elsewhere") && loops["elsewhere"] == true;
 }
 
-// Another user's process may not be signalled, but is there.
+// We may not signal another user's process, but it exists.
 bool is_alive(const nlohmann::json& keeper) {
     const auto pid = keeper.find("pid");
     return pid != keeper.end() && pid->is_number_integer() && pid->get<std::int64_t>() > 0 &&
            (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
 }
 
-// Their process was killed, and says what it said last.
+// Their process was killed, so its last report is no longer true.
 void stop_all(nlohmann::json& loops) {
     loops["running"] = 0;
     if (!loops.contains("each") || !loops["each"].is_array()) return;
@@ -118,7 +118,7 @@ void stop_all(nlohmann::json& loops) {
         if (loop.is_object()) loop["running"] = false;
 }
 
-// Loops that the daemon knows of and their process does not, as when it has ended.
+// Adds loops that the daemon knows and their process does not, for example because it has ended.
 void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json>& configured) {
     nlohmann::json& each = loops["each"];
     if (!each.is_array()) each = nlohmann::json::array();
@@ -131,7 +131,7 @@ void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json
         if (loop.contains("name") && !has(loop["name"])) each.push_back(loop);
 }
 
-// A daemon may have been told to answer elsewhere: its file says where.
+// A daemon may serve another socket: its file says which.
 void add_named_socket(StatusPlaces& places) {
     const auto document = read_status_file(places.file);
     if (!document) return;
@@ -200,7 +200,7 @@ void add_loops(nlohmann::json& document, const fs::path& loops) {
 std::string how_to_be_let_in(const fs::path& socket) {
     struct stat found {};
     if (::stat(socket.c_str(), &found) != 0) return "";
-    const struct group* known = ::getgrgid(found.st_gid);  // one thread
+    const struct group* known = ::getgrgid(found.st_gid);  // safe, because there is only one thread
     if (known == nullptr) return "";
     return fmt::format(
         "; members of the group {0} may ask: sudo usermod -aG {0} USER, then log in "

@@ -1,8 +1,10 @@
-// cli/query/status_source.h -- where `stormcellar status` has it from: the running daemon, else its
-// file.
+// cli/query/status_source.h -- where `stormcellar status` gets the status: from the running daemon,
+// else from its file.
 //
-// A daemon answers on its Unix socket (GET /status.json); where none does, state/status.json says
-// what the last one said. Thread contract: one thread.
+// A daemon answers on its Unix socket (GET /status.json). If none answers, state/status.json has
+// the last status that was written.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +18,7 @@
 
 namespace stormcellar::cli {
 
-// At most one of the three is named; none: a service in its usual places.
+// At most one of the three is set; none: a service in its usual places.
 struct StatusOptions {
     std::string socket, state, config;
     bool json = false;
@@ -25,9 +27,9 @@ struct StatusOptions {
 struct StatusPlaces {
     std::vector<std::filesystem::path> sockets;  // tried in this order
     std::filesystem::path file;                  // empty: none
-    std::filesystem::path loops;                 // of a process that keeps loops alone; empty: none
+    std::filesystem::path loops;                 // of a process that only keeps loops; empty: none
 };
-// bad_argument or what reading the configuration gives.
+// Errors: bad_argument, and those of reading the configuration.
 [[nodiscard]] Result<StatusPlaces> places_of(const StatusOptions& options);
 
 struct StatusAnswer {
@@ -35,21 +37,21 @@ struct StatusAnswer {
     std::filesystem::path from;  // the socket or the file
     std::string silent;          // why no daemon answered; empty: one did
 };
-// not_found when neither answers: the message says why, place by place.
+// Errors: not_found if neither answers; the message gives the reason for each place.
 [[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
 
-// Where the daemon keeps no loops itself and another process does or did, its loops as "loops",
-// none of them running when it is gone, with those besides that the daemon's configuration names;
-// and as "loops_service" what it says of itself ("state","pid","version","started","updated") and
-// "alive", whether that process is there.
+// If the daemon keeps no loops itself but another process does or did, adds two members to the
+// document. "loops": the loops of that process, none of them running if it is gone, and those that
+// only the daemon's configuration names. "loops_service": what the process reports about itself
+// ("state","pid","version","started","updated"), and "alive", whether it exists.
 void add_loops(nlohmann::json& document, const std::filesystem::path& loops);
 
-// "; members of the group GROUP may ask: sudo usermod -aG GROUP USER, then log in again": what to
-// do where a socket may not be opened. Empty where its group is not known.
+// Returns what to do if a socket may not be opened: "; members of the group GROUP may ask: sudo
+// usermod -aG GROUP USER, then log in again". Empty if the group is not known.
 [[nodiscard]] std::string how_to_be_let_in(const std::filesystem::path& socket);
 
-// The document of whoever listens at the path: io with the system's reason, or corrupt when it is
-// no status. Waits 5 s at most and reads 16 MiB at most.
+// Returns the document of the process that listens at the path. Waits 5 s at most and reads 16 MiB
+// at most. Errors: io with the system's reason; corrupt if it is no status.
 [[nodiscard]] Result<nlohmann::json> ask_socket(const std::filesystem::path& path);
 
 }  // namespace stormcellar::cli

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr std::size_t most_rejected_shown = 10;
 
-// What is not there is null.
+// Returns null for a missing member.
 const json& at(const json& object, const char* key) {
     static const json nothing;
     if (!object.is_object()) return nothing;
@@ -61,7 +61,7 @@ std::string size_of(const json& object, const char* key) {
     return format_byte_size(count(object, key));
 }
 
-// "p50 85 ms, p95 120 ms, max 0.2 s"
+// Returns for example "p50 85 ms, p95 120 ms, max 0.2 s".
 std::string summary(const json& latency) {
     return fmt::format("p50 {}, p95 {}, max {}", short_duration(number(latency, "median")),
                        short_duration(number(latency, "p95")),
@@ -97,7 +97,7 @@ std::string cache_line(const json& status) {
                               count(rolling, "evicted"), size_of(rolling, "evicted_bytes"));
 }
 
-// "3 rejected (2 corrupt, 1 empty)"
+// Returns for example "3 rejected (2 corrupt, 1 empty)".
 std::string with_kinds(const json& status, const char* key, const char* by) {
     std::string line = fmt::format("{} {}", count(status, key), key);
     const json& kinds = at(status, by);
@@ -109,13 +109,13 @@ std::string with_kinds(const json& status, const char* key, const char* by) {
     return line + fmt::format(" ({})", fmt::join(each, ", "));
 }
 
-// How long the first of them has, where it is long.
+// Returns how long the first of them has left, if it is long.
 std::string wait_of(const json& pending) {
     const double wait_s = number(pending, "longest_wait_s").value_or(0);
     return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);
 }
 
-// Those that failed, where there are any.
+// Returns the number of those that failed, if there are any.
 std::string retrying_of(const json& pending) {
     const auto retrying = count(pending, "retrying");
     return retrying == 0 ? std::string{} : fmt::format(", {} to be tried again", retrying);
@@ -171,7 +171,7 @@ std::string counts_lines(const json& status) {
 
 using Row = std::vector<std::string>;
 
-// Columns as wide as what is in them; the first to the left, the others to the right.
+// Aligns columns to the widest cell, the first one to the left and the others to the right.
 std::string aligned(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const Row& row : rows)
@@ -188,7 +188,7 @@ std::string aligned(const std::vector<Row>& rows) {
     return lines;
 }
 
-// The live values; where there are none, the last one, marked as old.
+// Returns the live values; if there are none, the last one, marked as old.
 std::string antenna_of(const json& antenna) {
     if (number(antenna, "median")) return short_duration(number(antenna, "median"));
     const auto last = number(antenna, "last");
@@ -262,7 +262,7 @@ std::string rejected_lines(const json& status) {
     return lines;
 }
 
-// "; kept by process 17: running": where it is not the daemon itself.
+// Returns for example "; kept by process 17: running" if the daemon does not keep them itself.
 std::string loops_keeper(const json& status) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {

@@ -1,8 +1,9 @@
 // cli/query/status_table.h -- the daemon's status as text for people.
 //
-// Whatever the document lacks, or holds in another form than daemon/status/status_json.h says, is
-// shown as
-// "-": a newer or older daemon is no error. Thread contract: pure functions.
+// Members that the document lacks, or has in another form than that of daemon/status/status_json.h,
+// are shown as "-": a newer or older daemon is no error.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace stormcellar::cli {
 
-// Several lines, the stations sorted by name. Ages are counted from `now`.
+// Returns several lines, with the stations sorted by name. Ages are counted from `now`.
 [[nodiscard]] std::string status_table(const nlohmann::json& status, UtcTime now);
 
 }  // namespace stormcellar::cli

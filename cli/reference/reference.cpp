@@ -8,7 +8,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// "INT:INT in [1 - 10]" or "TEXT:{a,b}": what the parser says of a value.
+// Takes what the parser says of a value: "INT:INT in [1 - 10]" or "TEXT:{a,b}".
 void take_type(const std::string& type, OptionReference& option) {
     option.value = type.substr(0, type.find(':'));
     const std::size_t range = type.find(" in [");
@@ -50,7 +50,7 @@ void add_options(const CLI::App& app, const std::string& group_of_all,
     }
 }
 
-// Those of no group first, then group by group, as --help has them.
+// Options without a group come first, then those of each group, as in --help.
 void sort_by_group(std::vector<OptionReference>& options) {
     std::vector<std::string> groups{""};
     for (const OptionReference& option : options) {

@@ -1,10 +1,12 @@
-// cli/reference/reference.h -- the options of `stormcellar` as a manual and for shells that
-// complete them.
+// cli/reference/reference.h -- the options of `stormcellar` as a manual page and as completions for
+// shells.
 //
-// Read from the parser itself, so that they are those that the program has. The package is built
-// with `stormcellar --reference man|bash|zsh|fish`, which --help does not show; the pages around
-// the manual's part stand in packaging/man. Hidden options (of an empty group) are in none.
-// -h,--help is not repeated for each command. Thread contract: pure functions.
+// They are read from the parser itself, so that they are the options that the program really has.
+// The package is built with `stormcellar --reference man|bash|zsh|fish`, which --help does not
+// show; packaging/man contains the pages around this part. Hidden options (of an empty group) are
+// left out. -h,--help is not repeated for each command.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <optional>
@@ -19,19 +21,19 @@ class App;
 namespace stormcellar::cli {
 
 struct OptionReference {
-    std::vector<std::string> names;    // "-o", "--output"; none: only by its place
-    std::string place;                 // "DOMAIN"; empty: only by name
+    std::vector<std::string> names;    // "-o", "--output"; none: given only by position
+    std::string place;                 // "DOMAIN"; empty: given only by name
     std::string value;                 // "TEXT"; empty: a flag
-    std::vector<std::string> choices;  // that the value is one of; none: anything
+    std::vector<std::string> choices;  // the allowed values; none: any
     std::string range;                 // "1 - 1000000"; empty: none
-    std::string initial;               // the default; empty: none or said in the description
+    std::string initial;               // the default; empty: none, or given in the description
     std::string description;
-    std::string group;  // the heading it stands under; empty: none of its own
+    std::string group;  // its heading; empty: none
     bool is_required = false;
 };
 
 struct CommandReference {
-    std::string name;  // "catalog get"; of the program itself empty
+    std::string name;  // "catalog get"; empty for the program itself
     std::string description, footer;
     std::vector<OptionReference> options;
     std::vector<CommandReference> inner;
@@ -39,14 +41,14 @@ struct CommandReference {
 
 [[nodiscard]] CommandReference reference_of(const CLI::App& app);
 
-// Headings and lists of man(7), one heading a command that does something.
+// Uses headings and lists of man(7), one heading for each command that does something.
 [[nodiscard]] std::string manual_of(const CommandReference& program);
-// Files to be sourced or put where the shell looks for completions.
+// Files to be sourced, or put where the shell looks for completions.
 [[nodiscard]] std::string bash_completion_of(const CommandReference& program);
 [[nodiscard]] std::string zsh_completion_of(const CommandReference& program);
 [[nodiscard]] std::string fish_completion_of(const CommandReference& program);
 
-// By the name man, bash, zsh or fish; none for another.
+// Returns the text of this kind: man, bash, zsh or fish; none for any other.
 [[nodiscard]] std::optional<std::string> reference_text(const CLI::App& app, std::string_view kind);
 
 }  // namespace stormcellar::cli

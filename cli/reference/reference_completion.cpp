@@ -1,5 +1,5 @@
-// The commands and options for bash, zsh and fish. Where a value is expected files are offered, or
-// the choices that there are.
+// The commands and options for bash, zsh and fish. Where a value is expected, its allowed values or
+// files are offered.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ std::vector<const CommandReference*> all_commands(const CommandReference& progra
     return all;
 }
 
-// "get" of "catalog get".
+// Returns "get" of "catalog get".
 std::string last_word(const std::string& name) {
     const std::size_t space = name.rfind(' ');
     return space == std::string::npos ? name : name.substr(space + 1);
@@ -40,7 +40,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
     return text;
 }
 
-// The beginning of a description, for a line in a menu.
+// Returns the beginning of a description, for one line of a menu.
 std::string brief(const std::string& description) {
     std::size_t end = description.size();
     for (const char* stop : {". ", "; ", ": ", " ("})
@@ -76,7 +76,8 @@ std::string zsh_action(const OptionReference& option) {
     return fmt::format("({})", fmt::join(option.choices, " "));
 }
 
-// Each name of an option is a line of its own: what _arguments calls exclusive is not needed.
+// Each name of an option gets a line of its own, so that the exclusive lists of _arguments are not
+// needed.
 void write_zsh_option(const OptionReference& option, std::string& out) {
     for (const std::string& name : option.names) {
         const bool is_long = name.starts_with("--");

@@ -1,4 +1,4 @@
-// The commands and options in man(7).
+// The commands and options in the format of man(7).
 #include <fmt/format.h>
 
 #include "cli/reference/reference.h"
@@ -6,7 +6,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// As it is, whatever roff would make of it.
+// Escapes everything that roff would interpret.
 std::string roff(const std::string& text) {
     std::string out;
     for (const char letter : text) {

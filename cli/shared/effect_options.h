@@ -1,4 +1,5 @@
-// cli/shared/effect_options.h -- the options that say how exactly to grid, and what they ask for.
+// cli/shared/effect_options.h -- the options that say how exactly to grid, and the request that
+// they give.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,7 @@ namespace stormcellar::cli {
 
 inline constexpr std::string_view default_profile = "exponential";
 
-// As they were typed.
+// The options as they were typed.
 struct EffectOptions {
     std::string method;
     std::string averaging;
@@ -35,22 +36,22 @@ struct EffectOptions {
 void add_effect_options(CLI::App& app, EffectOptions& options);
 
 struct EffectRequest {
-    accuracy::Chain chain;  // with the settings asked for
+    accuracy::Chain chain;  // with the requested settings
     grid::Averaging averaging = grid::Averaging::in_db;
     std::optional<accuracy::Budget> budget;
     grid::RefractivityProfile profile = grid::RefractivityProfile::reference();
-    std::optional<double> sounding_from_m;  // the first level, where the profile is a sounding
-    bool profile_bends_nothing = false;     // one was given, and refraction is off
+    std::optional<double> sounding_from_m;  // the first level if the profile is a sounding
+    bool profile_bends_nothing = false;     // a profile was given although refraction is off
     bool explain = false;
 
-    // Something has to be predicted for the scene.
+    // Returns true if something must be predicted for the scene.
     [[nodiscard]] bool needs_plan() const { return budget.has_value() || explain; }
 };
 
-// A profile other than the default turns refraction on, unless that is set already or a tolerance
-// leaves it to the planner. Of several volumes, which overlap by this rule, the chain is that of
-// their mosaic (pipeline/mosaic/mosaic_effects.h). Errors: bad_argument, naming the option; io and
-// permission of a sounding that cannot be read.
+// A profile other than the default turns refraction on, unless refraction is set already or a
+// tolerance leaves it to the planner. For several volumes, which overlap by this rule, the chain is
+// that of their mosaic (pipeline/mosaic/mosaic_effects.h). Errors: bad_argument, naming the option;
+// io and permission for a sounding that cannot be read.
 [[nodiscard]] Result<EffectRequest> parse_effects(
     const EffectOptions& options, level2::Moment moment,
     std::optional<grid::Overlap> overlap = std::nullopt);

@@ -25,7 +25,7 @@ constexpr std::chrono::milliseconds between_looks{200};
 constexpr std::chrono::milliseconds quiet_time{250};
 constexpr std::chrono::seconds longest_burst{3};
 
-// What changes when a file or directory does; all zero when there is none.
+// The values that change with a file or directory; all zero if it does not exist.
 struct Stamp {
     std::string path;
     std::uint64_t inode = 0;
@@ -40,7 +40,7 @@ Stamp stamp_of(const std::filesystem::path& path) {
             found.st_size};
 }
 
-// The domain's directory, the moment's and those of the days.
+// Returns the directories of the domain, of the moment and of its days.
 std::vector<Stamp> directories_of(const Following& following) {
     const auto domain = following.cache / following.domain;
     const auto moment = domain / std::string(level2::moment_name(following.moment));
@@ -61,13 +61,13 @@ std::vector<Stamp> stamps_of(const std::vector<cache::StoreEntry>& grids) {
     return stamps;
 }
 
-// Sees changes of the directories.
+// Finds changes of the directories.
 class Changes {
   public:
     explicit Changes(const Following& following) : following_(following) {}
 
-    // Waits for a change and for the quiet after it; false when the flag was set. The first call
-    // waits for the quiet alone.
+    // Waits for a change and for the quiet after it; the first call waits only for the quiet.
+    // Returns false if the flag was set.
     bool wait(const std::atomic<bool>& stop) {
         std::optional<SteadyClock::time_point> began;
         SteadyClock::time_point last;
@@ -80,7 +80,7 @@ class Changes {
             }
             if (began && now - last >= quiet_time) return true;
             if (began && now - *began >= longest_burst) {
-                // What comes within the same tick of the file system's clock would not be seen.
+                // A change within the same tick of the file system's clock would not be seen.
                 known_.reset();
                 return true;
             }
@@ -94,7 +94,7 @@ class Changes {
     std::optional<std::vector<Stamp>> known_;
 };
 
-// From here on this program gets SIGTERM when its parent ends; false when that has ended already.
+// Asks for SIGTERM when the parent ends. Returns false if the parent has ended already.
 bool end_with(pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     return ::getppid() == parent;
@@ -105,7 +105,7 @@ bool end_with(pid_t parent) {
 void add_follow_options(CLI::App& app, FollowOptions& options) {
     app.add_flag("--follow", options.wanted,
                  "Stay, and make it again whenever its grids come or go");
-    // For stormcellard, whose end shall be this one's; of no use by hand.
+    // for stormcellard, with which this process must end; of no use to people
     app.add_option("--with-parent", options.parent, "End when that process does")->group("");
 }
 

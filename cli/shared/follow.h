@@ -1,11 +1,12 @@
-// cli/shared/follow.h -- `--follow`: a loop that is made again whenever its grids come or go.
+// cli/shared/follow.h -- `--follow`: makes a loop again whenever its grids change.
 //
-// The directories of the domain in the cache are looked at five times a second (a few stat() calls;
-// their times change with every grid that comes, goes or is replaced, on network file systems too).
-// After a change it waits until a quarter of a second has brought no other one, three seconds at
-// most; then the grids are listed again, and the loop is made when they are others than those that
-// it was last made of.
-// Thread contract: one thread; see cli/shared/interrupt.h for the flag.
+// The directories of the domain in the cache are checked five times a second. This takes a few
+// stat() calls: the times of directories change with every grid that is added, removed or replaced,
+// on network file systems, too. After a change it waits until nothing has changed for a quarter of
+// a second, three seconds at most. Then the grids are listed again, and the loop is made if they
+// differ from those of the last loop.
+//
+// Threads   One thread at a time; see cli/shared/interrupt.h for the flag.
 #pragma once
 
 #include <atomic>
@@ -27,7 +28,7 @@ namespace stormcellar::cli {
 
 struct FollowOptions {
     bool wanted = false;
-    pid_t parent = 0;  // whose end ends it; 0: nobody's
+    pid_t parent = 0;  // the process with which this one ends; 0: none
 };
 void add_follow_options(CLI::App& app, FollowOptions& options);
 
@@ -35,19 +36,20 @@ struct Following {
     std::filesystem::path cache;
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
-    // The grids that the loop is to be made of now: relative times count from the call.
+    // Returns the grids of which the loop is to be made now. Relative times count from the call.
     std::function<Result<std::vector<cache::StoreEntry>>()> find;
-    // Makes it; says what went wrong and gives the exit status.
+    // Makes the loop, reports errors, and returns the exit status.
     std::function<int(const std::vector<cache::StoreEntry>&)> make;
     bool quiet = false;
 };
 
-// Until the flag is set, which is exit_done. What cannot be listed or made is said once and tried
-// again with the next change. Without a grid, or the cache, it waits. Ends with another status only
-// where, before a loop was made, what was asked for turns out to make no sense (exit_bad_usage).
+// Runs until the flag is set, and then returns exit_done. What cannot be listed or made is reported
+// once and tried again after the next change. It waits if there is no grid or no cache. It ends
+// with another status (exit_bad_usage) only if the request turns out to be invalid before a first
+// loop was made.
 int follow(const Following& following, const FollowOptions& options, const std::atomic<bool>& stop);
 
-// The document on one line of stdout, at once.
+// Prints the document on one line of stdout and flushes it.
 void print_json_line(const nlohmann::json& document);
 
 }  // namespace stormcellar::cli

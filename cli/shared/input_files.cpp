@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view standard_input = "standard input";
 constexpr std::uint64_t most_piped_bytes = std::uint64_t{4} << 30;
 
-// All that comes of what can be read once only.
+// Reads everything from a source that can be read only once.
 Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label) {
     std::vector<std::byte> bytes;
     for (;;) {
@@ -48,8 +48,7 @@ Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label
 // An archive that is read from one member to the next.
 class OpenArchive {
   public:
-    // None where it is no archive.
-    // `piped`: its bytes, where they came through a pipe.
+    // Returns none if the file is no archive. `piped`: its bytes if they came through a pipe.
     static std::unique_ptr<OpenArchive> open(const fs::path& path,
                                              const std::vector<std::byte>* piped) {
         auto opened = std::make_unique<OpenArchive>();
@@ -94,19 +93,19 @@ std::string InputFile::file_name() const {
 struct InputFiles::Impl {
     std::vector<InputFile> files;
     std::vector<std::string> left_out;
-    // What came through pipes, by path; standard input has an empty one.
+    // The bytes that came through pipes, by path; standard input has an empty path.
     std::map<fs::path, std::vector<std::byte>> piped;
-    // The archive that was read last, and where in it.
+    // The archive that was read last, and the position in it.
     std::unique_ptr<OpenArchive> open;
     fs::path open_path;
 
     Status add(const std::string& name);
     Status add_piped(const std::string& label, const fs::path& path, int descriptor);
     Status add_directory(const fs::path& directory);
-    // False where it is no archive.
+    // Returns false if the file is no archive.
     bool add_archive(const std::string& label, const fs::path& path);
     Result<std::vector<std::byte>> read_member(const InputFile& file);
-    // None: the file is read where it lies.
+    // Returns none if the file is read from its path.
     [[nodiscard]] const std::vector<std::byte>* piped_of(const fs::path& path) const {
         const auto found = piped.find(path);
         return found == piped.end() ? nullptr : &found->second;
@@ -184,7 +183,7 @@ Status InputFiles::Impl::add(const std::string& name) {
 }
 
 Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& file) {
-    // Once on from where the last one was read, and once from the start.
+    // First continues where the last read ended, then starts from the beginning.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!open || open_path != file.path || attempt > 0) {
             open = OpenArchive::open(file.path, piped_of(file.path));

@@ -1,10 +1,11 @@
 // cli/shared/input_files.h -- the raw files that a command line names.
 //
-// A name may stand for one file, for a tar or zip archive (its members), for a directory (the files
-// in it and below it, or one volume where it holds that volume's chunks) or, as "-", for standard
-// input. Names of members are written ARCHIVE!MEMBER. What a directory or an archive holds beside
-// Level II is left out and named; a file that is named itself has to be Level II.
-// Thread contract: one thread at a time.
+// A name may be that of one file, of a tar or zip archive (its members), of a directory (the files
+// in it and below it, or one volume if it holds the chunks of that volume) or "-" for standard
+// input. Members are written ARCHIVE!MEMBER. Entries of a directory or an archive that are not
+// Level II are left out and reported; a file that is named itself must be Level II.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -19,20 +20,20 @@
 namespace stormcellar::cli {
 
 struct InputFile {
-    std::string label;           // as messages and results name it
+    std::string label;           // the name in messages and results
     std::filesystem::path path;  // of the file, or of its archive; empty: standard input
     std::string member;          // of the archive; empty: the file itself
-    bool was_found = false;      // in a directory or an archive, and not named itself
+    bool was_found = false;      // found in a directory or an archive, and not named itself
 
-    // The last part of its name: what tells of its station, and stands in results.
+    // Returns the last part of its name, which shows the station and appears in results.
     [[nodiscard]] std::string file_name() const;
 };
 
 class InputFiles {
   public:
-    // In the order of the names; files of a directory by their paths. Errors: not_found, permission
-    // and io of what was named; bad_argument where "-" is named twice; not_found where nothing is
-    // left.
+    // Files are in the order of the names; those of a directory are sorted by path. Errors:
+    // not_found, permission and io of the names; bad_argument if "-" is named twice; not_found if
+    // nothing is left.
     [[nodiscard]] static Result<InputFiles> find(const std::vector<std::string>& names);
     InputFiles(InputFiles&&) noexcept;
     InputFiles& operator=(InputFiles&&) noexcept;
@@ -40,16 +41,16 @@ class InputFiles {
 
     [[nodiscard]] const std::vector<InputFile>& files() const;
     [[nodiscard]] std::vector<std::string> labels() const;
-    // Whether the file of this label was found, and not named itself.
+    // Returns true if the file of this label was found and not named itself.
     [[nodiscard]] bool is_found(const std::string& label) const;
-    // What was found and is no file to read, with the reason.
+    // Returns what was found but cannot be read as a file, with the reason.
     [[nodiscard]] const std::vector<std::string>& left_out() const;
 
-    // Members are fastest in their order. Errors: those of read_file(); corrupt where the archive
-    // does not have the member any more.
+    // Reading members is fastest in their order. Errors: those of read_file(); corrupt if the
+    // archive no longer has the member.
     [[nodiscard]] Result<std::vector<std::byte>> read(const InputFile& file);
-    // The whole file, or the chunks of a directory, decoded; the station is that of its name where
-    // the file has none. `bytes`: how many were read. Errors name the file.
+    // Returns the whole file, or the chunks of a directory, decoded. If the file names no station,
+    // that of the file name is used. `bytes`: the number of bytes read. Errors name the file.
     [[nodiscard]] Result<level2::Decoded> decode(const InputFile& file,
                                                  level2::DecodeOptions options,
                                                  std::uint64_t* bytes = nullptr);
@@ -60,7 +61,8 @@ class InputFiles {
     std::unique_ptr<Impl> impl_;
 };
 
-// Whether a file that was only found, and not named, is left out for this error: it is no volume.
+// Returns true if a file that was found, and not named itself, is left out for this error because
+// it is no volume.
 [[nodiscard]] bool is_no_volume(const Error& error);
 
 }  // namespace stormcellar::cli

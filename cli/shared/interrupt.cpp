@@ -8,7 +8,7 @@ std::atomic<int> which{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler may not wait for a lock");
 
-// SA_RESETHAND gives the signal its usual effect back, so the second one ends the program.
+// SA_RESETHAND restores the usual effect of the signal, so that a second one ends the program.
 void note_signal(int number) {
     which = number;
     came = true;

@@ -1,8 +1,9 @@
 // cli/shared/output_file.h -- the one file that a command writes, which may be standard output.
 //
-// "-" stands for standard output. The file is made in a temporary place then, for its format may
-// need to go back in it, and is copied when it is whole: a reader gets all of it or nothing.
-// Thread contract: one thread.
+// "-" means standard output. The file is then made in a temporary place, because its format may
+// need to seek, and is copied when it is complete: a reader gets all of it or nothing.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +19,17 @@ namespace stormcellar::cli {
 
 [[nodiscard]] bool is_stdout(std::string_view output);
 
-// Before long work: whether the file can appear there, and whether its ending is one of these; with
-// `json`, which goes to standard output too, that it is not that. `what` is made, as in "a frame is
-// written as PNG". Errors: bad_argument, and those of check_target().
+// Checks before long work that the file can be written and that its ending is one of these; with
+// `json`, which also goes to standard output, that it is not standard output. `what` describes the
+// output, as in "a grid is netCDF". Errors: bad_argument, and those of check_target().
 [[nodiscard]] Status check_output_file(const std::string& output,
                                        const std::vector<std::string_view>& endings,
                                        std::string_view what, bool json);
 
 class OutputFile {
   public:
-    // `ending`: of the temporary file, for who goes by it. Errors: those of making a temporary
-    // directory.
+    // `ending` is that of the temporary file, for writers that depend on it. Errors: those of
+    // making a temporary directory.
     [[nodiscard]] static Result<OutputFile> open(const std::string& output,
                                                  std::string_view ending = {});
     OutputFile(OutputFile&& other) noexcept;
@@ -37,9 +38,9 @@ class OutputFile {
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();
 
-    // Where to write the file.
+    // the path to write to
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    // Once it is written. Errors: io where standard output does not take it.
+    // Call it when the file is written. Errors: io if standard output does not accept it.
     [[nodiscard]] Status finish();
 
   private:
@@ -50,7 +51,7 @@ class OutputFile {
     std::filesystem::path temporary_;  // a directory of its own; empty: written in place
 };
 
-// Bytes that are in memory already. Errors: those of writing.
+// For bytes that are already in memory. Errors: those of writing.
 [[nodiscard]] Status write_output(const std::string& output, std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,5 @@
-// cli/shared/problem_notes.h -- a decoder's problems as notes for a file made from what it decoded.
+// cli/shared/problem_notes.h -- turns the problems that a decoder reports into notes for the file
+// made from its result.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace stormcellar::cli {
 
-// The messages of the first 20, and how many more there are.
+// Returns the messages of the first 20 problems, and the number of the others.
 [[nodiscard]] std::vector<std::string> notes_of(const level2::DecodeReport& report);
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// cli/shared/progress.h -- a bar on stderr, when stderr is a terminal and it is wanted.
+// cli/shared/progress.h -- a progress bar on stderr, if stderr is a terminal and a bar is wanted.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ class Progress {
     Progress(std::string what, std::size_t total, bool wanted);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    ~Progress();  // takes the bar away
+    ~Progress();  // removes the bar
 
     void show(std::size_t done);
-    // With another total, which may grow while it is found out.
+    // The total may differ from call to call, for example while it is still being determined.
     void show(std::size_t done, std::size_t total);
-    void clear();  // before another message is printed
+    void clear();  // call it before printing another message
 
   private:
     std::string what_;
@@ -24,7 +24,7 @@ class Progress {
     bool shown_;
 };
 
-// "frames [#####.....]  6/12"
+// Returns "frames [#####.....]  6/12".
 [[nodiscard]] std::string progress_line(const std::string& what, std::size_t done,
                                         std::size_t total);
 

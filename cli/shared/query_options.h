@@ -1,4 +1,5 @@
-// cli/shared/query_options.h -- times, JSON and small things that several query commands share.
+// cli/shared/query_options.h -- times, JSON and other small things that several query commands
+// share.
 #pragma once
 
 #include <optional>
@@ -26,25 +27,25 @@ void add_time_range(CLI::App& app, TimeRangeOptions& options);
 struct TimeRange {
     std::optional<UtcTime> from, to;
 };
-// bad_argument when one of them is no time, or they are the wrong way round.
+// Errors: bad_argument if one of them is no time, or they are in the wrong order.
 [[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
 
-// The document on stdout, two spaces a level. Characters beyond ASCII are written as \uXXXX, which
-// says the same to a program and keeps names from acting on a terminal. Bytes that are not UTF-8
-// become U+FFFD.
+// Prints the document on stdout, indented by two spaces. Characters beyond ASCII are written as
+// \uXXXX, which means the same to a program and keeps names from controlling a terminal. Bytes that
+// are not UTF-8 become U+FFFD.
 void print_json(const nlohmann::json& document);
 
-// Warns on stderr of what is shown as the newest and lies in the future (is_believed()).
+// Warns on stderr about a time that is shown as the newest and lies in the future (is_believed()).
 void warn_of_future(UtcTime newest);
 
-// Says so on stderr; gives the exit status.
+// Reports it on stderr. Returns the exit status.
 int report_nothing_matched();
 
 [[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none
 
-// "KBGM,KENX", sorted, each once. Errors: bad_argument.
+// Parses "KBGM,KENX"; the result is sorted, each name once. Errors: bad_argument.
 [[nodiscard]] Result<std::vector<std::string>> parse_stations(const std::string& text);
-// "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
+// Parses "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
 [[nodiscard]] Result<pipeline::Bounds> parse_bounds(const std::string& text);
 
 }  // namespace stormcellar::cli

@@ -8,8 +8,8 @@
 
 namespace stormcellar::cli {
 
-// "85 ms", "4.2 s", "42 s", "12 min", "3.2 h", "5 d", "4.1 y"; "-" for none; a minus before what
-// lies ahead.
+// Returns "85 ms", "4.2 s", "42 s", "12 min", "3.2 h", "5 d" or "4.1 y"; "-" for none; with a minus
+// for times in the future.
 [[nodiscard]] std::string short_duration(std::optional<double> seconds);
 
 }  // namespace stormcellar::cli

@@ -1,8 +1,7 @@
-// cli/shared/site_options.h -- which radar a file is of, and where it stands, said on the command
-// line.
+// cli/shared/site_options.h -- the options that say to which radar a file belongs and where it is.
 //
-// For radars that neither the file nor the station table places: files of the nineties, test beds,
-// mobile and foreign radars. A daemon has [[station]] tables for the same.
+// They are for radars of which neither the file nor the station table gives the position: files of
+// the nineties, test beds, mobile and foreign radars. A daemon has [[station]] tables for this.
 #pragma once
 
 #include <optional>
@@ -18,7 +17,7 @@ class App;
 
 namespace stormcellar::cli {
 
-// As they were typed.
+// The options as they were typed.
 struct SiteOptions {
     std::string station;
     std::string position;
@@ -26,7 +25,7 @@ struct SiteOptions {
 void add_site_options(CLI::App& app, SiteOptions& options);
 
 struct SiteRequest {
-    std::string station;  // empty: what the file says
+    std::string station;  // empty: as in the file
     struct Position {
         double latitude_deg = 0;
         double longitude_deg = 0;
@@ -37,9 +36,9 @@ struct SiteRequest {
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Result<SiteRequest> parse_site(const SiteOptions& options);
 
-// Gives the volume the name and the position that were asked for; the station table of this process
-// has them from then on. To be called while no other thread asks for stations.
-// Errors: bad_argument for a position without a name.
+// Gives the volume the requested name and position. From then on the station table of this process
+// has them as well, so call it while no other thread uses the station table. Errors: bad_argument
+// for a position without a name.
 [[nodiscard]] Status apply_site(const SiteRequest& request, level2::Volume& volume);
 
 }  // namespace stormcellar::cli

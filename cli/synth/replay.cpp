@@ -1,4 +1,4 @@
-// stormcellar replay SOURCE... DROP: play files into a drop directory as LDM would.
+// stormcellar replay SOURCE... DROP: plays files into a drop directory as LDM would.
 #include "synth/replay.h"
 
 #include <cstdio>
@@ -23,7 +23,7 @@ namespace {
 constexpr double worth_a_hint_s = 600;
 
 struct ReplayCommandOptions {
-    std::vector<std::string> places;  // sources, and the drop directory as the last
+    std::vector<std::string> places;  // the sources, and the drop directory at the end
     std::string delivery = "whole";
     std::optional<double> interval_s;
     double speed = 1;
@@ -31,7 +31,7 @@ struct ReplayCommandOptions {
     bool json = false;
 };
 
-// "4.5 d": how long it is to take, or "no time".
+// Returns how long it will take: "4.5 d" or "no time".
 std::string duration_of(double seconds) {
     return seconds < 0.001 ? "no time" : short_duration(seconds);
 }
@@ -47,7 +47,7 @@ void say_plan(const synth::ReplayPlan& plan) {
                    : "");
 }
 
-// Says so at the first wait, and again when one is more than twice as long as what was said.
+// Reports the first wait, and again a wait more than twice as long as the last one reported.
 class WaitNotes {
   public:
     explicit WaitNotes(Progress& progress) : progress_(progress) {}
@@ -111,7 +111,7 @@ void print_faults(const std::vector<synth::FaultMade>& faults) {
         fmt::print(stderr, "{}: {}\n", synth::to_string(fault), count);
 }
 
-// What cannot come in chunks is named, and the rest is played.
+// Volumes that cannot be sent in chunks are named, and the others are played.
 void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
     std::erase_if(items, [](const synth::ReplayItem& item) {
         const auto why = synth::why_not_in_chunks(item);
@@ -155,7 +155,7 @@ int run_replay(const ReplayCommandOptions& options) {
     const double total_s = seconds_since(start);
     if (options.json) print_json(json_of(*report, total_s));
     if (report->stopped) {
-        std::fflush(stdout);  // the signal that ends the program does not
+        std::fflush(stdout);  // a signal that ends the program does not flush
         return report_stop(*report, items->size(), interrupt);
     }
     if (!options.json) {

@@ -1,4 +1,4 @@
-// stormcellar synth SCENE.toml -o DIR: write the Level II files of a simulated scene.
+// stormcellar synth SCENE.toml -o DIR: writes the Level II files of a simulated scene.
 #include <algorithm>
 #include <memory>
 #include <thread>

@@ -15,7 +15,8 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     std::optional<cache::StoreUsage> usage;
     if (roll_.valid()) {
         if (roll_.wait_for(std::chrono::seconds{0}) != std::future_status::ready) {
-            next_ = std::max(next_, now + std::chrono::seconds{1});  // it wakes us when it ends
+            // the roll wakes us when it ends
+            next_ = std::max(next_, now + std::chrono::seconds{1});
             return std::nullopt;
         }
         const CacheRolled rolled = roll_.get();
@@ -26,7 +27,7 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     next_ = now + period;
     try {
         roll_ = std::async(std::launch::async, [this, budgets] { return roll(budgets); });
-    } catch (const std::system_error& error) {  // no thread to be had
+    } catch (const std::system_error& error) {  // no thread could be started
         log_warning({Event::cache_problem}, "cannot look after the cache: {}", error.what());
     }
     return usage;
@@ -37,7 +38,7 @@ CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
     try {
         const AtWork at_work(pulse_);
         rolled = sink_.roll_cache(budgets, [this] { pulse_.beat(); });
-    } catch (const std::exception& error) {  // no memory
+    } catch (const std::exception& error) {  // out of memory
         rolled.report.problems.emplace_back(error.what());
     }
     wake_();

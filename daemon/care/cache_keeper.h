@@ -1,9 +1,11 @@
-// daemon/care/cache_keeper.h -- has the cache kept within its budgets while the service runs.
+// daemon/care/cache_keeper.h -- keeps the cache within its budgets while the service runs.
 //
-// Every 5 seconds, so that the file system's filling is met within 10, and in a thread of its own:
-// a roll may remove thousands of files. Logs what went, and what keeps the budgets from being kept
-// (at once, then again every 10 minutes while it lasts).
-// Thread contract: one thread; `wake` is called from the roll's and must only signal.
+// The cache is rolled every 5 seconds, so that a file system that fills up is noticed within 10. A
+// roll may remove thousands of files, so it runs in a thread of its own. It logs what was removed
+// and what keeps the budgets from being met (at once, then every 10 minutes while it lasts).
+//
+// Threads   One thread at a time. `wake` is called from the thread of the roll and must only
+//           signal.
 #pragma once
 
 #include <chrono>
@@ -25,13 +27,13 @@ class CacheKeeper {
 
     CacheKeeper(Sink& sink, std::function<void()> wake) : sink_(sink), wake_(std::move(wake)) {}
 
-    // Takes what a roll found, when one has ended, and starts the next when it is due. What the
-    // cache holds, when that is news.
+    // Takes the result of a roll that has ended, and starts the next one if it is due. Returns what
+    // the cache holds if that has changed.
     std::optional<cache::StoreUsage> poll(SteadyTime now, const cache::Budgets& budgets);
-    void roll_soon() { next_ = {}; }  // the budgets have changed
-    // When the next roll is due. A roll that lasts longer delays it.
+    void roll_soon() { next_ = {}; }  // The budgets have changed.
+    // Returns when the next roll is due. A roll that takes longer delays it.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
-    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the roll's thread
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread of the roll
 
   private:
     CacheRolled roll(const cache::Budgets& budgets);  // in its own thread
@@ -42,7 +44,8 @@ class CacheKeeper {
     Pulse pulse_;
     SteadyTime next_{}, next_reminder_{};
     std::optional<cache::StoreUsage> known_;
-    std::future<CacheRolled> roll_;  // the last member: waited for before the rest goes
+    // the last member: its thread is waited for before the others are destroyed
+    std::future<CacheRolled> roll_;
 };
 
 }  // namespace stormcellar::daemon

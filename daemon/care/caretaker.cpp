@@ -24,7 +24,7 @@ void log_problem(std::string_view what, const Error& error) {
                 printable(error.message));
 }
 
-// A database that cannot be used at all is named by the service.
+// The service reports a database that cannot be used at all.
 bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),
@@ -75,7 +75,7 @@ bool Caretaker::compare_sites() {
     while (true) {
         if (!pause({})) return false;
         auto report = of_.sites.compare_next();
-        if (!report || !*report) break;  // of a cache that cannot be read the rounds tell
+        if (!report || !*report) break;  // if the cache cannot be read, the rounds report it
         links_.compared(std::move(**report));
     }
     next_look_ = std::chrono::steady_clock::now() + times_.between_looks;
@@ -98,7 +98,7 @@ void Caretaker::run() {
     pulse_.rest();
 }
 
-// What was mended is logged by the service, which then scans for the files.
+// The service logs what was repaired, and then scans for the files.
 void Caretaker::examine_databases() {
     const auto stations = of_.catalog.station_names();
     if (!stations) return log_problem("cannot examine the catalog", stations.error());
@@ -181,7 +181,7 @@ void Caretaker::refill() {
     refill_frames();
 }
 
-// After the partials, of which they are made.
+// After the partials from which they are made.
 void Caretaker::refill_frames() {
     const auto missing = of_.mender.missing_frames(times_.refill);
     if (!missing) return log_problem("cannot look for missing frames", missing.error());

@@ -1,13 +1,14 @@
-// daemon/care/caretaker.h -- looks after what is stored, in a thread of its own.
+// daemon/care/caretaker.h -- looks after stored data, in a thread of its own.
 //
-// At the start: every database is examined, every grid's header is checked, and the newest grids
-// that are missing are made again. Then, while there is nothing else to do, every grid is read and
-// verified, one a second; an hour after the last one it begins again. What is damaged is mended
-// (pipeline/care/mend_cache.h) and named in the log. Between grids, sites that overlap are compared
-// (pipeline/mosaic/site_watch.h) as frames of mosaics become complete. Files that come go first:
-// nothing begins here while jobs wait. Thread contract: what CareLinks holds is called from the
-// thread and must be safe to call from it; the destructor waits for what has begun (one grid, one
-// pair of sites).
+// At the start every database is examined, the header of every grid is checked, and the newest
+// grids that are missing are made again. Then, while there is nothing else to do, every grid is
+// read and verified, one a second; an hour after the last one it starts again. Damage is repaired
+// (pipeline/care/mend_cache.h) and logged. Between grids, sites that overlap are compared
+// (pipeline/mosaic/site_watch.h) as frames of mosaics become complete. Files that arrive come
+// first: nothing begins here while jobs wait.
+//
+// Threads   The functions of CareLinks are called from this object's thread and must be safe to
+//           call from it. The destructor waits for what has begun (one grid, one pair of sites).
 #pragma once
 
 #include <chrono>
@@ -23,13 +24,15 @@
 namespace stormcellar::daemon {
 
 struct CareTimes {
-    std::chrono::milliseconds refill{std::chrono::hours{6}};  // the newest so long; 0: none
+    // grids newer than this are made again; 0: none
+    std::chrono::milliseconds refill{std::chrono::hours{6}};
     std::chrono::milliseconds between_grids{1000};
     std::chrono::milliseconds between_rounds{std::chrono::hours{1}};
-    std::chrono::milliseconds between_looks{5000};  // at the frames, for sites to compare
+    // between looks at the frames for sites to compare
+    std::chrono::milliseconds between_looks{5000};
 };
 
-// What it works on; all must outlive it.
+// The data that it looks after; all must outlive it.
 struct CareOf {
     catalog::CatalogWriter& catalog;
     const cache::StoreReader& store;
@@ -54,16 +57,17 @@ class Caretaker {
   private:
     void run();
     void examine_databases();
-    // True when all were looked at.
+    // Returns true if all were checked.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
     void refill_frames();
     void mend(const cache::StoreEntry& entry, pipeline::MendDepth depth);
-    // Compares the sites that are due, if it is time to look; false when it is to end.
+    // Compares the sites that are due, if it is time. Returns false if the thread is to end.
     bool compare_sites();
-    // Waits so long, and then until there is nothing else to do; false when it is to end.
+    // Waits this long, and then until there is nothing else to do. Returns false if the thread is
+    // to end.
     bool pause(std::chrono::milliseconds least);
-    // The same, and compares sites meanwhile.
+    // Does the same and compares sites meanwhile.
     bool rest(std::chrono::milliseconds least);
 
     CareOf of_;
@@ -74,7 +78,7 @@ class Caretaker {
     std::condition_variable changed_;
     Pulse pulse_;
     bool stopping_ = false;  // guarded by mutex_
-    std::thread thread_;     // the last member: it uses what stands above
+    std::thread thread_;     // the last member: it uses the members above
 };
 
 }  // namespace stormcellar::daemon

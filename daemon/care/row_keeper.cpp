@@ -23,7 +23,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
             mark_missing();
             roll_rows();
             if (deletes) delete_gone(gone_rows_kept_for);
-        } catch (const std::exception& error) {  // no memory
+        } catch (const std::exception& error) {  // out of memory
             log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
                         error.what());
         }
@@ -31,7 +31,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
     };
     try {
         work_ = std::async(std::launch::async, work);
-    } catch (const std::system_error& error) {  // no thread to be had
+    } catch (const std::system_error& error) {  // no thread could be started
         log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
                     error.what());
         return;

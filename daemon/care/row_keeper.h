@@ -1,9 +1,11 @@
-// daemon/care/row_keeper.h -- has the catalog's rows follow the files that go.
+// daemon/care/row_keeper.h -- keeps the rows of the catalog in step with the files on disk.
 //
-// After a scan, in a thread of its own, as it looks at every file of the catalog: what is not there
-// is marked as gone, and where rows take more room than they may the oldest of these go. Once an
-// hour rows that have been gone for long are deleted, where the configuration says so. Both take a
-// tenth of the time at most, however often there are scans. Thread contract: one thread.
+// After a scan it looks at every file of the catalog, in a thread of its own. Files that are
+// missing are marked as gone. If the rows take more space than they may, the oldest rows of gone
+// files are deleted. Once an hour, rows of files that have been gone for long are deleted, if the
+// configuration says so. The work takes at most a tenth of the time, however often there are scans.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -17,15 +19,15 @@ namespace stormcellar::daemon {
 
 class RowKeeper {
   public:
-    static constexpr int rest = 10;  // times as long as it was at work
+    static constexpr int rest = 10;  // It rests this many times as long as it worked.
     static constexpr std::chrono::hours between_deletions{1};
 
     explicit RowKeeper(Sink& sink) : sink_(sink) {}
 
-    // Begins, unless it is at work or rests. Rows of files that are gone stay so long after their
-    // last registration; 0: for ever.
+    // Starts the work, unless it is running or resting. Rows of files that are gone are kept for
+    // `gone_rows_kept_for` after their last registration; 0: forever.
     void look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_for);
-    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread that works
 
   private:
     void mark_missing();
@@ -35,7 +37,8 @@ class RowKeeper {
     Sink& sink_;
     Pulse pulse_;
     SteadyTime began_{}, rested_{}, next_deletion_{};
-    // How long it took. The last member: waited for before the rest goes.
+    // Gives how long the work took. The last member: its thread is waited for before the others are
+    // destroyed.
     std::future<SteadyTime::duration> work_;
 };
 

@@ -1,9 +1,10 @@
-// daemon/care/state_keeper.h -- the state directory with its catalog directory and its lock: made
-// and held at the start, and made again when somebody deletes them under the running service.
+// daemon/care/state_keeper.h -- makes the state directory with its catalog directory and holds its
+// lock, and makes them again if somebody deletes them while the service runs.
 //
-// What goes into them comes back by itself once they stand: databases with the next files, the
-// status with its next publication, the socket within 15 s.
-// Thread contract: one thread.
+// The contents come back by themselves once the directories exist: the databases with the next
+// files, the status when it is next published, the socket within 15 s.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +19,13 @@ class StateKeeper {
   public:
     explicit StateKeeper(std::filesystem::path state) : state_(std::move(state)) {}
 
-    // Makes the directories where they are missing and takes the lock; errors of both
-    // (pipeline/keep/instance_lock.h). The first time it removes the temporary files that a killed
-    // service left.
+    // Makes the directories that are missing and takes the lock. The first call also removes the
+    // temporary files that a killed service left. Errors: those of making directories and of the
+    // lock (pipeline/keep/instance_lock.h).
     [[nodiscard]] Status hold();
-    // None while all is there; else what came of making it again. The lock is another one then: a
-    // service that was started on the new directory meanwhile has it (bad_argument).
+    // Returns none while everything exists, else the result of making it again. The lock is then a
+    // new one; if another service was started on the new directory in the meantime, that service
+    // holds it (bad_argument).
     [[nodiscard]] std::optional<Status> look();
 
   private:

@@ -20,7 +20,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::size_t most_socket_bytes = 107;  // sun_path, with its end
+constexpr std::size_t most_socket_bytes = 107;  // size of sun_path without the final zero
 
 bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
     const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
@@ -33,7 +33,7 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // "a/" has an empty last part, which would hide that "a/b" lies within.
+    // "a/" has an empty last part, which would hide that "a/b" lies within it.
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }
@@ -117,7 +117,7 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// What the grid room would refuse is refused here, with the line.
+// Refuses here, with the line, what the grid room would refuse.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -145,7 +145,7 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
 }
 
 int processors() {
-    // Asked for at every turn of the service, and read from a file.
+    // Called in every turn of the service, and hardware_concurrency() reads a file.
     static const unsigned count = std::thread::hardware_concurrency();
     return std::max(1, static_cast<int>(count));
 }

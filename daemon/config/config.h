@@ -1,8 +1,10 @@
-// daemon/config/config.h -- what stormcellard.toml says.
+// daemon/config/config.h -- the contents of stormcellard.toml.
 //
 // The shipped file (daemon/stormcellard.toml) explains every key and holds every default; a test
-// compares the two. Distances are kilometres in the file and metres here.
-// Thread contract: plain data.
+// compares the two.
+//
+// Units     Distances are kilometers in the file and meters here.
+// Threads   Plain data.
 #pragma once
 
 #include <chrono>
@@ -25,20 +27,20 @@
 
 namespace stormcellar::daemon {
 
-// What the rows of all databases may take.
+// The limit of the rows of all databases.
 inline constexpr std::uint64_t default_catalog_bytes = 16'000'000'000;
 
-// The file system at most 95 % full; no limit of bytes or age.
+// The file system may be at most 95 % full; there is no limit of bytes or age.
 [[nodiscard]] cache::Budgets default_budgets();
 
-// Where the status is asked for (status_server.h).
+// Where the status is served (status_server.h).
 struct StatusConfig {
     std::filesystem::path socket;  // absolute; empty: default_socket()
     int http_port = 0;             // 0: none
     bool operator==(const StatusConfig&) const = default;
 };
 
-// status.sock in the first of systemd's $RUNTIME_DIRECTORY (none: null), else in the state
+// Returns status.sock in the first of systemd's $RUNTIME_DIRECTORY (null: none), else in the state
 // directory.
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
@@ -64,11 +66,11 @@ struct GridConfig {
 
 // How files are taken in.
 struct IngestConfig {
-    StationRule stations;  // of which data are taken in
+    StationRule stations;  // the stations from which data are accepted
     std::vector<AddedStation> added_stations;
     bool living = true;  // volumes are gridded while they grow
     std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see pipeline::LivingGrids
-    std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine has
+    std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine supports
     bool operator==(const IngestConfig&) const = default;
 };
 
@@ -93,11 +95,11 @@ struct FixedConfig {
 
 // The keys that a reload makes count.
 struct ReloadableConfig {
-    int workers = 0;  // 0: one a processor; see worker_count()
+    int workers = 0;  // 0: one for each processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
-    std::chrono::milliseconds poll{5'000};  // the same where changes come without events
+    std::chrono::milliseconds poll{5'000};  // the same if changes come without events
     cache::Budgets budgets = default_budgets();
     std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";
@@ -120,9 +122,10 @@ struct Config {
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 
-// Relative paths are taken from the directory of the file. Unknown keys, wrong types, values out of
-// range and paths within one another are bad_argument: "FILE:LINE: [section] key: why".
-// Nothing is created and the directories need not exist, nor, unless asked for, the loops' scenes.
+// Relative paths start at the directory of the file. Nothing is created, and directories need not
+// exist; scenes of loops must exist only if that is requested. Errors: bad_argument, "FILE:LINE:
+// [section] key: why", for unknown keys, wrong types, values out of range and paths within one
+// another.
 [[nodiscard]] Result<Config> load_config(const std::filesystem::path& file,
                                          SceneFiles scenes = SceneFiles::as_named);
 

@@ -1,8 +1,10 @@
-// daemon/config/descriptor_plan.h -- how the descriptors that the process may have are shared out.
+// daemon/config/descriptor_plan.h -- how the file descriptors of the process are shared out.
 //
-// Databases and growing volumes hold as many as files claim. What they may hold is settled at the
-// start, so that the watcher, the cache, the sockets, the status and the workers always find some.
-// Thread contract: pure functions.
+// Databases and growing volumes take as many descriptors as there are files that ask for them.
+// Their limits are fixed at the start, so that the watcher, the cache, the sockets, the status and
+// the workers always have some left.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +13,16 @@
 namespace stormcellar::daemon {
 
 struct DescriptorPlan {
-    std::size_t databases = 0;  // open at once; three descriptors each
-    // Files that grow, volumes of chunks, and sites' last volumes: so many of each, one descriptor
-    // each.
+    std::size_t databases = 0;  // open at the same time; three descriptors each
+    // This many growing files, this many volumes in chunks, and this many last volumes of sites;
+    // one descriptor each.
     std::size_t growing = 0;
-    // What is left for everything else, at least.
+    // At least this many are left for everything else.
     std::size_t reserved = 0;
 
-    // Of so many in all. With 1,024 or more, nothing that the feed of all sites needs is cut short.
+    // Shares out `limit` descriptors. With 1,024 or more, the feed of all sites fits without cuts.
     [[nodiscard]] static DescriptorPlan of(std::uint64_t limit);
-    // Of the limit that the process has now.
+    // Shares out the limit that the process has now.
     [[nodiscard]] static DescriptorPlan of_this_process();
 };
 

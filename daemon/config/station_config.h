@@ -1,6 +1,7 @@
-// daemon/config/station_config.h -- which stations stormcellard.toml takes data of: [ingest]
-// stations and the [[station]] tables. daemon/stormcellard.toml explains them. Thread contract:
-// pure functions.
+// daemon/config/station_config.h -- the stations from which stormcellard accepts data: [ingest]
+// stations and the [[station]] tables of stormcellard.toml. daemon/stormcellard.toml explains them.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <string_view>
@@ -12,13 +13,13 @@
 
 namespace stormcellar::daemon {
 
-// "known", "any" or a list of stations; left out: known. What makes no sense is complained of.
+// Reads "known", "any" or a list of stations; if missing: known. Invalid values are reported.
 [[nodiscard]] StationRule read_station_rule(TomlTable& ingest);
 
-// As the configuration names it: "known", "any" or "listed".
+// Returns the name that the configuration uses: "known", "any" or "listed".
 [[nodiscard]] std::string_view name_of(StationRule::Kind kind);
 
-// All [[station]] tables; what makes no sense is complained of and left out.
+// Reads all [[station]] tables. Invalid ones are reported and left out.
 [[nodiscard]] std::vector<AddedStation> read_added_stations(TomlTable& root);
 
 }  // namespace stormcellar::daemon

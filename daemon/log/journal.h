@@ -1,12 +1,13 @@
-// daemon/log/journal.h -- entries for systemd's journal, with fields of their own.
+// daemon/log/journal.h -- writes entries with fields to systemd's journal.
 //
-// One datagram an entry: NAME=value and a newline for each field; a value with a newline in it as
-// NAME, a newline, its length (8 bytes, little endian), the value and a newline. What is too long
-// for a datagram goes as a sealed memory file whose descriptor is sent. Written here instead of
-// with sd_journal_sendv(), which knows one socket only and says that all is well when nobody
-// listens there: a line must then go elsewhere.
-// Source: systemd.io/JOURNAL_NATIVE_PROTOCOL, sd_journal_send(3).
-// Thread contract: send() from any thread.
+// An entry is one datagram. A field is NAME=value and a newline; a value that contains a newline is
+// written as NAME, a newline, its length (8 bytes, little endian), the value and a newline. An
+// entry that is too long for a datagram is written to a sealed memory file whose descriptor is
+// sent. We do this ourselves because sd_journal_sendv() knows only one socket and reports success
+// if nobody listens there; the line must then go somewhere else.
+//
+// Threads   send() may be called from any thread.
+// Source    systemd.io/JOURNAL_NATIVE_PROTOCOL, sd_journal_send(3).
 #pragma once
 
 #include <filesystem>
@@ -18,8 +19,8 @@ namespace stormcellar::daemon {
 
 inline constexpr const char* journal_socket = "/run/systemd/journal/socket";
 
-// Names are capital letters, digits and "_" and do not begin with a digit or "_": others the
-// journal leaves out. Values are any bytes.
+// Names consist of capital letters, digits and "_" and begin with a letter; the journal drops other
+// fields. Values may be any bytes.
 struct JournalField {
     std::string_view name;
     std::string value;
@@ -33,14 +34,15 @@ class Journal {
     Journal& operator=(const Journal&) = delete;
     ~Journal();
 
-    // False when nobody takes it: no socket there, or none that has room within a second.
+    // Returns false if nobody takes the entry: there is no socket, or none that has room within a
+    // second.
     [[nodiscard]] bool send(std::string_view entry) const;
 
   private:
     [[nodiscard]] bool send_as_file(std::string_view entry) const;
 
     std::filesystem::path path_;
-    int descriptor_;  // negative: none could be had
+    int descriptor_;  // negative: no socket could be opened
 };
 
 }  // namespace stormcellar::daemon

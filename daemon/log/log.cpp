@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* identifier = "stormcellard";
 
-// syslog(3): 7 debug, 6 info, 4 warning, 3 error.
+// Priorities of syslog(3): 7 debug, 6 info, 4 warning, 3 error.
 int priority_of(spdlog::level::level_enum level) {
     switch (level) {
         case spdlog::level::trace:
@@ -58,7 +58,7 @@ class SyslogLevel final : public spdlog::custom_flag_formatter {
     }
 };
 
-// Of the process, as its stderr is.
+// The log of the process.
 struct Outlet {
     std::unique_ptr<Journal> journal;
     std::function<SteadyTime()> clock = [] { return std::chrono::steady_clock::now(); };

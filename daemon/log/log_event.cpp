@@ -3,7 +3,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// In the order of the enumeration.
+// in the order of the enumeration
 constexpr std::array<std::string_view, event_count> names = {
     "ready",
     "not_ready",

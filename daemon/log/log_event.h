@@ -1,8 +1,9 @@
 // daemon/log/log_event.h -- the kinds of log lines.
 //
-// Their names are an interface: the journal has them as STORMCELLAR_EVENT, and
-// docs/reference/log.md explains each one (tests/repository/log_lines_test.cpp).
-// Thread contract: pure functions.
+// Their names are an interface: the journal has them as STORMCELLAR_EVENT, and docs/operations.md
+// explains each (tests/repository/log_lines_test.cpp).
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ enum class Event {
     reload_failed,
     reload_ignored,
     hang,
-    // of a file
+    // about a file
     gridded,
     living,
     no_moment,
@@ -35,7 +36,7 @@ enum class Event {
     vanished,
     registered,
     store_failed,
-    // of the drop directory
+    // about the drop directory
     watch_failed,
     directory_problem,
     overflow,
@@ -46,7 +47,7 @@ enum class Event {
     rows_deleted,
     behind,
     caught_up,
-    // of what is stored
+    // about stored data
     stations_unknown,
     state_lost,
     state_mended,
@@ -63,13 +64,13 @@ enum class Event {
     care_failed,
     sites_compared,
     site_fault,
-    // of loops
+    // about loops
     loop_started,
     loop_made,
     loop_said,
     loop_ended,
     loop_failed,
-    // of the status
+    // about the status
     status_answered,
     status_unanswered,
     status_unwritten,

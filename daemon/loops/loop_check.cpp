@@ -26,7 +26,7 @@ std::string without_speaker(const std::string& line) {
     return printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
 }
 
-// What it complains of first; notes are none.
+// Takes the first complaint that the program prints; notes do not count.
 void take_complaint(Child& child, std::string& complaint) {
     for (const std::string& line : child.err.read()) {
         const std::string text = without_speaker(line);
@@ -44,7 +44,7 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
     std::string complaint;
     const auto until = SteadyClock::now() + longest_check;
     while (SteadyClock::now() < until) {
-        const std::string how = child->ended();  // asked first: what it said is all there then
+        const std::string how = child->ended();  // first: after the end all of its output is there
         take_complaint(*child, complaint);
         if (how == "status 0") return {};
         if (!how.empty()) {
@@ -60,7 +60,7 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
 }
 
 bool is_known(const std::string& name, const std::vector<pipeline::Domain>& domains) {
-    // "north.KTLX": a part of north.
+    // "north.KTLX" is a part of the domain north.
     const std::string_view whole = cache::group_of(name);
     return find_station(name) || std::any_of(domains.begin(), domains.end(),
                                              [&](const auto& one) { return one.name == whole; });

@@ -17,10 +17,10 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::chrono::seconds time_to_end{3};    // before it is killed
-constexpr std::chrono::minutes long_enough{1};    // it ran well
-constexpr std::chrono::seconds longest_rest{60};  // as long as nothing happens
-constexpr double most_frames = 1e9;               // an int holds them
+constexpr std::chrono::seconds time_to_end{3};    // after this it is killed
+constexpr std::chrono::minutes long_enough{1};    // A loop that ran for this long has run well.
+constexpr std::chrono::seconds longest_rest{60};  // the longest sleep if nothing happens
+constexpr double most_frames = 1e9;               // fits in an int
 
 // A scene may be a symbolic link, unlike a raw file.
 FileStamp stamp_of_scene(const std::filesystem::path& scene) {
@@ -50,7 +50,7 @@ void LoopSupervisor::set(std::vector<LoopConfig> loops) {
     if (thread_.joinable()) return;
     try {
         thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error& error) {  // no thread to be had
+    } catch (const std::system_error& error) {  // no thread could be started
         log_error({Event::loop_failed}, "cannot keep loops: {}", error.what());
     }
 }
@@ -132,7 +132,7 @@ void LoopSupervisor::dismiss(Slot& slot, SteadyTime now) {
 void LoopSupervisor::start_due(SteadyTime now) {
     for (Slot& slot : slots_) {
         if (slot.child || slot.is_leaving || now < slot.not_before) continue;
-        // Not beside the one that it follows.
+        // It must not run beside the process that it replaces.
         const bool waits = std::any_of(slots_.begin(), slots_.end(), [&](const Slot& other) {
             return other.is_leaving && other.state.name == slot.state.name;
         });
@@ -171,7 +171,7 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
         slot.child->signal(SIGKILL);
         slot.kill_at.reset();
     }
-    const std::string how = slot.child->ended();  // asked first: what it said is all there then
+    const std::string how = slot.child->ended();  // first: after the end all of its output is there
     for (const std::string& line : slot.child->out.read())
         note_made(slot, line);
     for (const std::string& line : slot.child->err.read())
@@ -179,7 +179,7 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
     if (!how.empty()) note_end(slot, how, now);
 }
 
-// One document a loop that was made.
+// Reads the JSON document that the program prints for each animation.
 void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
     const auto document = nlohmann::json::parse(line, nullptr, false);
     if (!document.is_object()) return;
@@ -188,7 +188,7 @@ void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
-    slot.last_line.clear();  // of what was not made before: it is no reason of an end
+    slot.last_line.clear();  // It tells about earlier animations and does not explain a later end.
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");
@@ -217,7 +217,7 @@ void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
-    // What is killed has no reason of its own.
+    // A loop that we killed has no reason of its own.
     const bool was_killed = how.starts_with("signal");
     slot.state.last_problem =
         was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
@@ -238,7 +238,7 @@ void LoopSupervisor::sleep(SteadyTime now) {
         if (slot.child) {
             for (const int descriptor : {slot.child->descriptor(), slot.child->out.descriptor(),
                                          slot.child->err.descriptor()}) {
-                sources.push_back({descriptor, POLLIN, 0});  // -1 is left out
+                sources.push_back({descriptor, POLLIN, 0});  // -1 is ignored
             }
             if (slot.kill_at) until = std::min(until, *slot.kill_at);
         } else if (!slot.is_leaving) {

@@ -1,14 +1,18 @@
-// daemon/loops/loops_service.h -- the [[loop]] tables alone: `stormcellard --loops-only`.
+// daemon/loops/loops_service.h -- a service that only keeps the [[loop]] tables: `stormcellard
+// --loops-only`.
 //
-// For a service of its own, at a lower priority and with limits of its own, beside a stormcellard
-// that was started with --no-loops. It reads no drop directory, catalog or grid itself; it keeps
-// the loops (daemon/loops/loop_supervisor.h) and says how they are:
-//   STATE/loops/status.json    {"state","pid","version","started","updated","loops"}, the fields as
-//                              in daemon/status/status.h; at most once a second, and at the stop
-//   STATE/loops/stormcellard.lock   held while it runs: one keeper of loops a state directory
-// SIGHUP reads the configuration again: only the [[loop]] tables and the log's level count.
-// The watchdog is fed while no turn of the thread that keeps the loops lasts too long.
-// Thread contract: run() once; request_stop() from any thread.
+// It runs beside a stormcellard that was started with --no-loops, with a lower priority and limits
+// of its own. It reads no drop directory, catalog or grid itself. It keeps the loops
+// (daemon/loops/loop_supervisor.h) and publishes their state:
+//   STATE/loops/status.json        {"state","pid","version","started","updated","loops"}, the
+//                                  fields as in daemon/status/status.h; written at most once a
+//                                  second, and at the end
+//   STATE/loops/stormcellard.lock  locked while it runs, so that a state directory has only one
+//                                  keeper of loops
+// SIGHUP reads the configuration again; only the [[loop]] tables and the log level are used. The
+// watchdog is fed as long as no turn of the thread that keeps the loops lasts too long.
+//
+// Threads   run() once; request_stop() from any thread.
 #pragma once
 
 #include <atomic>
@@ -27,19 +31,19 @@ namespace stormcellar::daemon {
 
 class LoopsService {
   public:
-    // All must outlive it. No signals: only request_stop() ends it.
+    // All must outlive the service. If there are no signals, only request_stop() ends it.
     struct Parts {
         Notifier& notifier;
         FileSystem& file_system;
         const Signals* signals = nullptr;
     };
-    // `config_file` is what SIGHUP reads again.
+    // `config_file` is read again on SIGHUP.
     LoopsService(Config config, std::filesystem::path config_file, Parts parts);
 
     void run();
     void request_stop();
 
-    // Where it writes: the directory must exist.
+    // Returns the directory in which the service writes; it must exist.
     [[nodiscard]] static std::filesystem::path directory(const Config& config);
 
   private:
@@ -60,7 +64,7 @@ class LoopsService {
     SteadyTime next_publish_{};
     std::atomic<bool> stop_requested_ = false;
     WakeUp wake_up_;
-    LoopSupervisor keeper_;  // the last member: its thread uses what stands above
+    LoopSupervisor keeper_;  // the last member: its thread uses the members above
 };
 
 }  // namespace stormcellar::daemon

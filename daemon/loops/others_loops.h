@@ -1,5 +1,7 @@
-// daemon/loops/others_loops.h -- loops that another process keeps (daemon/loops/loops_service.h),
-// for the metrics.
+// daemon/loops/others_loops.h -- the loops that another process keeps
+// (daemon/loops/loops_service.h), for the metrics.
+//
+// Threads   May be called from any thread.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +12,13 @@
 
 namespace stormcellar::daemon {
 
-// The loops of loops_json()'s document; of one that cannot be understood, none. No loop runs where
-// its `state` is not "running".
+// Returns the loops of a document that loops_json() wrote; none if it cannot be understood. If the
+// `state` of the document is not "running", no loop runs.
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
-// Each configured loop as STATE/loops/status.json has it; one that is not in it does not run, nor
-// does any where the file is not there or the process that wrote it is gone.
+// Returns each configured loop with the state that STATE/loops/status.json gives. A loop that is
+// missing there does not run. No loop runs if the file does not exist or the process that wrote it
+// is gone.
 [[nodiscard]] std::vector<LoopState> others_loops(const std::filesystem::path& state,
                                                   const std::vector<LoopConfig>& configured);
 

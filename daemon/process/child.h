@@ -1,10 +1,11 @@
-// daemon/process/child.h -- a program that runs beside the daemon and is listened to.
+// daemon/process/child.h -- starts a program beside the daemon and reads its output.
 //
-// It has no input, default signals, a process group of its own (Ctrl-C in a terminal is the
-// daemon's), a lower priority and is the first to go when memory is short; of the daemon's files it
-// has none. What it prints comes line by line.
-// Thread contract: one thread, which must live as long as the child where that asks to be ended
-// with its parent (PR_SET_PDEATHSIG goes by the thread).
+// The program has no input, default signals, a process group of its own (so that Ctrl-C in a
+// terminal reaches only the daemon) and a lower priority; it is the first to be killed if memory
+// runs out. It inherits none of the daemon's files. Its output is read line by line.
+//
+// Threads   One thread, which must live as long as the child if the child asks to be ended with its
+//           parent (PR_SET_PDEATHSIG follows the thread).
 #pragma once
 
 #include <filesystem>
@@ -18,13 +19,14 @@
 
 namespace stormcellar::daemon {
 
-// Where a program of this name is: beside this one, else on PATH; empty: nowhere.
+// Returns the path of the program of this name: beside this one, else on PATH; empty if there is
+// none.
 [[nodiscard]] std::filesystem::path find_program(std::string_view name);
 
-// The reading end of a pipe, by lines. Never blocks.
+// The reading end of a pipe, read by lines. Never blocks.
 class LineReader {
   public:
-    static constexpr std::size_t longest_line = 4096;  // the rest of a longer one is dropped
+    static constexpr std::size_t longest_line = 4096;  // the rest of a longer line is dropped
 
     LineReader() = default;
     explicit LineReader(int descriptor) : descriptor_(descriptor) {}
@@ -34,9 +36,10 @@ class LineReader {
     LineReader& operator=(const LineReader&) = delete;
     ~LineReader();
 
-    // To poll; -1 once the other end is closed.
+    // for poll(); -1 once the other end is closed
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // The lines that have come; at the end also what had no end of line. At most 64 KiB a call.
+    // Returns the lines that have arrived; at the end also a last line without a line end. Reads at
+    // most 64 KiB a call.
     std::vector<std::string> read();
 
   private:
@@ -49,7 +52,7 @@ class LineReader {
 
 class Child {
   public:
-    // not_found, permission, io: why it could not be started.
+    // Errors: not_found, permission or io if it could not be started.
     static Result<Child> start(const std::filesystem::path& program,
                                const std::vector<std::string>& arguments);
     Child(Child&& other) noexcept;
@@ -59,10 +62,10 @@ class Child {
     ~Child();  // kills it
 
     [[nodiscard]] pid_t id() const { return id_; }
-    // Readable when it has ended.
+    // readable once the program has ended
     [[nodiscard]] int descriptor() const { return descriptor_; }
     void signal(int number) const;
-    // "status 1", "signal 9"; empty while it runs.
+    // Returns "status 1" or "signal 9"; empty while it runs.
     [[nodiscard]] std::string ended();
 
     LineReader out, err;
@@ -71,7 +74,7 @@ class Child {
     Child(pid_t id, int descriptor) : id_(id), descriptor_(descriptor) {}
     void release();
 
-    pid_t id_ = 0;  // 0: there is none, or it was waited for
+    pid_t id_ = 0;  // 0: there is no process, or it was waited for
     int descriptor_ = -1;
     std::string ended_;
 };

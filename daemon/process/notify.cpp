@@ -12,7 +12,7 @@
 
 namespace stormcellar::daemon {
 
-// A failure to tell is no reason to stop: the manager's own timeouts act on silence.
+// A failure is ignored: the service manager's own timeouts react to silence.
 void SystemdNotifier::send(const std::string& state) {
     (void)sd_notify(0, state.c_str());
 }

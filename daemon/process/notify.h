@@ -1,6 +1,7 @@
-// daemon/process/notify.h -- what the service manager is told (sd_notify(3)), and its watchdog.
-// Without a service manager all of it does nothing.
-// Thread contract: one thread.
+// daemon/process/notify.h -- what the service tells its service manager (sd_notify(3)), and the
+// watchdog. Without a service manager, none of it does anything.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -19,25 +20,26 @@ class Notifier {
     Notifier& operator=(const Notifier&) = delete;
     virtual ~Notifier() = default;
 
-    // Lines of VARIABLE=value.
+    // `state` has lines of VARIABLE=value.
     virtual void send(const std::string& state) = 0;
-    // How long the manager waits for WATCHDOG=1 before it restarts us; none: it does not.
+    // Returns how long the manager waits for WATCHDOG=1 before it restarts the service; none: it
+    // does not restart it.
     [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
 };
 
-// Talks to $NOTIFY_SOCKET.
+// Sends to $NOTIFY_SOCKET.
 class SystemdNotifier final : public Notifier {
   public:
     void send(const std::string& state) override;
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
-// "RELOADING=1" with the monotonic time that systemd wants with it.
+// Returns "RELOADING=1" with the monotonic time that systemd requires.
 [[nodiscard]] std::string reloading_state();
 
 // Decides when the watchdog is fed: four times a period, and only while no thread has been at one
-// step (pulse.h) for longer than a whole period, so that a stuck one is not hidden by a loop that
-// still turns. A step that lasts so long is logged, once, with or without a watchdog.
+// step (pulse.h) for longer than a whole period. So a stuck thread is not hidden by the main loop,
+// which still runs. Such a step is logged once, with or without a watchdog.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};
@@ -45,7 +47,7 @@ class WatchdogFeed {
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
     [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Whether this step has just been found to last too long.
+    // Returns true if this step is now found to last too long and was not before.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:
@@ -53,10 +55,10 @@ class WatchdogFeed {
 
     std::optional<std::chrono::microseconds> period_;
     SteadyTime next_{};
-    std::optional<SteadyTime> found_hanging_;  // since when the step lasted that was named
+    std::optional<SteadyTime> found_hanging_;  // the start of the step that was logged
 };
 
-// Feeds when it is due, and logs what hangs.
+// Feeds the watchdog if it is due, and logs a thread that hangs.
 void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
           const std::optional<Step>& oldest);
 

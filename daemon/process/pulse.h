@@ -1,15 +1,16 @@
-// daemon/process/pulse.h -- whether threads move on, for the watchdog.
+// daemon/process/pulse.h -- whether the threads make progress, for the watchdog.
 //
-// A thread that works says so at each step; one that waits for something to do rests. What counts
-// is how long the step lasts that a thread is at, so long work is no hang as long as it has steps:
+// A working thread reports each step; a thread that waits for work is at rest. What counts is how
+// long the current step of a thread has lasted, so long work is no hang if it has steps:
 //   ingest, registration   one file (worker_pool.h)
-//   missing       the looking for files that went: the names of one station, or 1,000 of them
-//   cache         the keeping of the budgets: one directory, or 2,048 files that go
-//   caretaker     one database, one station's missing grids, one grid, one pair of sites
-//   status        one turn of who answers: what has come is read, what is asked is written
-//   loops         one turn of who starts and hears the loops' programs
-// The thread that does the bookkeeping (service.h) is not among them: it is the one that looks.
-// Thread contract: of Pulse any thread; of Pulses one.
+//   missing       the search for missing files: the names of one station, or 1,000 files
+//   cache         the rolling of the cache: one directory, or 2,048 files that are removed
+//   caretaker     one database, the missing grids of one station, one grid, one pair of sites
+//   status        one turn of the status server: it reads what has arrived and answers requests
+//   loops         one turn of the thread that starts and reads the programs of the loops
+// The thread of the main loop (service.h) is not among them: it is the one that checks.
+//
+// Threads   Pulse: any thread. Pulses: one thread at a time.
 #pragma once
 
 #include <atomic>
@@ -23,10 +24,10 @@ namespace stormcellar::daemon {
 
 class Pulse {
   public:
-    // At work, and a step further.
+    // The thread is at work and begins a new step.
     void beat(SteadyTime now = std::chrono::steady_clock::now()) { since_ = now; }
     void rest() { since_ = resting; }
-    // Since when it has been at the same step; none while it rests.
+    // Returns the start of the current step; none while the thread is at rest.
     [[nodiscard]] std::optional<SteadyTime> since() const {
         const SteadyTime since = since_;
         if (since == resting) return std::nullopt;
@@ -38,7 +39,7 @@ class Pulse {
     std::atomic<SteadyTime> since_{resting};
 };
 
-// At work as long as it lives.
+// The thread is at work as long as this object lives.
 class AtWork {
   public:
     explicit AtWork(Pulse& pulse) : pulse_(pulse) { pulse_.beat(); }
@@ -50,7 +51,7 @@ class AtWork {
     Pulse& pulse_;
 };
 
-// A thread, and since when it has been at the same step.
+// A thread and the start of its current step.
 struct Step {
     std::string who;
     SteadyTime since;
@@ -58,9 +59,9 @@ struct Step {
 
 class Pulses {
   public:
-    // The pulse must stand as long as oldest() is called.
+    // The pulse must exist as long as oldest() is called.
     void watch(std::string who, const Pulse& pulse) { all_.push_back({std::move(who), &pulse}); }
-    // The step that has lasted longest; none while all rest.
+    // Returns the step that has lasted longest; none while all are at rest.
     [[nodiscard]] std::optional<Step> oldest() const;
 
   private:

@@ -1,10 +1,12 @@
-// daemon/process/readiness.h -- whether the service has all that it needs, so that READY may be
-// said.
+// daemon/process/readiness.h -- whether the service has everything that it needs, so that it may
+// report READY.
 //
-// Whoever waits for READY (systemd, a script that starts LDM next) relies on it: the drop directory
-// can be read, state and cache can be written, and the status is answered. Until then the service
-// works as far as it can, says what it waits for, and looks again every second.
-// Thread contract: one thread.
+// Whoever waits for READY (systemd, or a script that starts LDM next) relies on this: the drop
+// directory can be read, the state and the cache can be written, and the status is served. Until
+// then the service works as far as it can, reports what it waits for, and checks again every
+// second.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <functional>
@@ -17,26 +19,26 @@
 
 namespace stormcellar::daemon {
 
-// Whether a file can be made in the directory; it is removed again.
+// Returns ok if a file can be made in the directory; the file is removed again.
 [[nodiscard]] Status can_write_in(FileSystem& files, const std::filesystem::path& directory);
 
 class Readiness {
   public:
-    // Sooner at first, as when a thread has just begun to listen.
+    // Waits are shorter at first, for example for a thread that has just begun to listen.
     static constexpr std::chrono::milliseconds first_wait{20}, longest_wait{1000};
 
-    // Each says what is missing, or nothing.
+    // Returns an error that says what is missing, or ok.
     using Check = std::function<Status()>;
     void need(Check check) { checks_.push_back(std::move(check)); }
 
     [[nodiscard]] bool is_ready() const { return is_ready_; }
-    // When to look again; none once all is there.
+    // Returns when to check again; none once everything is there.
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // True when it is time to look. Asks each check; the first one that says something is
-    // missing().
+    // Returns true if it was time to check. Calls each check; the first error becomes missing().
     bool look(SteadyTime now);
     [[nodiscard]] const std::string& missing() const { return missing_; }
-    // Whether missing() has changed since the last call; not while it may yet come at once.
+    // Returns true if missing() has changed since the last call, but not while the waits are still
+    // short and it may be resolved at once.
     [[nodiscard]] bool is_news();
 
   private:

@@ -1,7 +1,9 @@
-// daemon/process/signals.h -- signals as something to poll for, not as interruptions.
+// daemon/process/signals.h -- signals as events to poll for instead of interruptions.
 //
-// Make one before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread and those
-// that it starts, and ignores SIGPIPE.
+// Make one object before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread
+// and the threads that it starts, and ignores SIGPIPE.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <functional>
@@ -21,7 +23,7 @@ class Signals {
     ~Signals();
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // The number of a signal that waits; none when there is none. Never blocks.
+    // Returns the number of a pending signal, or none. Never blocks.
     [[nodiscard]] std::optional<int> next() const;
 
   private:
@@ -29,8 +31,8 @@ class Signals {
     int descriptor_;
 };
 
-// Takes those that wait: `reload` is called for each SIGHUP. True when one of them asked for the
-// end, which is logged. No signals (null): there are none.
+// Takes all pending signals and calls `reload` for each SIGHUP. Returns true if one of them asked
+// for the end, which is logged. A null `signals` has none.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
 }  // namespace stormcellar::daemon

@@ -1,10 +1,13 @@
-// daemon/process/silent_file_systems.h -- where directories change and inotify does not say so.
+// daemon/process/silent_file_systems.h -- file systems whose directories can change without inotify
+// events.
 //
-// The kernel tells of what passes through this machine. What other machines write to a file system
-// that they share, or a program behind FUSE, it does not see, so such directories must be polled.
-// Not told either: what is written to the layers of an overlay, past the overlay itself. That
-// cannot be seen by the type, since most overlays are written to directly; rescans find it.
-// Source of the numbers: statfs(2), linux/magic.h, and the headers of the projects that are named.
+// The kernel reports changes made on this machine. It does not see what other machines write to a
+// shared file system, or what a program behind FUSE does, so such directories must be polled. It
+// also does not report writes to the layers of an overlay that bypass the overlay. The type does
+// not show this, since most overlays are written to directly; rescans find such files.
+//
+// Threads   Pure: may be called from any thread.
+// Source    statfs(2), linux/magic.h, and the headers of the projects that are named in the table.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +17,10 @@
 
 namespace stormcellar::daemon {
 
-// Its name, by the type that statfs(2) gives; none for a file system whose changes are told.
+// Returns the name of a silent file system from the type that statfs(2) gives; none if changes are
+// reported.
 [[nodiscard]] std::optional<std::string_view> silent_file_system(std::uint32_t type);
-// The same of the one that a directory lies on; none where it cannot be asked.
+// Returns the same for the file system of a directory; none if it cannot be found out.
 [[nodiscard]] std::optional<std::string_view> silent_file_system_of(
     const std::filesystem::path& directory);
 

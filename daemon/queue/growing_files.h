@@ -1,15 +1,18 @@
-// daemon/queue/growing_files.h -- files that are not whole yet, and when to look at them again.
+// daemon/queue/growing_files.h -- files that are not complete yet, and when to look at them again.
 //
-// Two kinds. A NEW file was made and not closed (a writer that keeps it open; a hard link), or was
-// written a moment ago when a scan found it: it is looked at when it has stood unchanged for
-// `settle`, or after `busy` when it never rests. An INCOMPLETE file was looked at and its volume
-// has not ended: it is looked at again when it has changed and settled, and finished as it is when
-// it has been quiet (no change of size, time or inode) for `quiet`.
-// Changes are seen by polling the stamps, which works for files that are never closed and on file
-// systems without events. At most `limit` files are kept: at the bound a file takes the place of
-// one of the station that has most, where its own has fewer; else it is left to the next scan. Pure
-// bookkeeping: the caller gives the time (a monotonic clock) and the stamps. Thread contract: one
-// thread.
+// There are two kinds. A NEW file was created and not closed (its writer keeps it open, or it is a
+// hard link), or a scan found it a moment after it was written. It is ingested once it has been
+// unchanged for `settle`, or after `busy` if it never rests. An INCOMPLETE file was ingested, but
+// its volume has not ended. It is ingested again when it has changed and settled, and finished as
+// it is when it has been quiet (no change of size, time or inode) for `quiet`.
+//
+// Changes are found by polling the stamps, which also works for files that are never closed and on
+// file systems without events. At most `limit` files are kept. At the limit, a new file takes the
+// place of a file of the station that has the most, if its own station has fewer; otherwise it is
+// left to the next scan. This is pure bookkeeping: the caller passes the time (of a monotonic
+// clock) and the stamps.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -31,30 +34,32 @@ namespace stormcellar::daemon {
 class GrowingFiles {
   public:
     using Duration = SteadyTime::duration;
-    static constexpr Duration settle = std::chrono::seconds{1};  // also how often stamps are read
-    // So many stamps are read in a second: of more files each has its turn less often.
+    // also the period of reading stamps
+    static constexpr Duration settle = std::chrono::seconds{1};
+    // This many stamps are read in a second. If there are more files, each is polled less often.
     static constexpr std::size_t most_looks = 512;
     static constexpr std::size_t most_looks_at_once = 64;
-    // A writer that keeps its file open at a great pace is to be followed soon; a large copy is
-    // looked at once in vain.
+    // A file that is kept open and written fast must be followed soon. A large copy is ingested
+    // once in vain.
     static constexpr Duration busy = std::chrono::seconds{3};
-    // A file that is followed shows its sweeps anyway, and to finish it is to begin it anew when
-    // more comes after all: it is given so many times `quiet`.
+    // The sweeps of a followed file are shown anyway, and a file that is finished too early has to
+    // be started anew when more comes. So it is given this many times `quiet`.
     static constexpr int patience = 10;
 
     GrowingFiles(Duration quiet, std::size_t limit) : quiet_(quiet), limit_(limit) {}
 
     void set_quiet(Duration quiet) { quiet_ = quiet; }
-    // False when there is no room left. A file that is known keeps its times. `station`: empty for
-    // all of which none is known.
+    // Returns false if there is no room left. A file that is already known keeps its times. All
+    // unknown stations share the empty `station`.
     bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                  const std::string& station = {});
-    // `stamp` as it was before the file was read; none: it is gone, and is asked for again all the
-    // same, as a volume of chunks waits in its name. Replaces what was known of the path.
+    // `stamp` is that of the file before it was read. None: the file is gone, but is still returned
+    // by polls, because the chunks of a volume wait under its name. Replaces what was known about
+    // the path.
     bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                         bool followed = false, const std::string& station = {});
     void forget(const std::filesystem::path& path);
-    // Those that had to give their places to others since the last call.
+    // Returns the files that had to give their places to others since the last call.
     [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {
         return std::exchange(displaced_, {});
     }
@@ -64,13 +69,14 @@ class GrowingFiles {
         FileStamp stamp;
         bool finish_as_is = false;
     };
-    // Reads the stamps when a poll is due; what it returns is no longer kept. A file that vanished
-    // or became something else is forgotten, and an incomplete one is due: others may wait for it.
+    // Reads the stamps if a poll is due. A file that is returned is no longer kept. A file that
+    // vanished or became something else is forgotten; if it was incomplete, it is returned as due,
+    // since others may wait for it.
     using Look = std::function<FileFound(const std::filesystem::path&)>;
     std::vector<Due> poll(SteadyTime now, const Look& look);
 
-    // Files whose volume has no end and to which nothing comes: how long until each is taken in as
-    // it is. At most so many, the soonest first.
+    // Returns files whose volume has no end and to which nothing is added, with the time that
+    // remains until each is ingested as it is: at most `most`, the soonest first.
     struct Wait {
         std::string file;
         Duration left{};
@@ -82,7 +88,7 @@ class GrowingFiles {
         return files_.contains(path.native());
     }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
-    // When the file was last looked at and found incomplete; none for all others.
+    // Returns when the file was last ingested and found incomplete; none for all others.
     [[nodiscard]] std::optional<SteadyTime> found_incomplete_at(
         const std::filesystem::path& path) const;
 
@@ -96,11 +102,11 @@ class GrowingFiles {
         bool followed = false;
         std::string station = {};
     };
-    // By their names as text: to compare paths part by part takes ten times as long.
+    // By their paths as text: comparing paths part by part takes ten times as long.
     using Files = std::map<std::string, File>;
     bool has_room_for(const std::string& station);
     void add(const std::filesystem::path& path, File file, SteadyTime now);
-    // Looks at a file whose turn it is; gives the next one.
+    // Looks at a file whose turn it is, and returns the next one.
     Files::iterator look_at(Files::iterator entry, SteadyTime now, const Look& look,
                             std::vector<Due>& due);
     Files::iterator erase(Files::iterator file);
@@ -112,8 +118,8 @@ class GrowingFiles {
     SteadyTime next_poll_{};
     Files files_;
     std::map<std::string, std::set<std::string>> by_station_;
-    std::string next_name_;       // where the next poll goes on
-    std::size_t looks_left_ = 0;  // of the round that has begun
+    std::string next_name_;       // where the next poll continues
+    std::size_t looks_left_ = 0;  // of the current round
     SteadyTime next_round_{};
     std::vector<std::filesystem::path> displaced_;
 };

@@ -1,9 +1,10 @@
-// daemon/queue/intake.h -- from what the watcher sees to jobs that are due.
+// daemon/queue/intake.h -- turns what the watcher sees into jobs that are due.
 //
-// Owns the memory of what was seen (seen_files.h), the files that are not whole yet
-// (growing_files.h) and the schedule, and keeps the three in agreement. Nothing is lost when one of
-// them is full: the file is forgotten, and needs_scan() says when a scan shall find it again.
-// Thread contract: one thread.
+// It owns the memory of files already seen (seen_files.h), the files that are not complete yet
+// (growing_files.h) and the schedule, and keeps the three consistent. Nothing is lost if one of
+// them is full: the file is forgotten, and needs_scan() says when a scan must find it again.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -26,7 +27,7 @@
 
 namespace stormcellar::daemon {
 
-// What time it is, for both questions: how long (steady) and which is newest (wall).
+// The clocks: steady for durations, wall for finding the newest file.
 struct Clock {
     std::function<SteadyTime()> steady;
     std::function<std::int64_t()> wall_ns;  // since the epoch
@@ -37,8 +38,8 @@ class Intake final : public WatchListener {
   public:
     Intake(const Config& config, Clock clock);
 
-    // A file that cannot be taken in is tried so often, over three minutes, unless the system is
-    // short of disk, memory or descriptors: then for as long as that lasts.
+    // A file that cannot be ingested is tried this often, over three minutes. If the system is
+    // short of disk, memory or descriptors, it is tried for as long as that lasts.
     static constexpr int most_tries = 8;
 
     // New times to wait and another number of workers.
@@ -62,41 +63,41 @@ class Intake final : public WatchListener {
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
 
-    // What was taken in may be known no more: the next scan, which is due now, offers all again.
+    // Rows of ingested files may have been lost: the next scan, which is due now, offers all files
+    // again.
     void forget_seen();
 
     // Offers the growing files that are due.
     void poll_growing();
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
-    // One that has waited for some time without standing in the catalog.
+    // Returns a job that has waited for some time without being in the catalog.
     std::optional<Job> next_unregistered() { return schedule_.next_unregistered(clock_.steady()); }
     void registered(const Finished& noted);
     void job_ended(const Finished& finished);
 
-    // Around a scan of the watcher; `whole`: the drop directory could be read.
+    // Encloses a scan of the watcher; `whole`: the drop directory could be read.
     void begin_scan();
     void end_scan(bool whole);
-    // Events were lost, the drop directory vanished, there is room again for what was refused, or
-    // it is time to look again for what could not be looked at.
+    // Returns true if events were lost, the drop directory vanished, there is room again for
+    // refused files, or it is time to try again what could not be looked at.
     [[nodiscard]] bool needs_scan() const;
-    // When that time comes: a second later, and twice as long each time that it was in vain, up to
-    // a minute.
+    // Returns that time: a second later, and twice as long after each failure, up to a minute.
     [[nodiscard]] std::optional<SteadyTime> look_again_at() const { return look_again_at_; }
 
-    // When there is something to do: growing files to poll and, if a job can start, a job.
+    // Returns when there is something to do: growing files to poll and, if a job can start, a job.
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
     [[nodiscard]] Pending pending() const;
     [[nodiscard]] std::vector<GrowingFiles::Wait> growing_waits(std::size_t most) const {
         return growing_.waits(clock_.steady(), most);
     }
-    // How long the job that has waited for longest has been able to run.
+    // Returns how long the job that has waited longest could have run.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
-    // How often the kernel dropped events, since the last call.
+    // Returns how often the kernel dropped events since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
-    // How often something could not be looked at, since the last call.
+    // Returns how often something could not be looked at since the last call.
     std::uint64_t take_unseen() { return std::exchange(unseen_, 0); }
-    // Of directories, and of entries that are no files (not_a_file). Each is given once, as long as
-    // scans go on finding it.
+    // Problems of directories, and of entries that are no files (not_a_file). Each is returned once
+    // as long as scans find it.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
@@ -104,11 +105,11 @@ class Intake final : public WatchListener {
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();
-    // The station that a path names, where data of it are taken in; else empty.
+    // Returns the station that a path names if its data are accepted; else empty.
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
     void give_next_turn(const Finished& finished);
-    // What had to give its place is found again by a scan.
+    // A scan finds again the files that had to give up their places.
     void note_displaced();
     void note_going_on(const std::filesystem::path& path, bool goes_on);
     void leave_to_scan(const std::filesystem::path& path);
@@ -124,9 +125,9 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
-    // Growing files of which only what is new is read, and so at once.
+    // Growing files of which only new data are read, without a wait.
     std::set<std::filesystem::path> followed_;
-    // Volumes of which sweeps have closed: files, and keys of chunks' volumes
+    // Volumes of which sweeps have closed: files, and keys of volumes in chunks
     // (pipeline/drop/chunk_path.h).
     std::unordered_set<std::string> going_on_;
     bool refused_ = false;  // something did not fit since the last scan began
@@ -134,7 +135,7 @@ class Intake final : public WatchListener {
     std::uint64_t overflows_ = 0, unseen_ = 0;
     std::optional<SteadyTime> look_again_at_;
     int looks_in_vain_ = 0;
-    bool is_looking_again_ = false;  // the scan that runs is for that
+    bool is_looking_again_ = false;  // the current scan is for that
     std::vector<Error> problems_;
     SeenFiles told_;                     // problems, by their text
     std::int64_t newest_closed_ns_ = 0;  // as jobs have it

@@ -1,19 +1,23 @@
-// daemon/queue/ready_jobs.h -- which of the jobs that may run is the next.
+// daemon/queue/ready_jobs.h -- chooses the next of the jobs that may run.
 //
-// LIVE is what changed while we watched, or less than ten minutes ago; BACKLOG is all else. Of the
-// live jobs there are four classes; in a round each has so many turns as stand behind it:
-//   going on   of a known station, of a volume of which sweeps have closed   8
-//   fresh      all else of a known station of which an event told            4
-//   found      all else of a known station, found by a look: a scan, a poll  1
-//   others     of no station that is known                                   1
-// The backlog of known stations, then that of others, each newest first, has its turn when nothing
-// live waits, and that of known stations one turn in seventeen else. So a flood of beginnings
-// delays no volume that goes on, one of names that nobody knows delays no known station, and none
-// of them stands still. In a class stations take turns, the one that was served longest ago (or has
-// waited longest) first, so that no station can hold up another, however much it sends. Of one
-// station what goes on is served oldest first (the end of a volume before the next volume's sweeps:
-// it is little, and would else wait as long as new chunks come), all else newest first. Pure
-// bookkeeping. Thread contract: one thread.
+// A job is LIVE if its file changed while we watched, or less than ten minutes ago. All others are
+// the BACKLOG. Live jobs have four classes. In each round a class has this many turns:
+//   going on   known station, a volume of which sweeps have closed       8
+//   fresh      other files of known stations, reported by an event       4
+//   found      other files of known stations, found by a scan or a poll  1
+//   others     no known station                                          1
+// The backlog is served when nothing live is waiting: first that of known stations, then the
+// others, each newest first. While live jobs wait, the backlog of known stations gets one turn in
+// seventeen. So a flood of new volumes does not delay a volume that is going on, unknown names do
+// not delay known stations, and every class makes progress.
+//
+// Within a class, stations take turns: first the one that was served longest ago or has waited
+// longest. So no station can hold up another one, however much it sends. Jobs of one station that
+// are going on are served oldest first: the end of a volume comes before the sweeps of the next
+// volume, because it is little work and would otherwise wait as long as new chunks arrive. All
+// other jobs are served newest first. This is pure bookkeeping.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <array>
@@ -33,19 +37,20 @@ class ReadyJobs {
   public:
     struct Key {
         Urgency urgency = Urgency::backlog;
-        bool is_begun = false;       // of a volume that goes on; live jobs alone
+        bool is_begun = false;       // of a volume that is going on; only for live jobs
         std::int64_t newest_ns = 0;  // since the epoch
-        std::uint64_t sequence = 0;  // tells all jobs apart; equal ones go by it
-        std::string station;         // whose turn it takes; empty: that of all unknown ones
-        bool is_told = true;         // an event told of it; live jobs alone
+        std::uint64_t sequence = 0;  // different for all jobs; breaks ties
+        // the station whose turn it takes; empty: all unknown stations share one
+        std::string station;
+        bool is_told = true;  // an event reported it; only for live jobs
     };
 
     void add(const Key& key, void* job);
-    // As one step, so that a station whose only job is merged keeps its turn.
+    // Replaces a key in one step, so that a station whose only job is merged keeps its turn.
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
-    // Of the stations of which `may_begin` is true (null: of all); null when there is none. Of the
-    // backlog only so many are looked at as most_looked_at says.
+    // Returns the next job of a station for which `may_begin` is true (null: any station), or null
+    // if there is none. Of the backlog at most most_looked_at jobs are tried.
     using MayBegin = std::function<bool(const std::string& station)>;
     static constexpr int most_looked_at = 64;
     void* take_next(const MayBegin& may_begin = {});
@@ -53,7 +58,7 @@ class ReadyJobs {
     [[nodiscard]] std::size_t count() const { return count_; }
 
   private:
-    // By its order: what is to come first is less.
+    // Sort key: the smaller one comes first.
     struct Rank {
         std::int64_t order = 0;
         std::uint64_t sequence = 0;
@@ -64,7 +69,7 @@ class ReadyJobs {
         std::uint64_t turn = 0;
         std::map<Rank, void*> jobs;
     };
-    // The live jobs of a class.
+    // The live jobs of one class.
     struct Turns {
         std::unordered_map<std::string, Station> stations;  // those with jobs
         std::map<std::uint64_t, std::string> turns;
@@ -94,10 +99,10 @@ class ReadyJobs {
 
     static constexpr int live_between_old = 16;
     std::size_t count_ = 0;
-    int live_since_old_ = 0;  // taken while a backlog waited
+    int live_since_old_ = 0;  // live jobs taken while a backlog waited
     std::uint64_t next_turn_ = 0;
     std::array<Turns, 4> live_;
-    Backlog backlog_, others_backlog_;  // of known stations, and of all else
+    Backlog backlog_, others_backlog_;  // of known stations, and of all others
 };
 
 }  // namespace stormcellar::daemon

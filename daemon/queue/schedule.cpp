@@ -6,7 +6,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Where all that is ready waits until others have had their share of the workers.
+// How long to wait if all ready jobs belong to stations that have used their share of the workers.
 constexpr std::chrono::milliseconds look_at_shares{50};
 
 }  // namespace
@@ -28,7 +28,7 @@ ReadyJobs::Key Schedule::key_of(const Entry& entry) {
             entry.sequence,    entry.job.station,  entry.job.closed_at.has_value()};
 }
 
-// A job with a time to wait for starts among the delayed, and joins the ready when it has come.
+// A job that must wait for a time is kept among the delayed ones and becomes ready at that time.
 void Schedule::enqueue(Entry& entry) {
     entry.running = false;
     entry.sequence = next_sequence_++;
@@ -46,7 +46,7 @@ void Schedule::enqueue(Entry& entry) {
 Schedule::Worth Schedule::worth_of(const Job& job, std::uint64_t place) {
     int kind = 0;
     if (job.urgency == Urgency::live) kind = job.is_begun ? 3 : job.closed_at ? 2 : 1;
-    return {kind, job.newest_ns, ~place};  // of equal ones the last gives way
+    return {kind, job.newest_ns, ~place};  // of equal ones the last is dropped first
 }
 
 void Schedule::claim(const Entry& entry) {
@@ -86,7 +86,7 @@ bool Schedule::make_room_for(const Job& job) {
     return true;
 }
 
-// Offered again while it waits.
+// Handles a file that is offered again while it waits.
 void Schedule::wait_again(Entry& entry, const Job& job) {
     const bool was_ready = entry.job.not_before == SteadyTime{};
     const ReadyJobs::Key old = key_of(entry);
@@ -130,7 +130,7 @@ Offered Schedule::offer(Job job, SteadyTime now) {
     return Offered::queued;
 }
 
-// It waits for us since then, and not since it first failed.
+// The job waits for us since `time`, and not since it first failed.
 void Schedule::wait_since(Entry& entry, SteadyTime time) {
     const bool was_unregistered = unregistered_.erase(entry.place) > 0;
     waiting_.erase(entry.place);

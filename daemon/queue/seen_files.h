@@ -1,9 +1,11 @@
-// daemon/queue/seen_files.h -- the files that were taken in already, so that a scan offers only
-// what is new or changed.
+// daemon/queue/seen_files.h -- the files that were already ingested, so that a scan offers only new
+// and changed ones.
 //
-// 24 bytes or so a file: hashes of path and stamp, not the names. Two paths with the same 64-bit
-// hash would hide one another: among a million files the odds are 1 in 37 million.
-// Thread contract: one thread.
+// A file takes about 24 bytes: the hashes of its path and its stamp, not the name. Two paths with
+// the same 64-bit hash would hide each other; among a million files the odds of that are 1 in 37
+// million.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +25,8 @@ class SeenFiles {
     void forget_all() { files_.clear(); }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
 
-    // Around a whole scan: what is neither found nor added between the two is forgotten.
+    // Encloses a whole scan: files that are neither found nor added between the two calls are
+    // forgotten.
     void begin_scan() { ++scan_; }
     void found_again(const std::filesystem::path& path);
     void end_scan();

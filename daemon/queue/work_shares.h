@@ -1,14 +1,16 @@
-// daemon/queue/work_shares.h -- how many of the workers one station may have.
+// daemon/queue/work_shares.h -- how many of the workers one station may use.
 //
-// A file decides how long its job takes, and a job is not interrupted. So one worker is kept for
-// stations of which something good has come: within the last hour one of their files was gridded,
-// or showed a sweep. And the time that jobs of a station take is counted; its debt goes down by a
-// fifth of a second each second, and a station that owes more than two seconds is heavy. Heavy
-// stations and those of which nothing good has come have together all workers but one, and so has
-// each station alone, but one worker at least: whoever sends files that take long never holds the
-// last worker against others. A site of a real feed takes half a second every five minutes. All
-// that no known station sends counts as one station, of which nothing is good. Pure bookkeeping.
-// Thread contract: one thread.
+// A file determines how long its job takes, and a job is not interrupted. So one worker is reserved
+// for light stations. A station is light if something good came from it within the last hour (one
+// of its files was gridded or showed a sweep) and it has not used too much time. The time that its
+// jobs take is added to its debt, which decreases by a fifth of a second each second; a station
+// that owes more than two seconds is not light. All stations that are not light share all workers
+// but one. Each single station also has at most all workers but one. A single worker serves
+// everybody. So files that take long can never hold the last worker against other stations. A site
+// of a real feed takes half a second every five minutes. All unknown stations count as one station,
+// which is never light. This is pure bookkeeping.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -25,10 +27,10 @@ class WorkShares {
     static constexpr std::chrono::hours good_for{1};
 
     void set_workers(int workers) { workers_ = workers; }
-    // Whether a job of the station (empty: of none that is known) may begin now.
+    // Returns true if a job of the station (empty: no known station) may begin now.
     [[nodiscard]] bool may_begin(const std::string& station, Time now) const;
     void begun(const std::string& station, Time now);
-    // One that has begun has ended after `took`. `is_good`: see above.
+    // A job of the station has ended after `took`. `is_good`: something was gridded or shown.
     void ended(const std::string& station, Time::duration took, bool is_good, Time now);
 
   private:
@@ -41,12 +43,12 @@ class WorkShares {
         return owed(account, now) > most_owed_s;
     }
 
-    // Has a worker of its own to hope for.
+    // Returns true if the reserved worker may serve the station.
     [[nodiscard]] bool is_light(const std::string& station, Time now) const;
 
     int workers_ = 1;
     std::unordered_map<std::string, Account> accounts_;
-    std::unordered_map<std::string, int> running_;   // of those that have any
+    std::unordered_map<std::string, int> running_;   // those that have running jobs
     std::unordered_map<std::string, Time> good_at_;  // of known stations
 };
 

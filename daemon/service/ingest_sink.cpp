@@ -8,8 +8,8 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Whose newest grid the cache protects. Of stations that `any` admitted nobody knows that they are
-// real.
+// Returns true if the cache protects the newest grid of the group. Stations that `any` admitted are
+// not known to be real.
 bool is_known_group(std::string_view group, const StationRule& stations) {
     if (cache::is_known_group(group)) return true;
     return stations.kind() == StationRule::Kind::listed && stations.knows(group);
@@ -48,7 +48,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.chunk_timeout = config.ingest.chunk_timeout;
     options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
-    // Far below what the watchdog takes for a hang.
+    // far below what the watchdog takes for a hang
     options.archive_turn = std::chrono::seconds{20};
     options.living.has_time = [pressed = pressed_] { return !*pressed; };
     return options;
@@ -122,7 +122,7 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as
     const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
-        taken.ingest.ending = pipeline::ended::Vanished{};  // something else took its name
+        taken.ingest.ending = pipeline::ended::Vanished{};  // another file has taken its name
         return taken;
     }
     Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_as_is, tries);

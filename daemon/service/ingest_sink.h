@@ -1,5 +1,7 @@
 // daemon/service/ingest_sink.h -- the real sink: catalog, grids and cache through
-// pipeline/ingest/ingest.h. Thread contract: that of Sink.
+// pipeline/ingest/ingest.h.
+//
+// Threads   Those of Sink.
 #pragma once
 
 #include <atomic>
@@ -15,7 +17,7 @@ namespace stormcellar::daemon {
 
 class IngestSink final : public Sink {
   public:
-    // Opens state/catalog and the cache for writing, making them where they are missing.
+    // Opens state/catalog and the cache for writing, and makes them if they are missing.
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
@@ -50,7 +52,7 @@ class IngestSink final : public Sink {
 
     std::filesystem::path drop_;
     std::shared_ptr<StationRule> stations_;
-    std::size_t growing_;  // descriptors for volumes that grow (descriptor_plan.h)
+    std::size_t growing_;  // descriptors for growing volumes (descriptor_plan.h)
     catalog::LeftAlone left_alone_;
     std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
     catalog::CatalogWriter catalog_;

@@ -1,16 +1,19 @@
-// daemon/service/service.h -- the loop of the daemon.
+// daemon/service/service.h -- the main loop of the daemon.
 //
-// One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
-// in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start    scan the drop directory and queue what is there; say READY once drop directory, state,
-//            cache and sockets answer (readiness.h). Until then what can be taken in is
-//   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
-//   SIGHUP   the configuration is read again; its reloadable part counts, the fixed part stays
-//            until a restart (daemon/config/config.h)
+// One thread does all the bookkeeping (events, schedule, logs, status); the workers only ingest
+// files. It polls for signals, directory events and ended jobs, and sleeps until something is due.
+//   start            scans the drop directory and queues the files there; reports READY once drop
+//                    directory, state, cache and sockets answer (readiness.h). Until then it
+//                    ingests what it can
+//   SIGTERM, SIGINT  running jobs end, and the queue is dropped (the next start finds the files
+//                    again)
+//   SIGHUP           the configuration is read again; paths, grid and queue limit stay until a
+//                    restart
 // Loops are other programs, which end with the service (daemon/loops/loop_supervisor.h), unless a
 // service of their own keeps them. The cache is brought within its budgets every few seconds, in a
-// thread of its own. Thread contract: run() once; request_stop(), is_idle() and sites_compared()
-// from any thread.
+// thread of its own.
+//
+// Threads   run() once; request_stop(), is_idle() and sites_compared() from any thread.
 #pragma once
 
 #include <atomic>
@@ -65,21 +68,21 @@ enum class Stopped {
 
 class Service {
   public:
-    // `config_file` is what SIGHUP reads again.
+    // `config_file` is read again on SIGHUP.
     Service(const Config& config, std::filesystem::path config_file, ServiceParts parts);
 
-    // Before run(): a station of the catalog and its newest volume.
+    // Call it before run(), with a station of the catalog and its newest volume.
     void know_station(const std::string& station, UtcTime newest_volume);
     Stopped run();
     void request_stop();
-    // Whether no file waits, for work that may wait; from any thread.
+    // Returns true if no file waits, so that other work may begin. May be called from any thread.
     [[nodiscard]] bool is_idle() const { return idle_; }
-    // What two sites say otherwise than each other, for the log and the status; from any thread.
+    // Reports how two sites differ to the log and the status. May be called from any thread.
     void sites_compared(pipeline::PairReport report);
-    // Before run(): what must also answer before READY is said.
+    // Call it before run(): adds a check that must succeed before READY.
     void need(Readiness::Check check) { readiness_.need(std::move(check)); }
-    // Before run(): a thread beside the service's own that the watchdog is to see. Its pulse must
-    // stand until run() is over.
+    // Call it before run(): adds a thread to be watched by the watchdog. Its pulse must exist until
+    // run() has returned.
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
@@ -113,7 +116,7 @@ class Service {
     Watcher watcher_;
     StatusBook status_;
     StatusFile status_file_;
-    Pending published_;  // as it was last looked at
+    Pending published_;  // as last published
     WatchdogFeed watchdog_;
     Pulses pulses_;
     WakeUp wake_up_;
@@ -129,9 +132,9 @@ class Service {
     OthersLoops others_loops_;
     ScanTimes scan_times_;
     SteadyTime next_held_back_{}, next_memory_look_{};
-    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
+    WorkerPool pool_;  // at the end: its threads, and those of the next one, use the members above
     WorkerPool registrar_;
-    // The last members: their threads are waited for before the rest goes.
+    // The last members: their threads are waited for before the others are destroyed.
     RowKeeper row_keeper_;
     CacheKeeper cache_keeper_;
     LoopSupervisor loop_keeper_;

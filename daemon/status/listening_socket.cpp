@@ -15,7 +15,7 @@ namespace stormcellar::daemon {
 namespace {
 
 // As many as the kernel allows (net.core.somaxconn). They wait in the kernel and take no
-// descriptor; whoever found the queue full would try again after 1 s, then 3 s.
+// descriptor. A client that finds the queue full would try again after 1 s, then 3 s.
 constexpr int backlog = SOMAXCONN;
 constexpr mode_t socket_mode = 0660;
 constexpr mode_t permissions = 07777;
@@ -44,10 +44,10 @@ Status bind_to(int descriptor, const Address& address, const std::string& what) 
     return {};
 }
 
-// Whether a program listens there.
+// Returns true if a program listens there.
 bool is_answered(const sockaddr_un& address) {
     const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (descriptor < 0) return true;  // cannot be told
+    if (descriptor < 0) return true;  // cannot be determined
     const bool refused =
         ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
         (errno == ECONNREFUSED || errno == ENOENT);
@@ -102,7 +102,7 @@ Result<ListeningSocket> ListeningSocket::at_path(const std::filesystem::path& pa
     const Result<int> descriptor = new_socket(AF_UNIX, name);
     if (!descriptor) return pass_on(descriptor);
     ListeningSocket socket(*descriptor);
-    // On Linux bind() gives the file that it makes the mode of the socket itself, less the umask.
+    // On Linux, bind() gives its file the mode of the socket itself, minus the umask.
     if (::fchmod(*descriptor, socket_mode) != 0) return system_error(name, errno);
     if (const Status bound = bind_to(*descriptor, address, name); !bound) return pass_on(bound);
     struct stat made {};

@@ -1,13 +1,14 @@
-// daemon/status/listening_socket.h -- where the status is asked for: a Unix socket, or a loopback
-// port.
+// daemon/status/listening_socket.h -- the address at which the status is served: a Unix socket or a
+// loopback port, and never another address.
 //
-// Never another address. A Unix socket has mode 0660, less the umask of the thread that opens it,
-// from the instant at which it stands: nothing is changed by name afterwards, which could follow a
-// link that was put in its place. What a killed daemon left at the path is taken away, but only a
-// socket on which nobody answers; anything else there is an error.
-// Errors: bad_argument (a path of more than 107 bytes), permission, not_found (no such directory),
-// busy (another program listens there), io (whatever else the system says).
-// Thread contract: one thread.
+// A Unix socket has mode 0660, minus the umask of the thread that opens it, from the moment at
+// which it exists: nothing is changed by name afterward, which could follow a link in its place. A
+// socket that a killed daemon left at the path is removed, but only if nobody answers there;
+// anything else at the path is an error.
+//
+// Threads   One thread at a time.
+// Errors    bad_argument (a path of more than 107 bytes), permission, not_found (no such
+//           directory), io (in use, or any other reason of the system).
 #pragma once
 
 #include <filesystem>
@@ -21,11 +22,11 @@ namespace stormcellar::daemon {
 
 enum class Loopback { ipv4, ipv6 };
 
-// Closed, and its path removed if it is still ours, when the object goes.
+// The destructor closes the socket and removes its path if it is still ours.
 class ListeningSocket {
   public:
     static Result<ListeningSocket> at_path(const std::filesystem::path& path);
-    // 127.0.0.1 or [::1].
+    // 127.0.0.1 or [::1]
     static Result<ListeningSocket> at_port(Loopback loopback, int port);
     ListeningSocket(ListeningSocket&& other) noexcept;
     ListeningSocket& operator=(ListeningSocket&&) = delete;
@@ -34,11 +35,11 @@ class ListeningSocket {
     ~ListeningSocket();
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // None: it is a Unix socket.
+    // none: it is a Unix socket
     [[nodiscard]] std::optional<int> port() const { return port_; }
-    // Of a Unix socket: its permissions, as they came out.
+    // for a Unix socket: the permissions that it has
     [[nodiscard]] mode_t mode() const { return mode_; }
-    // False when the path was removed or replaced by somebody.
+    // Returns false if somebody removed or replaced the path.
     [[nodiscard]] bool still_stands() const;
 
   private:

@@ -1,10 +1,11 @@
 // daemon/status/metrics_text.h -- the status as Prometheus metrics; docs/reference/metrics.md
 // explains each.
 //
-// Names begin with stormcellar_ and end with their unit, counters with _total. Labels: station,
-// domain, loop, result, reason, state: bounded by the configuration, by our own words, or by what
-// a StationBook remembers. Families without any sample are left out.
-// Thread contract: pure function.
+// Names begin with stormcellar_ and end with their unit, counters with _total. Values of the labels
+// (station, domain, loop, result, reason, state) are bounded by the configuration, by our own
+// words, or by what a StationBook remembers. Families without a sample are left out.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <string>

@@ -1,12 +1,13 @@
-// daemon/status/metrics_writer.h -- the text format in which Prometheus reads metrics, version
-// 0.0.4.
+// daemon/status/metrics_writer.h -- writes the text format in which Prometheus reads metrics,
+// version 0.0.4.
 //
-// One family after the other: "# HELP", "# TYPE", then its samples, one line each:
+// Families follow each other: "# HELP", "# TYPE", then the samples, one line each:
 //   name{label="value",...} 12.5
-// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN, as elsewhere. Numbers
-// are written so that the same double is read back; NaN, +Inf and -Inf by those names.
-// Source: prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h reads it strictly.
-// Thread contract: one thread.
+// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN. Numbers are written so
+// that the same double is read back; NaN, +Inf and -Inf by these names.
+//
+// Threads   One thread at a time.
+// Source    prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h checks it strictly.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +27,12 @@ class MetricsWriter {
     using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
     enum class Type { counter, gauge, summary };
-    // Begins a family; a name is used once, and its samples follow before the next one begins.
+    // Begins a family. A name is used once, and all its samples follow before the next family.
     void family(std::string_view name, Type type, std::string_view help);
     void sample(double value, Labels labels = {});
     void sample(std::uint64_t value, Labels labels = {});
-    // Median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1) of the last values, where
-    // there are any; sum and count of all since the start. Of a summary's family.
+    // Writes a sample of a summary: median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1)
+    // of the last values, if there are any, and sum and count of all since the start.
     void sample(const Timings& timings, Labels labels = {});
 
     [[nodiscard]] std::string take() { return std::move(text_); }

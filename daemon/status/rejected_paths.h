@@ -1,10 +1,12 @@
-// daemon/status/rejected_paths.h -- which files were rejected already, and why, so that one that is
-// looked at again and again (as each time that something is appended) is counted and logged once.
+// daemon/status/rejected_paths.h -- which files were already rejected, and why, so that a file that
+// is ingested again and again (for example each time something is appended) is counted and logged
+// once.
 //
-// The same reason is the same kind of error and the same text but for its numbers, which may be a
-// size that grows. At most `most` paths are remembered, 40 bytes or so each: hashes, not names; of
-// more the oldest are forgotten, and their next rejection is news.
-// Thread contract: one thread.
+// Two reasons are the same if the kind of error is the same and the texts differ only in their
+// numbers, which may be a growing size. At most `most` paths are remembered, as hashes of about 40
+// bytes each; beyond that the oldest are forgotten, and their next rejection counts as new.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -21,15 +23,15 @@ class RejectedPaths {
   public:
     explicit RejectedPaths(std::size_t most = 65'536) : most_(most) {}
 
-    // Of a file that was looked at: false when it was rejected for the same reason as the last
-    // time. What was gridded since, or went, is news when it is rejected again.
+    // Returns false if the file was rejected for the same reason as the last time. A file that was
+    // gridded in the meantime, or vanished, counts as new when it is rejected again.
     bool is_news(const std::filesystem::path& path, const pipeline::IngestOutcome& outcome);
     [[nodiscard]] std::size_t count() const { return reasons_.size(); }
 
   private:
     std::size_t most_;
     std::unordered_map<std::uint64_t, std::uint64_t> reasons_;  // by path
-    std::deque<std::uint64_t> order_;  // of the paths, oldest first; some may be forgotten
+    std::deque<std::uint64_t> order_;  // of the paths, oldest first; some may be forgotten already
 };
 
 }  // namespace stormcellar::daemon

@@ -16,7 +16,7 @@ using pipeline::IngestResult;
 
 constexpr std::size_t longest_reason = 512;
 
-// "KTLX 2022-03-17T00:08:42Z NAME": what the event is about.
+// Returns what the event is about: "KTLX 2022-03-17T00:08:42Z NAME".
 std::string subject(const Finished& finished) {
     const IngestOutcome& outcome = finished.taken->ingest;
     return fmt::format("{} {} {}", outcome.station.empty() ? "????" : printable(outcome.station),
@@ -41,7 +41,7 @@ std::string describe_gridded(const Finished& finished) {
                        outcome.commit_s * 1000, because(outcome));
 }
 
-// Sweeps have entered the grid of a volume that goes on growing.
+// Returns true if sweeps have entered the grid of a volume that is still growing.
 bool shows_living(const IngestOutcome& outcome) {
     return outcome.result() != IngestResult::gridded && !outcome.living.empty();
 }
@@ -140,7 +140,7 @@ void Reporter::report_directory(const Error& error) {
                 is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
 }
 
-// Where the air is clear nothing can be told: that is no news, hour by hour.
+// In clear air nothing can be determined, and that is not worth a line every hour.
 void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};

@@ -1,7 +1,8 @@
 // daemon/status/reporter.h -- one log line for each event, with station and volume.
 //
-// How many there may be of a kind: daemon/log/line_limiter.h.
-// Thread contract: any thread.
+// The number of lines of a kind is limited by daemon/log/line_limiter.h.
+//
+// Threads   May be called from any thread.
 #pragma once
 
 #include "daemon/log/log.h"
@@ -10,19 +11,20 @@
 
 namespace stormcellar::daemon {
 
-// The line for a job that ended, names escaped, and what it is about; also what the tests read.
+// Returns the line for a job that ended, with names escaped, and what it is about; also used by
+// tests.
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
-// Whether what a job failed of has a line already.
+// Whether the failure of a job was logged already.
 enum class Named : bool { not_yet, before };
 
 class Reporter {
   public:
     static void report(const Finished& finished, Named named = Named::not_yet);
-    // A directory that cannot be watched or read.
+    // Reports a directory that cannot be watched or read.
     static void report_directory(const Error& error);
-    // What two sites of a mosaic say otherwise than each other: a warning for each fault.
+    // Reports in what two sites of a mosaic disagree: a warning for each fault.
     static void report_sites(const pipeline::PairReport& report);
 };
 

@@ -1,14 +1,19 @@
-// daemon/status/station_book.h -- what came of each station: when, how fast, and what was wrong.
+// daemon/status/station_book.h -- what arrived from each station: when, how fast, and what was
+// wrong.
 //
-// Times are those of two clocks. The radar's: the volume's start and its newest radial; more than
-// 10 minutes ahead of ours they do not count. Ours: when data were last looked at, when a volume
-// was last put into the cache.
-// antenna_to_cache: from the newest radial of a volume to its grids in the cache. Only what can
-// have come live (at most an hour old, not more than 10 minutes ahead) enters the timings; the
-// others, as when old data are replayed, are counted, and the last one is kept as it was.
-// Memory is bounded however many stations files claim to be of: beyond `most_stations` a station
-// that is not known yet is left out, and its files are counted.
-// Thread contract: plain data; one thread changes it.
+// Times are of two clocks. The radar's clock gives the start of a volume and its newest radial;
+// times more than 10 minutes ahead of our clock do not count. Our clock gives when data were last
+// seen and when a volume was last put into the cache.
+//
+// antenna_to_cache is the time from the newest radial of a volume to its grids in the cache. Only
+// values that can be those of live data (at most an hour old, not more than 10 minutes ahead) enter
+// the timings. Others, for example of old data that are replayed, are only counted, and the last
+// one is kept unchanged.
+//
+// Memory is bounded however many stations the files claim: beyond `most_stations` a new station is
+// left out, and its files are counted.
+//
+// Threads   Plain data; one thread changes it.
 #pragma once
 
 #include <chrono>
@@ -25,26 +30,26 @@
 
 namespace stormcellar::daemon {
 
-// Chunks of one volume that never came.
+// Chunks of one volume that never arrived.
 struct MissingChunks {
     std::optional<UtcTime> volume_time;
     std::optional<int> volume_number;  // 0 to 999
     std::vector<int> numbers;          // the first 64 of them, counted from 1
-    std::size_t count = 0;             // all of them
+    std::size_t count = 0;             // number of all of them
 };
 
 struct StationState {
     std::optional<UtcTime> volume_time;    // start of the newest volume that was gridded
     std::optional<UtcTime> newest_radial;  // of the newest volume that was gridded
     std::optional<UtcTime> ingested_at;    // when a volume was last gridded
-    std::optional<UtcTime> data_at;        // when a file or a piece of one was last looked at
+    std::optional<UtcTime> data_at;        // when a file or a part of one was last seen
     PerResult<std::uint64_t> results{};    // files
-    std::uint64_t partial = 0;             // of those gridded: not whole
+    std::uint64_t partial = 0;             // gridded files whose volume was not complete
     Timings close_to_cache{128};
-    std::uint64_t living = 0;      // grids of volumes that had not ended, each time
+    std::uint64_t living = 0;      // grids of volumes that had not ended, counted each time
     Timings close_to_living{128};  // from the close with which a sweep was complete to its grid
     Timings antenna_to_cache{128};
-    std::optional<double> last_antenna_s;  // whatever it is
+    std::optional<double> last_antenna_s;  // also if it is not live
     std::uint64_t not_live = 0;            // volumes that antenna_to_cache leaves out
     std::uint64_t missing_chunks = 0;
     std::deque<MissingChunks> missing;  // the last 8 volumes with missing chunks, oldest first
@@ -57,14 +62,15 @@ class StationBook {
     static constexpr std::chrono::hours most_live_age{1};
     static constexpr std::chrono::hours known_for{7 * 24};
 
-    // `latency_s`: from the close that was seen to the end; `at`: our clock, when the job ended.
+    // Adds an ingested file. `latency_s`: from the close of the file to the end; `at`: when the job
+    // ended, by our clock.
     void add(const pipeline::IngestOutcome& outcome, std::optional<double> latency_s, UtcTime at);
-    // For chunks that are put together: one that came, and, when its volume was given up waiting
-    // for, those that did not.
+    // For volumes in chunks: add_data() notes a chunk that arrived, add_missing_chunks() the chunks
+    // that never came, once the service gives up waiting for them.
     void add_data(const std::string& station, UtcTime at);
     void add_missing_chunks(const std::string& station, MissingChunks missing);
-    // What was known before the start: the newest volume of the catalog. So a station that fell
-    // silent is not forgotten by a restart; one that has been silent for longer than a week is.
+    // Adds what was known before the start: the newest volume of the catalog. So a restart does not
+    // forget a station that fell silent, unless it has been silent for more than a week.
     void add_known(const std::string& station, UtcTime newest_volume, UtcTime now);
 
     [[nodiscard]] const std::map<std::string, StationState>& stations() const { return stations_; }
@@ -77,10 +83,10 @@ class StationBook {
     std::uint64_t left_out_ = 0;
 };
 
-// Seconds from the volume's newest radial to `at`; none where no radial has a time.
+// Returns the seconds from the newest radial of the volume to `at`; none if no radial has a time.
 [[nodiscard]] std::optional<double> antenna_latency_of(const pipeline::IngestOutcome& outcome,
                                                        UtcTime at);
-// Whether such a latency can be that of data that came live.
+// Returns true if such a latency can be that of live data.
 [[nodiscard]] bool is_live(double antenna_latency_s);
 
 }  // namespace stormcellar::daemon

@@ -75,7 +75,7 @@ void StatusBook::add(pipeline::PairReport report) {
 
 void StatusBook::add_ingested(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
-    // What the cache let go at once was not gridded for anybody.
+    // If the cache kept nothing of it, it was not gridded for anybody.
     if (outcome.grids.empty() && outcome.partials.empty() && outcome.not_kept > 0) {
         ++facts_.not_kept;
         return;

@@ -1,9 +1,9 @@
-// daemon/status/status_board.h -- the status as it was last published, for those who are not the
-// service.
+// daemon/status/status_board.h -- the status as it was last published, for other threads.
 //
-// The service posts a copy, at most once a second; whoever asks renders from that copy in a thread
-// of its own, so that no number of questions costs the service anything.
-// Thread contract: any thread.
+// The service posts a copy at most once a second. Readers render pages from that copy in their own
+// thread, so that requests, however many, cost the service nothing.
+//
+// Threads   Thread safe.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class StatusBoard {
         const std::scoped_lock lock(mutex_);
         latest_.swap(fresh);
     }
-    // Null before the first was posted.
+    // Returns null before the first status was posted.
     [[nodiscard]] std::shared_ptr<const StatusSnapshot> latest() const {
         const std::scoped_lock lock(mutex_);
         return latest_;

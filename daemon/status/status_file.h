@@ -1,9 +1,11 @@
-// daemon/status/status_file.h -- publishes the status: state/status.json and the manager's status
-// line.
+// daemon/status/status_file.h -- publishes the status in state/status.json and in the status line
+// of the service manager.
 //
-// At most once a second, and only when something has changed. The file appears by rename, so a
-// reader always sees a whole document; it is not synced, since after a crash it means nothing.
-// Thread contract: one thread.
+// It is written at most once a second, and only if something has changed. The file appears by
+// rename, so that a reader always sees a complete document. It is not synced, since it means
+// nothing after a crash.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +23,8 @@ class StatusFile {
     StatusFile(FileSystem& file_system, const std::filesystem::path& state, Notifier& notifier);
 
     void changed() { changed_ = true; }
-    // Writes when something has changed and a second has passed, or at once when forced.
-    // Gives whether it was time.
+    // Writes if something has changed and a second has passed, or at once if forced. Returns
+    // whether it was time to write.
     bool publish(const StatusBook& book, const Pending& pending, SteadyTime now, bool force);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
 
@@ -33,7 +35,7 @@ class StatusFile {
     std::filesystem::path path_, temporary_;
     Notifier& notifier_;
     bool changed_ = false;
-    bool failing_ = false;  // said once, until it works again
+    bool failing_ = false;  // logged once, until it works again
     SteadyTime next_{};
 };
 

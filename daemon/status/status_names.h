@@ -1,6 +1,7 @@
-// daemon/status/status_names.h -- the words of results and errors in the status and in metrics.
-// They are an interface: dashboards and alerts go by them.
-// Thread contract: pure functions.
+// daemon/status/status_names.h -- the words for results and errors in the status and in metrics.
+// They are an interface: dashboards and alerts use them.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <array>
@@ -25,7 +26,7 @@ inline constexpr std::array all_error_codes = {
     ErrorCode::over_budget,  ErrorCode::unmet,       ErrorCode::permission, ErrorCode::internal,
 };
 
-// A counter for each, found by its value.
+// A counter for each value of an enumeration.
 template <class T>
 using PerResult = std::array<T, all_results.size()>;
 template <class T>

@@ -42,9 +42,9 @@ ResponsePointer response_of(std::string_view text, const char* type) {
 
 constexpr const char* plain = "text/plain; charset=utf-8";
 
-// The service's umask is for its files and would keep the group from the socket. This thread, which
-// makes nothing else, gets one of its own; where the system refuses that, the umask narrows the
-// socket, and Worker::open() says so.
+// The umask of the service is meant for its files and would keep the group from the socket. This
+// thread makes nothing else and gets a umask of its own. If the system refuses that, the socket is
+// restricted by the umask, and Worker::open() reports it.
 void take_own_umask() {
     if (::unshare(CLONE_FS) == 0) ::umask(0117);
 }
@@ -59,14 +59,14 @@ void warn_if_narrow(const std::string& name, mode_t mode) {
 
 }  // namespace
 
-// All that the thread has.
+// The state of the thread.
 class StatusServer::Worker {
   public:
     Worker(StatusServerOptions options, Render render);
 
-    // Opens what is to be open and is not.
+    // Opens the addresses that should be open and are not.
     void open(SteadyTime now);
-    // What keeps an address from being listened at; empty: all are.
+    // Returns why an address is not served; empty: all are.
     [[nodiscard]] std::string unanswered() const;
     void wait(SteadyTime now, const WakeUp& wake_up);
     void turn(SteadyTime now);
@@ -77,7 +77,7 @@ class StatusServer::Worker {
         std::function<Result<ListeningSocket>()> listen;
         bool may_lack = false;  // a machine without IPv6 is no error
         std::unique_ptr<HttpListener> listener = nullptr;
-        bool failing = false;   // said once, until it works again
+        bool failing = false;   // logged once, until it works again
         bool hopeless = false;  // not tried again
         std::string problem = {};
     };
@@ -98,7 +98,7 @@ class StatusServer::Worker {
         response_of("ask for 127.0.0.1, localhost or [::1], with this port or none\n", plain);
     ResponsePointer not_yet_ = response_of("starting\n", plain);
     SteadyTime next_open_{};
-    std::vector<Address> addresses_;  // last: what they answer stands above
+    std::vector<Address> addresses_;  // the last member: its answers use the members above
 };
 
 StatusServer::Worker::Worker(StatusServerOptions options, Render render)
@@ -206,7 +206,7 @@ HttpListener::Answer StatusServer::Worker::answer(const HttpListener::Request& r
         if (path == "/metrics") return page(StatusPage::metrics);
         if (path == "/status.json") return page(StatusPage::json);
         return {not_found_.get(), MHD_HTTP_NOT_FOUND};
-    } catch (const std::exception&) {  // no memory: whoever asked may ask again
+    } catch (const std::exception&) {  // out of memory: the client may ask again
         return {};
     }
 }
@@ -222,12 +222,13 @@ StatusServer::~StatusServer() {
 }
 
 void StatusServer::run() {
-    // A client that went is an error of its connection, and of nothing else.
+    // A client that is gone is an error of its connection only.
     sigset_t pipe;
     sigemptyset(&pipe);
     sigaddset(&pipe, SIGPIPE);
     ::pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
-    // Of this thread alone, on Linux; where it may not, it goes on as it is.
+    // On Linux this applies to this thread alone. If it is not allowed, the priority stays as it
+    // is.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
     take_own_umask();
     while (!stopping_) {

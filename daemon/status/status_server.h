@@ -1,19 +1,22 @@
-// daemon/status/status_server.h -- answers who asks for the status: HTTP on a Unix socket and,
-// where it is switched on, on a port of the loopback addresses.
+// daemon/status/status_server.h -- serves the status: HTTP on a Unix socket and, if it is switched
+// on, on a port of the loopback addresses.
 //
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
-// Everything else is 404, 405 or 400; each answer ends its connection. On a port, a request whose
-// Host is no name of the loopback addresses is 421 (loopback_host.h); on the socket any Host will
-// do. No answer is to be cached, or taken for another type than it says. HTTP itself is
-// libmicrohttpd's business, which answers what is no HTTP (400, 413, 414, 431) with fixed text of
-// its own, without these fields.
-// One thread of its own, at a lower priority. Clients can be as hostile as they like: connections
-// are few and end after 10 seconds whatever they do, sooner where more come, a request has at most
-// a few KiB, and a page is made at most five times a second. What cannot be opened is logged once
-// and tried again; so is a socket whose path somebody has removed. A path that is too long for a
-// socket is said and left. Thread contract: any one thread makes and destroys it; `render` is
-// called from its own thread.
+// Everything else gives 404, 405 or 400. Each answer ends its connection. On a port, a request
+// whose Host is not a name of the loopback addresses gives 421 (loopback_host.h); on the socket any
+// Host is accepted. Answers forbid caching and guessing of the content type. HTTP itself is done by
+// libmicrohttpd, which answers invalid HTTP (400, 413, 414, 431) with fixed texts of its own,
+// without these header fields.
+//
+// The server has one thread with a lower priority. Hostile clients do no harm: the number of
+// connections is limited, they end after 10 seconds at the latest, sooner if more arrive, a request
+// has at most a few KiB, and a page is made at most five times a second. An address that cannot be
+// opened is logged once and tried again, and so is a socket whose path was removed. A path that is
+// too long for a socket is logged and not tried again.
+//
+// Threads   Any one thread makes and destroys the server. `render` is called from the server's own
+//           thread.
 #pragma once
 
 #include <atomic>
@@ -36,15 +39,16 @@ struct StatusServerOptions {
     int http_port = 0;             // 0: none
     std::chrono::milliseconds retry{15'000};
     std::chrono::milliseconds longest_connection{10'000};
-    std::chrono::milliseconds freshness{200};  // of a page
-    unsigned most_connections = 32;            // of each address
+    // how long a page is served again before it is rendered anew
+    std::chrono::milliseconds freshness{200};
+    unsigned most_connections = 32;  // of each address
 };
 
 enum class StatusPage { metrics, json };
 
 class StatusServer {
   public:
-    // Gives a page, or nothing while there is none yet (503).
+    // Returns a page, or an empty string while there is none yet (503).
     using Render = std::function<std::string(StatusPage)>;
 
     StatusServer(StatusServerOptions options, Render render);
@@ -52,8 +56,8 @@ class StatusServer {
     StatusServer& operator=(const StatusServer&) = delete;
     ~StatusServer();
 
-    // Whether every address is listened at, but for those that can never be; what is wrong with the
-    // first that is not. From any thread.
+    // Returns ok if every address is served, apart from those that never can be; else the problem
+    // of the first that is not. May be called from any thread.
     [[nodiscard]] Status answers() const;
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 
@@ -67,10 +71,10 @@ class StatusServer {
     mutable std::mutex unanswered_mutex_;
     std::string unanswered_ = "the status is not answered yet";  // guarded by it; empty: all are
     Pulse pulse_;
-    std::thread thread_;  // the last member: it uses what stands above
+    std::thread thread_;  // the last member: it uses the members above
 };
 
-// What a board holds, as pages.
+// Returns a function that renders the pages of a board.
 [[nodiscard]] StatusServer::Render pages_of(const StatusBoard& board);
 
 }  // namespace stormcellar::daemon

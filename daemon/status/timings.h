@@ -1,8 +1,9 @@
-// daemon/status/timings.h -- how long something took, over the last times that it was done.
+// daemon/status/timings.h -- how long something took, over its last times.
 //
-// Count and sum are of all since the start, as counters of a monitoring system want them; median,
-// 95th percentile and maximum of the last `window` values, so memory is bounded.
-// Thread contract: plain data.
+// Count and sum are over all times, as the counters of a monitoring system need them. Median, 95th
+// percentile and maximum are over the last `window` values, so memory is bounded.
+//
+// Threads   Plain data: one thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,10 @@ namespace stormcellar::daemon {
 
 struct LatencySummary {
     std::size_t count = 0;
-    double median = 0, p95 = 0, max = 0;  // seconds; of `count` 0 meaningless
+    double median = 0, p95 = 0, max = 0;  // in seconds; meaningless if `count` is 0
 };
-// By nearest rank: the smallest value that at least the share of all values do not exceed.
+// Percentiles are by nearest rank: the smallest value that at least this share of all values do not
+// exceed.
 [[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
 
 class Timings {

@@ -1,4 +1,6 @@
-// daemon/watch/file_stamp.h -- what tells one state of a raw file from another without reading it.
+// daemon/watch/file_stamp.h -- tells whether a raw file has changed, without reading it.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +15,26 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
-    std::int64_t changed_ns = 0;  // the same of its rights and owner: an unreadable file was mended
+    // of the last change of rights or owner: shows that an unreadable file was repaired
+    std::int64_t changed_ns = 0;
 
     bool operator==(const FileStamp&) const = default;
 };
 
 [[nodiscard]] FileStamp stamp_of(const struct stat& facts);
 
-// What stands at a path. Symbolic links are never followed.
+// What exists at a path. Symbolic links are never followed.
 enum class Standing { regular, directory, other, missing, unknown };
 struct FileFound {
     Standing standing = Standing::missing;
     FileStamp stamp;
     mode_t mode = 0;
 };
-// A path that may not be looked at counts as missing; one that cannot be now, as when descriptors
-// run out, is unknown.
+// A path that we may not look at counts as missing. A path that cannot be looked at now, for
+// example because there are no descriptors left, is unknown.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
-// The same below a directory: what lies behind links is missing too (base/beneath.h).
+// Does the same below a directory: a path behind a symbolic link counts as missing, too
+// (base/beneath.h).
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path,
                                 const std::filesystem::path& beneath);
 

@@ -36,12 +36,12 @@ ErrorCode code_of(int error_number) {
     }
 }
 
-// "fs.inotify.max_user_watches (16384 now)": what holds the user to so few, which is the least of
-// the limits there are. `name` without max_.
+// Returns for example "fs.inotify.max_user_watches (16384 now)": the smallest of the limits that
+// apply to the user. `name` has no "max_".
 std::string limit_named(std::string_view name) {
     std::string least_name = fmt::format("fs.inotify.max_{}", name);
     std::optional<std::uint64_t> least;
-    // The second counts for the users of a container.
+    // The second one applies to the users of a container.
     const std::string_view kind = name.substr(name.find('_') + 1);
     for (const std::string& sysctl :
          {fmt::format("fs.inotify.max_{}", name), fmt::format("user.max_inotify_{}", kind)}) {

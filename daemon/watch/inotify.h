@@ -1,6 +1,7 @@
-// daemon/watch/inotify.h -- what the kernel says about directories, behind an interface so that
-// tests can force what is hard to bring about: an overflowing queue, no watches left. Thread
-// contract: one thread.
+// daemon/watch/inotify.h -- what the kernel reports about directories, behind an interface so that
+// tests can force rare cases: an overflowing queue, no watches left.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,9 @@
 namespace stormcellar::daemon {
 
 struct DirectoryEvent {
-    int watch = -1;          // which directory; -1 for an overflow
+    int watch = -1;          // the directory; -1 for an overflow
     std::uint32_t mask = 0;  // IN_* of <sys/inotify.h>
-    std::string name;        // of the entry; empty when the event is about the directory itself
+    std::string name;        // of the entry; empty if the event is about the directory itself
 };
 
 class EventSource {
@@ -27,26 +28,28 @@ class EventSource {
     EventSource& operator=(const EventSource&) = delete;
     virtual ~EventSource() = default;
 
-    // Readable when events wait; -1: nothing to poll.
+    // readable when events are waiting; -1: nothing to poll
     [[nodiscard]] virtual int descriptor() const = 0;
-    // The number of the watch; the same one again for a directory that is watched. no_space when
-    // the system's limit of watches is reached; not_found, permission, io. "DIR/." may be reached
-    // through a link, DIR itself not.
+    // Watches a directory and returns the number of the watch; a directory that is already watched
+    // keeps its number. "DIR/." may be reached through a link, DIR itself may not be one. Errors:
+    // no_space when the system's limit of watches is reached; not_found, permission, io.
     virtual Result<int> watch(const std::filesystem::path& directory) = 0;
     virtual void unwatch(int watch) = 0;
-    // Why changes in the directory may come without events, so that it must be polled; none where
-    // they are told of. Empty: that was said already.
+    // Returns why changes in the directory may come without events, so that it must be polled; none
+    // if all are reported. An empty text: the reason was given before.
     virtual std::optional<std::string> silence(const std::filesystem::path& /*directory*/) {
         return std::nullopt;
     }
-    // All that waits now, oldest first; never blocks. At most about 64 KiB of events a call.
+    // Returns all events that are waiting, oldest first, at most about 64 KiB of them. Never
+    // blocks.
     virtual std::vector<DirectoryEvent> read() = 0;
 };
 
-// Fails when the system has no inotify instance left, naming the sysctl.
+// Fails if the system has no inotify instance left; the message names the sysctl.
 [[nodiscard]] Result<std::unique_ptr<EventSource>> open_inotify();
 
-// No events at all: every directory is silent, and polled. What is left when open_inotify() fails.
+// Has no events at all: every directory is silent and must be polled. Used when open_inotify()
+// fails.
 [[nodiscard]] std::unique_ptr<EventSource> no_events();
 
 }  // namespace stormcellar::daemon

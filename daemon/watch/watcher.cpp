@@ -17,8 +17,9 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int events_a_step = 32;
-// What directories that came or went have taken of the thread, and a tenth of the time is paid
-// back. Beyond it they are left to the next scan, which rests as long after each look.
+// Limit of the time that directories that came or went may take from the thread; a tenth of real
+// time is paid back. Beyond the limit they are left to the next scan, which rests after each look
+// for as long as the look took.
 constexpr double most_owed_s = 0.2;
 constexpr double paid_back_each_second = 0.1;
 
@@ -78,15 +79,15 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     // The drop directory itself may be reached through a link.
     const Result<int> watch = events_.watch(directory == drop_ ? drop_ / "." : directory);
     if (!watch) {
-        // One that went away meanwhile is no problem, and of one that may not be read the walk
-        // says so.
+        // A directory that vanished in the meantime is no problem, and one that may not be read is
+        // reported by the walk.
         const ErrorCode code = watch.error().code;
         if (code == ErrorCode::not_found || code == ErrorCode::permission) return;
         ++unwatched_;
         if (!std::exchange(told_unwatched_, true)) listener_.directory_problem(watch.error());
         return;
     }
-    // One directory under a new name keeps its watch, and one name may have a new directory.
+    // A directory that was renamed keeps its watch, and a name may now belong to another directory.
     const std::string& path = directory.native();
     if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second.path != path) {
         watch_of_.erase(old->second.path);
@@ -98,7 +99,7 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     watch_of_[path] = *watch;
 }
 
-// Directories that were moved away, or went while their events were lost.
+// Forgets directories that were moved away, or that vanished while events were lost.
 void Watcher::forget_unseen() {
     std::vector<int> watches;
     for (const auto& [watch, directory] : path_of_) {
@@ -156,7 +157,7 @@ void Watcher::handle(const DirectoryEvent& event) {
         return;
     }
     const auto found = path_of_.find(event.watch);
-    if (found == path_of_.end()) return;  // an event from before its watch was taken away
+    if (found == path_of_.end()) return;  // an event from before its watch was removed
     const std::filesystem::path directory = found->second.path;
     if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
         unwatch_tree(drop_);
@@ -169,7 +170,7 @@ void Watcher::handle(const DirectoryEvent& event) {
     }
     if (pipeline::is_temporary_name(event.name)) return;
     const std::filesystem::path path = directory / event.name;
-    if (path.native().size() >= most_path_bytes) return;  // scans say so
+    if (path.native().size() >= most_path_bytes) return;  // reported by scans
     if ((event.mask & IN_ISDIR) != 0) {
         handle_directory(event, path);
     } else {
@@ -183,7 +184,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
     owed_at_ = began;
     const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        // Otherwise its watches go with the next scan, or with the directory.
+        // Otherwise its watches are removed by the next scan, or with the directory.
         if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {

@@ -9,7 +9,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Sums of rows: mean and mean square weigh as many gates as they are over.
+// Pools rows. Means and mean squares are weighted by the number of gates.
 class Pool {
   public:
     void add(const AuditRow& row) {
@@ -55,7 +55,7 @@ std::vector<AuditRow> pooled_by(std::span<const AuditRow> rows, float AuditRow::
 bool is_possible(const AuditRow& row) {
     const bool finite = std::isfinite(row.elevation_deg) && std::isfinite(row.range_from_m) &&
                         std::isfinite(row.rms) && std::isfinite(row.mean);
-    // A mean and an RMS of equal differences may round apart.
+    // The mean and the RMS of equal differences may differ by rounding.
     constexpr float rounding = 1.00001F;
     return finite && row.range_from_m >= 0 && row.range_to_m > row.range_from_m &&
            row.count <= row.same_status && row.same_status <= row.sampled && row.rms >= 0 &&

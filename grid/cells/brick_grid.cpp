@@ -14,15 +14,16 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr std::size_t state_block_bytes = brick_cells / 4;
-// More than one, since storms make some bricks dearer than others.
+// There are several pieces for each thread, because storms make some bricks costlier than others.
 constexpr int pieces_a_thread = 4;
 
-// The nearest code; a value beyond the ends of the code range takes the end and is counted.
+// Returns the nearest code. A value beyond the range of codes takes its end and is counted.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    // To the nearest whole number, of halves to the even one: what lies above 2^52 has no fraction.
+    // Adding 2^52 rounds to the nearest whole number (halves to the even one), because numbers
+    // above 2^52 have no fraction.
     constexpr double no_fraction = 0x1.8p52;
     const double code = steps + no_fraction - no_fraction + first_value_code;
     if (is_within<double>(code, first_value_code, quantization.largest_code())) {
@@ -33,7 +34,7 @@ std::uint16_t code_of(float value, const Quantization& quantization, std::uint64
                                                           : first_value_code;
 }
 
-// One brick of cells as codes; cells beyond the grid's edge stay 0.
+// One brick of cells as codes. Places beyond the edge of the grid stay 0.
 template <class Code>
 class BrickReader {
   public:
@@ -73,7 +74,7 @@ class BrickReader {
         }
     }
 
-    // Whether there is a value among them.
+    // Returns true if there is a value among them.
     template <int count>
     static bool copy_states(const CellStatus* status, Code* to) {
         std::uint8_t largest = 0;
@@ -91,12 +92,13 @@ class BrickReader {
     std::uint64_t clamped_ = 0;
 };
 
-// The cells of a brick, those beyond the extent (code 0) among the not seen.
+// Counts the cells of a brick by state. Places beyond the extent have code 0, so they count as not
+// seen.
 struct CodeCounts {
     std::size_t not_seen = 0;
     std::size_t no_echo = 0;
     std::size_t range_folded = 0;
-    std::uint16_t smallest = 65535;  // of the cells with a value
+    std::uint16_t smallest = 65535;  // over the cells with a value
     std::uint16_t largest = 0;
     [[nodiscard]] std::size_t values() const {
         return brick_cells - not_seen - no_echo - range_folded;
@@ -105,11 +107,13 @@ struct CodeCounts {
 
 template <class Code>
 CodeCounts count_codes(const Code* codes) {
-    // Sixteen side by side, which runs in vectors; 128 of each, which a byte can count.
+    // Sixteen counters run side by side, which the compiler vectorizes. Each counts 128 cells,
+    // which fits into a byte.
     constexpr std::size_t lanes = 16;
     constexpr std::size_t row = 128 * lanes;
     using Lanes = std::array<Code, lanes>;
-    // Codes of values from 0 on; the states wrap round and are larger than any.
+    // Makes the codes of values start at 0. The codes of states wrap around and become larger than
+    // any value.
     const auto wrapped = [](Code code) { return static_cast<Code>(code - first_value_code); };
     CodeCounts counts;
     Lanes smallest;
@@ -170,7 +174,8 @@ void read_columns(const Grid& grid, const BrickView& shape, int begin_x, int end
     writer.count_clamped(reader.clamped_count());
 }
 
-// In pieces along x, one behind the other, so that what the writers hold is in order.
+// Fills the grid in pieces along x, one after the other, so that the states of the writers are in
+// order.
 template <class Code>
 void read_all(const Grid& grid, int threads, BrickGrid& made) {
     const BrickView shape = made.view();
@@ -345,7 +350,8 @@ void BricksWriter::copy(std::size_t brick, const BrickView& from, std::size_t fr
         return add_states(brick, states, source.checksum);
     }
     grid_->bricks_[brick] = source;
-    grid_->bricks_[brick].packed_bytes = 0;  // of the file that it came from
+    // this size refers to the file that the brick came from
+    grid_->bricks_[brick].packed_bytes = 0;
     if (source.kind == BrickKind::uniform) return;
     const std::size_t size = brick_cells * static_cast<std::size_t>(from.quantization.code_bytes);
     std::memcpy(grid_->codes_.data() + brick * size, from.codes.data() + from_brick * size, size);

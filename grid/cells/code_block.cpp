@@ -6,7 +6,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// The part of a box that lies in the grid; empty (x1 < x0 or y1 < y0) where none does.
+// Returns the part of a box that lies in the grid; it is empty (x1 < x0 or y1 < y0) if there is
+// none.
 ColumnBox inside(const BrickView& view, const ColumnBox& box) {
     return {std::max(box.x0, 0), std::max(box.y0, 0), std::min(box.x1, view.spec->nx - 1),
             std::min(box.y1, view.spec->ny - 1)};

@@ -1,8 +1,10 @@
 // grid/cells/code_block.h -- the codes of a rectangle of columns and sixteen levels, unpacked.
 //
-// Whatever a brick is (uniform, states, codes of one byte or two), here are its codes, 16 bits
-// each, states included; beyond the grid all is not seen. For steps that read about a cell. Inside
-// the grid room only. Threads: one for each object.
+// Whatever the kind of a brick (uniform, states, codes of one byte or two), a block holds its codes
+// with 16 bits each, states included. Places beyond the grid are not seen. It is for steps that
+// read about a cell, and used only inside the grid room.
+//
+// Threads   One thread for each object.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +15,19 @@
 
 namespace stormcellar::grid {
 
-// Columns [x0, x1] x [y0, y1], both ends included; they may lie beyond the grid.
+// The columns [x0, x1] x [y0, y1], with both ends included. They may lie beyond the grid.
 struct ColumnBox {
     int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
 };
 
 class CodeBlock {
   public:
-    // The state of all of them, where they are all the same and of no value.
+    // Returns the state of all columns if it is the same everywhere and not a value, else none.
     [[nodiscard]] static std::optional<CellStatus> uniform_status(const BrickView& view,
                                                                   const ColumnBox& box, int bz);
     void read(const BrickView& view, const ColumnBox& box, int bz);
 
-    // The sixteen codes of a column of the box, upward.
+    // Returns the sixteen codes of a column of the box, from the bottom up.
     [[nodiscard]] const std::uint16_t* column(int ix, int iy) const {
         return codes_.data() + (static_cast<std::size_t>(ix - box_.x0) * height_ +
                                 static_cast<std::size_t>(iy - box_.y0)) *

@@ -6,7 +6,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// One row of bricks along y and z.
+// Compares one row of bricks along y and z.
 class RowComparer {
   public:
     RowComparer(const BrickView& a, const BrickView& b, BrickDifferences& found)

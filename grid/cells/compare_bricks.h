@@ -1,8 +1,10 @@
 // grid/cells/compare_bricks.h -- how two grids of the same cells differ, cell by cell.
 //
-// Whatever made them, and in whatever steps they keep values: a mosaic by a cheap chain against the
-// same by the exact one (pipeline/plan/mosaic_plan.h). Not for what wraps (VEL, PHI): differences
-// go the straight way. Threads: the same result for any number of threads.
+// The grids may be made in different ways and have different quantizations, such as a mosaic by a
+// cheap chain and the same mosaic by the exact chain (pipeline/plan/mosaic_plan.h). This is not for
+// moments that wrap (VEL, PHI), because differences are taken as plain numbers.
+//
+// Threads   Pure; the result is the same for any number of threads.
 #pragma once
 
 #include <vector>
@@ -14,14 +16,15 @@
 namespace stormcellar::grid {
 
 struct BrickDifferences {
-    std::vector<float> values;      // a - b of each cell valued in both, in the order of bricks
-    accuracy::StatusCounts status;  // of the cells that at least one of both has seen
+    std::vector<float> values;  // a - b of each cell with a value in both, in the order of bricks
+    accuracy::StatusCounts status;  // of the cells that at least one of the two has seen
 
-    // Of the magnitudes of all cells; none where no cell is valued in both.
+    // Returns the summary of the magnitudes of all differences, or none if no cell has a value in
+    // both.
     [[nodiscard]] std::optional<accuracy::ErrorSummary> summary() const;
 };
 
-// bad_argument: grids of different specs.
+// Compares two grids. Errors: bad_argument for grids with different specs.
 [[nodiscard]] Result<BrickDifferences> compare_bricks(const BrickView& a, const BrickView& b,
                                                       int threads);
 

@@ -40,8 +40,8 @@ Status validate_levels(const GridSpec& spec) {
     return {};
 }
 
-// A projection has one spacing; the other, and parallels of another projection, would make two
-// specs of one grid.
+// Checks the spacing. What a projection does not use must be 0; otherwise one grid could have two
+// specs.
 Status validate_spacing(const GridSpec& spec) {
     const bool in_degrees = spec.in_degrees();
     const double spacing = in_degrees ? spec.spacing_deg : spec.spacing_m;
@@ -63,7 +63,8 @@ Status validate_spacing(const GridSpec& spec) {
     return {};
 }
 
-// In cells: a whole number of halves, with the grid inside the largest one about the centre.
+// Returns true if an offset in cells is a whole number of halves and keeps the grid inside the
+// largest grid about the center.
 bool is_window_offset(double offset_cells, int cells) {
     constexpr double farthest = 0.5 * GridSpec::greatest_side;
     const double most = farthest - 0.5 * cells;

@@ -14,13 +14,14 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int circle_points = 720;
-// Between two points of the circle it bulges by 1e-5 of its radius; the rest is for projections.
+// Between two sampled points the circle bulges by 1e-5 of its radius; the rest is a margin for
+// projections.
 constexpr double bulge = 1.001;
-// Two neighbours on the circle farther apart in the plane than this many times their distance on
-// the earth: the plane is torn between them.
+// If two neighboring points on the circle are farther apart in the plane than this many times their
+// distance on the earth, the plane is torn between them.
 constexpr double largest_stretch = 8;
 
-// In columns or rows, the ends included.
+// A range of columns or rows, both ends included.
 struct Range {
     double least = HUGE_VAL;
     double greatest = -HUGE_VAL;
@@ -43,13 +44,14 @@ std::vector<GeoPoint> circle_about(const SitePosition& site, double radius_m) {
     return circle;
 }
 
-// Whether a pole is nearer than this.
+// Returns true if a pole is nearer than `radius_m`.
 bool holds_pole(const SitePosition& site, double radius_m, double pole_deg) {
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     return frame.to_polar({pole_deg, site.longitude_deg}).arc_m < radius_m;
 }
 
-// Rows and columns are latitudes and longitudes. Columns go on beyond both ends of the domain.
+// Returns the range for a grid in degrees, where rows are latitudes and columns are longitudes.
+// Columns go on beyond both ends of the domain.
 Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radius_m) {
     const GridProjection projection(domain);
     const double site_x = projection.to_column({site.latitude_deg, site.longitude_deg}).x;
@@ -69,7 +71,7 @@ Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radi
     return box;
 }
 
-// None where the plane is torn inside the circle.
+// Returns the range for a grid in a plane, or none if the plane is torn inside the circle.
 std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site, double radius_m) {
     const MaskedTraps masked;  // what a projection cannot show may be infinite
     const GridProjection projection(domain);
@@ -85,7 +87,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
         box.y.add(at.y);
         last = at;
     }
-    // The inside of the circle is the inside of its image, unless the image runs round the outside.
+    // The inside of the circle is the inside of its image, unless the image surrounds the outside.
     const ColumnPoint middle = projection.to_column({site.latitude_deg, site.longitude_deg});
     const bool inside = is_within(middle.x, box.x.least, box.x.greatest) &&
                         is_within(middle.y, box.y.least, box.y.greatest);
@@ -93,7 +95,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
     return box;
 }
 
-// The columns of a range, from the first to before the last, outward to whole bricks.
+// The columns of a range from the first to before the last, extended to whole bricks.
 struct Span {
     int first = 0;
     int end = 0;
@@ -107,7 +109,8 @@ Span whole_bricks(const Range& range, int count) {
             std::min(count, bricks_along(static_cast<int>(end)) * brick_edge)};
 }
 
-// Of a grid in degrees, the same column stands a whole turn to the west and to the east.
+// Makes whole bricks around a range. In a grid in degrees, a column also stands a whole turn to the
+// west and to the east.
 Span whole_bricks_around(const Range& range, const GridSpec& domain) {
     const double turn = 360 / domain.spacing_deg;
     Span all;
@@ -129,8 +132,8 @@ GridSpec window_spec(const GridSpec& domain, const GridWindow& window) {
     GridSpec spec = domain;
     spec.nx = window.nx;
     spec.ny = window.ny;
-    // Column 0 of the window is column first_x of the domain, so the centre moves by that. Halves
-    // this small are exact.
+    // Column 0 of the window is column first_x of the domain, so the center moves by that many
+    // columns. Halves of this size are exact.
     spec.offset_x_cells = 0.5 * (window.nx - 1) - (domain.center_x() - window.first_x);
     spec.offset_y_cells = 0.5 * (window.ny - 1) - (domain.center_y() - window.first_y);
     return spec;

@@ -1,7 +1,10 @@
-// grid/cells/level_range.h -- lengths as people write them, in kilometres, and as grids hold them.
+// grid/cells/level_range.h -- converts lengths as people write them, in kilometers, to those of
+// grids.
 //
-// Options of the command line and keys of the daemon's configuration are read by the same code:
-// what is written alike gives the same grid, bit for bit.
+// The options of the command line and the keys of the daemon's configuration are parsed by the same
+// code, so the same text gives the same grid, bit for bit.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -10,12 +13,13 @@
 
 namespace stormcellar::grid {
 
-// To the millimetre, so that 0.1 km is 100 m and nothing else.
+// Converts to meters, rounded to the millimeter, so that 0.1 km is exactly 100 m.
 [[nodiscard]] double metres_of_km(double km);
 
-// "bottom:top:step" in kilometres -> levels in metres. A top that the steps reach but for rounding
-// is reached. None when it is not of that form, the top is below the bottom, the step is not above
-// 0, or the levels would be more than a grid has (GridSpec::greatest_level_count).
+// Parses "bottom:top:step" in kilometers into levels in meters. The top is included if the steps
+// reach it up to rounding. Returns none if the text has another form, the top is below the bottom,
+// the step is not above 0, or there are more levels than a grid may have
+// (GridSpec::greatest_level_count).
 [[nodiscard]] std::optional<std::vector<double>> parse_level_range(std::string_view text);
 
 }  // namespace stormcellar::grid

@@ -1,7 +1,8 @@
 // grid/cells/level_table.h -- the levels of a grid, and where a height lies among them.
 //
-// Exact: a lookup starts in a table of equal steps and ends on the levels themselves.
-// Threads: immutable.
+// A lookup is exact: it starts in a table of equal steps and ends on the levels themselves.
+//
+// Threads   Immutable.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace stormcellar::grid {
 
 class LevelTable {
   public:
-    // Rising, at least one.
+    // Levels must rise. There must be at least one.
     explicit LevelTable(std::vector<float> levels_m)
         : levels_m_(std::move(levels_m)),
           steps_(static_cast<float>(steps_a_level * levels_m_.size())),
@@ -24,7 +25,7 @@ class LevelTable {
         const std::size_t steps = steps_a_level * levels_m_.size();
         first_of_step_.reserve(steps + 1);
         for (std::size_t step = 0; step <= steps; ++step) {
-            // Half a step down: whatever rounding does, no level is passed over.
+            // Half a step lower, so that rounding cannot make a lookup pass over a level.
             const float begin = static_cast<float>(step) - 0.5F;
             while (level + 1 < levels_m_.size() && step_of(levels_m_[level]) < begin)
                 ++level;
@@ -37,7 +38,7 @@ class LevelTable {
     [[nodiscard]] float operator[](std::size_t level) const { return levels_m_[level]; }
     [[nodiscard]] float top_m() const { return levels_m_.back(); }
 
-    // The first level that is not below a height; size() when there is none.
+    // Returns the first level that is not below a height; size() if there is none.
     [[nodiscard]] std::size_t first_from(float height_m) const {
         if (height_m > levels_m_.back()) return levels_m_.size();
         if (height_m <= levels_m_.front()) return 0;

@@ -13,9 +13,9 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
-constexpr double rounding_deg = 1e-9;        // 0.1 mm: what sums of spacings may be off
-constexpr double largest_parallel_deg = 89;  // and centre of a cone
-constexpr double flattest_cone_deg = 0.01;   // mean parallel below which a cone is a cylinder
+constexpr double rounding_deg = 1e-9;        // 0.1 mm: the error that sums of spacings may have
+constexpr double largest_parallel_deg = 89;  // for parallels and the center of a cone
+constexpr double flattest_cone_deg = 0.01;   // a cone with a smaller mean parallel is a cylinder
 
 using Cone = GeographicLib::LambertConformalConic;
 
@@ -75,15 +75,16 @@ Status validate_parallels(const GridSpec& spec) {
     return {};
 }
 
-// A cone is cut open along the meridian opposite the centre's. The plane's wedge behind the cut and
-// the pole at the cone's tip are no places of the earth, or every place twice.
+// Checks a cone. It is cut open along the meridian opposite the center's. The wedge of the plane
+// behind the cut and the pole at the tip of the cone are not places on the earth, or are each place
+// twice; so the grid must not reach them.
 Status validate_cone(const GridSpec& spec) {
     const Cone cone = cone_of(spec);
-    const double side = cone.OriginLatitude() < 0 ? -1 : 1;  // the pole where the tip is
+    const double side = cone.OriginLatitude() < 0 ? -1 : 1;  // the pole at the tip
     const double tip_m =
         side * (cone_northing_m(cone, side * 90) - cone_northing_m(cone, spec.center_latitude_deg));
     const double half_width_m = (std::abs(spec.offset_x_cells) + 0.5 * spec.nx) * spec.spacing_m;
-    // How far towards the tip the grid reaches.
+    // How far toward the tip the grid reaches.
     const double height_m = (side * spec.offset_y_cells + 0.5 * spec.ny) * spec.spacing_m;
     const double turn_deg = std::atan2(half_width_m, tip_m - height_m) * degrees_per_radian;
     const double cut_deg = 180 * std::sin(std::abs(cone.OriginLatitude()) / degrees_per_radian);

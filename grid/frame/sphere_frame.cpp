@@ -14,8 +14,8 @@ SphereFrame::SphereFrame(double latitude_deg, double longitude_deg) noexcept
       sine_(std::sin(latitude_deg * radians)),
       cosine_(std::cos(latitude_deg * radians)) {}
 
-// North is sin(lat2 - lat1) + 2 sin(lat1) cos(lat2) sin^2(dlon / 2): the textbook's difference of
-// products loses what is close to the site.
+// North is sin(lat2 - lat1) + 2 sin(lat1) cos(lat2) sin^2(dlon / 2). The textbook's difference of
+// products would lose accuracy close to the site.
 PolarPoint SphereFrame::to_polar(GeoPoint point) const noexcept {
     const double half_turn = 0.5 * radians * (point.longitude_deg - longitude_deg_);
     const double half_sine = std::sin(half_turn);

@@ -1,12 +1,12 @@
-// grid/frame/sphere_frame.h -- great circles from one point of a sphere of 6371 km, latitudes taken
-// as they are: the cheap rung of the site frame.
+// grid/frame/sphere_frame.h -- great circles from one point of a sphere of 6371 km, with latitudes
+// used unchanged: the cheap rung of the site frame.
 //
-// Units    metres along the sphere, degrees; azimuths clockwise from north, [0, 360).
-// Accuracy against the same sphere in 113-bit floats 1e-7 m: on the sphere up to the antipode; in
-//          the plane of azimuth and arc, which draws apart what lies about the antipode, up to
-//          19,000 km. Nothing cancels close to the site (tests/grid/frame_ladder_test.cpp).
-//          Against WGS84 see sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
-// Threads  a SphereFrame is immutable.
+// Units     Meters along the sphere; degrees; azimuths are clockwise from north, [0, 360).
+// Accuracy  Against the same sphere in 113-bit floats: 1e-7 m on the sphere, up to the antipode. In
+//           the plane of azimuth and arc, which stretches the surroundings of the antipode, up to
+//           19,000 km. Nothing cancels close to the site (tests/grid/frame_ladder_test.cpp).
+//           Against WGS84 see sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
+// Threads   A SphereFrame is immutable.
 #pragma once
 
 #include "stormcellar/grid/site_frame.h"

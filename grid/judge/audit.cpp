@@ -22,7 +22,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t classes = audit_range_borders_m.size() + 1;
 
-// No data: the gate says nothing.
+// Returns the state of a cell for that of a gate; none for no data, where the gate says nothing.
 std::optional<CellStatus> status_of(level2::GateStatus status) {
     switch (status) {
         case level2::GateStatus::valid:
@@ -47,14 +47,15 @@ struct Finding {
     float difference = 0;  // grid minus gate, where both are values
 };
 
-// What is known of a gate beside its place.
+// What is known about a gate beside its place.
 struct Gate {
     float value = 0;
     float period = 0;
-    float limit = std::numeric_limits<float>::quiet_NaN();  // that no echo stands for; or none
+    // the value that no echo stands for; NaN: none
+    float limit = std::numeric_limits<float>::quiet_NaN();
 };
 
-// The status rule over the eight cells around a gate.
+// Applies the status rule to the eight cells around a gate.
 Finding mix(const GridSampler::Corners& corners, const Gate& gate) {
     std::array<float, 4> weights{};
     float sum = 0;
@@ -78,7 +79,7 @@ Finding mix(const GridSampler::Corners& corners, const Gate& gate) {
     return {CellStatus::value, sum / valued};
 }
 
-// Of one sweep and range class.
+// The sums of one sweep and one class of ranges.
 struct Sums {
     std::uint32_t sampled = 0, same_status = 0, count = 0;
     double sum = 0, squares = 0;
@@ -107,7 +108,7 @@ struct Scan {
     bool is_tdwr = false;
 };
 
-// One kind of radials of a sweep, thinned along the range.
+// Scans one kind of radials of a sweep, thinned along the range.
 class KindScan {
   public:
     KindScan(const Scan& scan, const level2::Sweep& sweep, const level2::SweepMoment& moment,
@@ -151,7 +152,8 @@ class KindScan {
     }
 
   private:
-    // The same gates with those between the sampled ones left out; places alone.
+    // Returns the same gates without those between the sampled ones; the result is used for places
+    // alone.
     static level2::SweepMoment thinned(const level2::SweepMoment& moment, int gate_step) {
         level2::SweepMoment few;
         few.first_gate_m = moment.first_gate_m;
@@ -159,7 +161,7 @@ class KindScan {
         few.gate_stride = (moment.gate_stride + gate_step - 1) / gate_step;
         return few;
     }
-    // Echo and no echo meet there.
+    // Returns true where cells with echo and cells without echo meet.
     static bool needs_limit(const GridSampler::Corners& corners) {
         bool echo = false;
         bool none = false;

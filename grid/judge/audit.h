@@ -1,23 +1,28 @@
 // grid/judge/audit.h -- a virtual radar scans a finished grid and compares it with the gates.
 //
-// For gates of the sweeps that were gridded: where the gate is (the beam that the grid was made
-// with, each radial's own azimuth and elevation, no tables of the gridder's), what the grid holds
-// there, and how far that is from the gate. So it sees what cells, levels, quantisation, the beam's
-// table, the frame and any mistake in them do to the data together, with no exact form to believe
-// in: a grid that is turned or shifted disagrees with its own gates.
-// Grid     between cells trilinear: by the status rule of docs/geometry.md over the eight cells
-//          around the gate, values in the moment's unit (REF always in dB, no echo at the gate's
-//          detection limit), VEL and PHI around the gate's value on their circle. Not the nearest
-//          cell: it is up to 0.9 km off in a grid of 1 km, which would count as the grid's error.
-// Gates    every so many radials and gates, as the steps say, from the first; the same whatever the
-//          number of threads. Gates beyond the outermost cells' centres are left out.
-// Result   RMS and mean of grid minus gate in the moment's unit, for each sweep and range class,
-//          over gates that have a value where the grid has one; how often states agree, apart.
-//          It is a measure of this grid against this volume, and no bound: gates between levels and
-//          columns are smoothed, noise included (neighbouring gates of a radar differ by 2.6 dB).
-// Cost     half of what gridding takes: 19 to 29 ms for 460 x 460 x 32 cells about the site, one
-//          thread of a busy machine, 24 to 39 ms off it; in proportion to the gates sampled.
-// Threads  a pure function; the same bits for any number of threads.
+// The audit takes gates of the sweeps that were gridded. For each it computes where the gate is,
+// with the beam that the grid was made with, the radial's own azimuth and elevation, and none of
+// the gridder's tables. It reads what the grid holds there, and takes the difference from the gate.
+// So it measures what cells, levels, quantization, the table of the beam, the frame and any mistake
+// in them do to the data together, and needs no exact form to compare with: a grid that is turned
+// or shifted disagrees with its own gates.
+//
+// Grid      Between cells the grid is trilinear, by the status rule of docs/geometry.md over the
+//           eight cells around the gate. Values are in the unit of the moment (REF always in dB,
+//           with no echo at the gate's detection limit); VEL and PHI are taken around the gate's
+//           value on their circle. The nearest cell would be up to 0.9 km away in a grid of 1 km,
+//           which would count as an error of the grid.
+// Gates     Every n-th radial and gate, with n as the steps say, from the first; the same gates for
+//           any number of threads. Gates beyond the centers of the outermost cells are left out.
+// Result    The RMS and the mean of grid minus gate in the unit of the moment, for each sweep and
+//           class of ranges, over gates that have a value where the grid has one; and, apart from
+//           that, how often the states agree. It is a measure of this grid against this volume and
+//           not a bound: gates between levels and columns are smoothed with their noise, and
+//           neighboring gates of a radar differ by 2.6 dB.
+// Cost      Half the time of gridding: 19 to 29 ms for 460 x 460 x 32 cells about the site with one
+//           thread of a busy machine, 24 to 39 ms away from the site; in proportion to the number
+//           of gates.
+// Threads   A pure function, with the same bits for any number of threads.
 #pragma once
 
 #include <array>
@@ -33,30 +38,31 @@
 
 namespace stormcellar::grid {
 
-// No gate beyond this is looked at.
+// Gates beyond this range are not compared.
 inline constexpr double audit_reach_m = 500e3;
 
 struct AuditOptions {
-    double azimuth_step_deg = 5;  // between sampled radials; at least each one
-    double range_step_m = 1500;   // between sampled gates; at least each one
+    double azimuth_step_deg = 5;  // between sampled radials; at least every radial is taken
+    double range_step_m = 1500;   // between sampled gates; at least every gate is taken
     int threads = 1;
-    // Made before for the site and the grid's spec, with audit_reach_m; else it is made in the
-    // call.
+    // The columns for the site and the spec of the grid, with audit_reach_m. If null, the call
+    // makes them.
     const SiteColumns* columns = nullptr;
 };
 
-// Slant ranges where a class ends and the next begins; the last one has no end.
+// The slant ranges at which one class ends and the next begins. The last class has no end.
 inline constexpr std::array audit_range_borders_m = {60e3, 120e3, 180e3, 240e3};
 
 struct Audit {
-    std::vector<AuditRow> rows;  // by rising elevation and range; classes without gates left out
-    // How many gates of a status (first index, a CellStatus) lie where the grid has another.
+    // by rising elevation and range; classes without gates are left out
+    std::vector<AuditRow> rows;
+    // How many gates of one status (first index, a CellStatus) lie where the grid has another.
     std::array<std::array<std::uint64_t, 4>, 4> states{};
 };
 
-// `gridded` says how the grid was made: moment, beam, profile and choice of sweeps count.
-// Errors: not_found when the volume has no sweep with the moment; bad_argument for steps or threads
-// that are not positive.
+// Audits a grid. `gridded` says how the grid was made: its moment, beam, profile and choice of
+// sweeps count. Errors: not_found if the volume has no sweep with the moment; bad_argument for
+// steps or threads that are not positive.
 [[nodiscard]] Result<Audit> audit(const BrickView& grid, const level2::Volume& volume,
                                   const SitePosition& site, const GridderOptions& gridded,
                                   const AuditOptions& options = {});

@@ -15,7 +15,7 @@ constexpr float counted_dbz = 5;
 constexpr float strong_dbz = 20;
 constexpr float weak_dbz = 10;
 
-// Cells of two views, brick by brick.
+// Compares the cells of two views, brick by brick.
 class Comparison {
   public:
     Comparison(const BrickView& made, const BrickView& seen) : made_(made), seen_(seen) {}
@@ -100,8 +100,8 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
         InstantOptions options;
         options.instant = held_out.middle;
         options.method = method;
-        // The volume held out was not seen in an instant either: its cells are each as late as
-        // those of the other two.
+        // The held-out volume was not seen in one instant either: its cells are each as late as the
+        // cells of the other two volumes.
         options.sweep_times = false;
         options.threads = threads;
         std::optional<MotionField> motion;

@@ -28,8 +28,8 @@ Real gaussian_radius(Real latitude_deg) {
     return std::sqrt(m * n);
 }
 
-// Of the 4/3 earth the textbook's formulae, and bisection for what they do not give. The other
-// beams have oracles of their own (tests/grid/beam_model_test.cpp).
+// The beam of the 4/3 earth by the textbook's formulas, and by bisection where they give no closed
+// form. The other beams have oracles of their own (tests/grid/beam_model_test.cpp).
 class Beamline {
   public:
     Beamline(const SitePosition& site, const OracleSetting& setting)
@@ -52,7 +52,7 @@ class Beamline {
         return radius_m_ *
                std::atan2(range_m * std::cos(e), radius_m_ + altitude_m_ + range_m * std::sin(e));
     }
-    // NaN where the beam never passes.
+    // Returns NaN where the beam never passes.
     [[nodiscard]] BeamGeometry::BeamPoint over(double arc_m, double elevation_deg) const {
         if (model_) return model_->path(elevation_deg).over(arc_m);
         Real near_m = 0;
@@ -74,7 +74,7 @@ class Beamline {
     std::optional<BeamModel> model_;
 };
 
-// A column of a spec: where it is, and whether a gate stands inside its outline.
+// One column of a spec: where it is, and whether a gate lies inside its outline.
 class Outline {
   public:
     Outline(const SitePosition& site, const GridSpec& spec, int ix, int iy)
@@ -167,7 +167,7 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
                                          : choice.elevation_deg;
         const double half_deg = setting.beam_width_deg / 2;
         beam.height_m = line.over(outline.arc_m, elevation_deg).height_m;
-        if (std::isnan(beam.height_m)) continue;  // the radial's own beam never passes
+        if (std::isnan(beam.height_m)) continue;  // the radial's own beam never passes here
         beam.lower_edge_m = line.over(outline.arc_m, elevation_deg - half_deg).height_m;
         beam.upper_edge_m = line.over(outline.arc_m, elevation_deg + half_deg).height_m;
         beam.rise_m_per_deg = rise_of(beam, range_m, half_deg);
@@ -176,8 +176,8 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
     put_in_order();
 }
 
-// From whichever edges pass on their own side of the beam's centre; without any, the breadth of a
-// degree at the range.
+// Returns the rise from those edges that pass on their own side of the beam's center; without any,
+// the width of a degree at this range.
 double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) {
     const bool has_lower = std::islessequal(beam.lower_edge_m, beam.height_m);
     const bool has_upper = std::isgreaterequal(beam.upper_edge_m, beam.height_m);
@@ -189,8 +189,8 @@ double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) 
     return range_m * static_cast<double>(degree);
 }
 
-// Radials measured off their sweeps' elevations may stand in another order; a lost cut stays
-// between the same places.
+// Sorts the beams. Radials that were measured off their sweeps' elevations may be in another order;
+// a lost cut stays between the same places.
 void OracleColumn::put_in_order() {
     std::vector<bool> adjacent;
     for (const Beam& beam : beams_)

@@ -1,13 +1,16 @@
-// grid/judge/oracle.h -- the gridder's oracle: one cell at a time, nothing shared, nothing
-// tabulated, long double where it matters. Slow and obvious, written from docs/geometry.md and not
-// from the gridder; tests and the accuracy ladder compare the gridder with it.
+// grid/judge/oracle.h -- the gridder's oracle: one cell at a time, with nothing shared, nothing
+// tabulated, and long double where it matters.
 //
-// The geodesic to a column and the beam over it are solved anew for each column, every radial is
-// searched, and a cell keeps the list of all gates that make it up, each with its weight.
-// What the gridder's stated accuracies allow can change which gate is nearest: a column says when
-// that hung on less than doubt_range_m or doubt_azimuth_deg, or two beams are as high as each other
-// within doubt_height_m.
-// Threads: use one from one thread.
+// It is slow and obvious, and written from docs/geometry.md and not from the gridder. Tests and the
+// accuracy ladder compare the gridder with it. For each column it solves the geodesic and the beams
+// anew, it searches every radial, and a cell keeps the list of all gates that make it up, each with
+// its weight.
+//
+// The stated accuracies of the gridder allow another gate to be the nearest. A column says when its
+// result depends on less than doubt_range_m or doubt_azimuth_deg, or when two beams are equally
+// high within doubt_height_m.
+//
+// Threads   One thread for each object.
 #pragma once
 
 #include <memory>
@@ -21,10 +24,10 @@ struct OracleCell {
     CellStatus status = CellStatus::not_seen;
     double value = 0;
     double unseen = 1;  // share of the weight
-    // How far the status rule was from another outcome, in weight.
+    // How far the status rule was from another outcome, as a weight.
     double margin = 1;
-    // The values cover more than a quarter of their circle, or circles differ: the mean depends
-    // on which of them it is taken from.
+    // The values cover more than a quarter of their circle, or their circles differ, so the mean
+    // depends on the value from which the differences are taken.
     bool wide_on_circle = false;
 };
 
@@ -34,18 +37,18 @@ class OracleColumn {
     static constexpr double doubt_azimuth_deg = 1e-4;
     static constexpr double doubt_height_m = 1;
 
-    // `volume` and `chosen` must outlive it. Column and row must be in the spec.
+    // `volume` and `chosen` must outlive the object. Column and row must be in the spec.
     OracleColumn(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                  const OracleSetting& setting, const SitePosition& site, const GridSpec& spec,
                  int ix, int iy);
 
     [[nodiscard]] bool is_doubtful() const { return doubtful_; }
-    // A level of the spec, as a point or with its extent, raised by an offset.
+    // Computes a level of the spec, as a point or with its extent, raised by an offset.
     [[nodiscard]] OracleCell cell(std::size_t level, double raised_m = 0) const;
 
   private:
     struct Beam {
-        std::vector<WeightedGate> gates;  // weights sum to 1
+        std::vector<WeightedGate> gates;  // the weights add up to 1
         double height_m = 0, lower_edge_m = 0, upper_edge_m = 0, rise_m_per_deg = 0;
         bool adjacent_to_next = true;
     };

@@ -15,7 +15,7 @@ double turn_to(double from_deg, double to_deg) {
     return turn > 180 ? turn - 360 : turn;
 }
 
-// How far apart two azimuths are, either of them up to two turns off.
+// Returns how far apart two azimuths are; either may be up to two turns off.
 double apart_deg(double a_deg, double b_deg) {
     double apart = std::abs(a_deg - b_deg);
     while (apart > 360)
@@ -64,7 +64,7 @@ OracleSweep::OracleSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
     if (!(spacing_deg_ > 0)) spacing_deg_ = 1;
 }
 
-// No gap lies between the radial and the next one, clockwise.
+// Returns true if there is no gap between the radial and the next one, clockwise.
 bool OracleSweep::is_joined(std::size_t at) const {
     if (radials_.size() == 1) return false;
     const Radial& next = radials_[(at + 1) % radials_.size()];
@@ -131,7 +131,7 @@ WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double
     return gate;
 }
 
-// The nearest gate alone, or linear between two.
+// Adds the nearest gate alone, or two gates, linear in range.
 void OracleSweep::add_along(const Radial& radial, double range_m, double weight, bool two,
                             std::vector<WeightedGate>& gates, bool& doubtful) const {
     if (radial.kind == nullptr) {
@@ -157,7 +157,7 @@ void OracleSweep::add_along(const Radial& radial, double range_m, double weight,
     gates.push_back(gate(radial, next, weight * std::abs(beyond)));
 }
 
-// Two radials, or all by the antenna's pattern.
+// Adds two radials, or all radials by the antenna's pattern.
 void OracleSweep::add_radials(double azimuth_deg, std::size_t nearest, double range_m,
                               std::vector<WeightedGate>& gates, bool& doubtful) const {
     const bool by_pattern = setting_.method.interpolation == Interpolation::beam_weighted;
@@ -183,7 +183,7 @@ void OracleSweep::add_radials(double azimuth_deg, std::size_t nearest, double ra
         for (const std::size_t at : joined)
             weights.push_back(oracle_pattern(offset(at), width_deg));
     } else {
-        // The nearest radial on either side.
+        // Finds the nearest radial on either side.
         double other_deg = 1e9;
         for (const std::size_t at : joined) {
             const bool other_side = at != nearest && (offset(at) > 0) != (offset(nearest) > 0);

@@ -1,5 +1,7 @@
-// grid/judge/oracle_sweep.h -- which gates of one sweep make up a point or a cell, found the slow
-// way: every radial is searched for each question (grid/judge/oracle.h).
+// grid/judge/oracle_sweep.h -- finds the gates of one sweep that make up a point or a cell, the
+// slow way: it searches every radial for each question (grid/judge/oracle.h).
+//
+// Threads   One thread for each object.
 #pragma once
 
 #include <functional>
@@ -19,7 +21,7 @@ struct OracleSetting {
     double beam_width_deg = 0.95;
     bool is_tdwr = false;
     Method method;
-    // For traced beams; none: the exponential reference atmosphere.
+    // The profile for traced beams; none: the exponential reference atmosphere.
     std::optional<RefractivityProfile> profile;
 };
 
@@ -30,21 +32,22 @@ struct WeightedGate {
 
 class OracleSweep {
   public:
-    // All three must outlive it.
+    // All three must outlive the object.
     OracleSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
                 const OracleSetting& setting);
 
-    // The measured elevation of the radial that sees the azimuth; the sweep's where none does.
-    // `doubtful` is set when another radial is as near, within OracleColumn's margins.
+    // Returns the measured elevation of the radial that sees the azimuth, or that of the sweep if
+    // none does. Sets `doubtful` if another radial is as near within OracleColumn's margins.
     [[nodiscard]] double elevation_deg(double azimuth_deg, bool& doubtful) const;
 
-    // The gates that make up a point, their weights' sum 1; by the setting's interpolation.
+    // Returns the gates that make up a point by the interpolation of the setting. Their weights add
+    // up to 1.
     [[nodiscard]] std::vector<WeightedGate> point(double azimuth_deg, double range_m,
                                                   bool& doubtful) const;
 
-    // All gates, of equal weight, that `is_inside(azimuth_deg, range_m)`; a place where a gate
-    // would stand beyond a radial's last one is not seen. Empty where there is none. `near_deg`
-    // about the azimuth bounds the search.
+    // Returns all gates for which `is_inside(azimuth_deg, range_m)` is true, with equal weights. A
+    // place where a gate would lie beyond the last gate of a radial is not seen. The result is
+    // empty if there is no gate. The search is limited to `near_deg` about the azimuth.
     using Inside = std::function<bool(double azimuth_deg, double range_m)>;
     [[nodiscard]] std::vector<WeightedGate> inside(const Inside& is_inside, double azimuth_deg,
                                                    double near_deg, double nearest_m,
@@ -72,7 +75,7 @@ class OracleSweep {
     double spacing_deg_ = 1;
 };
 
-// The antenna's pattern (grid/beam/beam_pattern.h) in double.
+// Returns the antenna's pattern (grid/beam/beam_pattern.h) in double.
 [[nodiscard]] double oracle_pattern(double offset, double width);
 
 }  // namespace stormcellar::grid

@@ -10,12 +10,13 @@ namespace {
 
 constexpr double huber_limit = 1.345;
 constexpr double deviations_a_median = 1.4826;
-// A number that others explain to all but this share of its square is not told from them.
+// A number is not determined if the others explain all but this share of its square.
 constexpr double least_pivot = 1e-4;
 
 using Numbers = std::array<double, fit_size>;
 
-// Normal equations: sums over rows of weight * gradient * gradient and * residual.
+// The normal equations: sums over rows of weight * gradient * gradient, and of weight * gradient *
+// residual.
 struct Equations {
     std::array<Numbers, fit_size> matrix{};
     Numbers right{};
@@ -38,7 +39,8 @@ struct Equations {
     }
 };
 
-// Gauss's elimination, in place; a number that is not sought has a row of its own.
+// Solves the equations by Gauss's elimination, in place. A number that is not sought has a row of
+// its own.
 std::optional<Numbers> solve(Equations of, FitChoice sought, std::size_t* unclear) {
     for (std::size_t i = 0; i < fit_size; ++i) {
         if (sought[i]) continue;
@@ -92,7 +94,7 @@ std::vector<Equations> equations_of_blocks(std::span<const FitRow> rows, double 
     return blocks;
 }
 
-// What the numbers are without each block in turn, and how much they scatter.
+// Computes the numbers without each block in turn, and from their scatter the errors.
 Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, FitChoice sought) {
     Numbers errors;
     errors.fill(std::numeric_limits<double>::infinity());
@@ -103,7 +105,7 @@ Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, Fi
         Equations others = all;
         others.add(block, -1);
         const auto without = solve(others, sought, nullptr);
-        if (!without) return errors;  // one block tells it all
+        if (!without) return errors;  // one block alone determines a number
         for (std::size_t i = 0; i < fit_size; ++i) {
             sum[i] += (*without)[i];
             squares[i] += (*without)[i] * (*without)[i];
@@ -126,7 +128,8 @@ std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought, std::size
     }
     Fit made;
     made.deviation = deviation_of(rows);
-    // Exact residuals of half the rows: all others count as outliers, the least number keeps them.
+    // If half the residuals are exact, all others count as outliers; the smallest deviation keeps
+    // them.
     const double deviation = std::max(made.deviation, 1e-9);
     const std::vector<Equations> blocks = equations_of_blocks(rows, deviation);
     Equations all;

@@ -18,17 +18,18 @@ constexpr std::array<const char*, fit_size> fault_names = {"bias", "azimuth", "e
 constexpr std::size_t fewest_blocks = 8;
 constexpr std::size_t fewest_cells = 400;
 constexpr double slowest_mps = 2;
-// Without a motion: farther apart, echo has moved by what would be taken for faults.
+// Without a motion, the two looks may be at most this far apart: later, the echo has moved by as
+// much as a fault would move it.
 constexpr double longest_apart_s = 90;
 constexpr int most_rounds = 12;
-// No step is longer than this: dB, degrees, degrees, seconds.
+// A step is never longer than this: dB, degrees, degrees, seconds.
 constexpr std::array<double, fit_size> longest_step = {10, 0.5, 0.5, 60};
-// A step below this part of the errors, or of that one, changes nothing.
+// A step below this part of the errors, or of the limit above, changes nothing.
 constexpr double settled = 0.02;
 
 using Numbers = std::array<double, fit_size>;
 
-// B about a place, and how it changes from there.
+// The value of B at a place, and its derivatives there.
 struct Local {
     double value = 0;
     double by_x = 0, by_y = 0, by_up_m = 0;
@@ -73,7 +74,8 @@ double correlation_of(const std::vector<double>& a, const std::vector<double>& b
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-// A minus B as B's faults have it, cell by cell, and how alike the two are then.
+// Makes a row for each cell: A minus B as B's faults explain it, and how alike the two grids then
+// are.
 std::vector<FitRow> rows_of(const std::vector<SitePair>& pairs, const GridSampler& b,
                             const Numbers& numbers, double least_dbz, double& correlation) {
     std::vector<FitRow> rows;
@@ -105,7 +107,7 @@ std::array<Estimate*, fit_size> estimates_of(SiteComparison& comparison) {
             &comparison.time_s};
 }
 
-// Why nothing can be said from these cells; empty: something can.
+// Returns the reason why these cells do not suffice; empty if they do.
 std::string too_little(std::size_t pairs, std::size_t rows, std::size_t blocks) {
     if (pairs == 0) return "no echo where both sites look";
     if (rows >= fewest_cells && blocks >= fewest_blocks) return "";
@@ -128,7 +130,7 @@ std::size_t blocks_of(const std::vector<FitRow>& rows) {
     return static_cast<std::size_t>(std::unique(blocks.begin(), blocks.end()) - blocks.begin());
 }
 
-// Adds a step, no longer than allowed; whether it still changes anything.
+// Adds a step, no longer than allowed. Returns true if it still changes anything.
 bool take_step(const Fit& found, Numbers& numbers) {
     bool changes = false;
     for (std::size_t i = 0; i < fit_size; ++i) {
@@ -151,7 +153,7 @@ double median_apart_s(const std::vector<SitePair>& pairs) {
     return *middle;
 }
 
-// What can be sought, as far as that is known before.
+// Chooses what can be sought, as far as that is known beforehand.
 FitChoice choose_faults(const ComparisonOptions& options, SiteComparison& comparison) {
     FitChoice sought{true, true, true, true};
     const auto give_up = [&](Fault fault, std::string why) {
@@ -210,7 +212,7 @@ void estimate(const std::vector<SitePair>& pairs, const GridSampler& b,
 }
 
 struct FaultText {
-    const char* more;  // of a positive value
+    const char* more;  // the words for a positive value
     const char* less;
     const char* unit;
     double limit = 0;

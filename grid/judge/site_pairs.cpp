@@ -13,7 +13,7 @@ namespace {
 
 constexpr double block_m = 24e3;
 
-// Columns and heights of one grid as another one's.
+// Converts columns and heights of one grid into those of another.
 class Matcher {
   public:
     Matcher(const SiteGrid& a, const SiteGrid& b, const ComparisonOptions& options)
@@ -31,7 +31,7 @@ class Matcher {
         const GridSpec& spec = *a_.view.spec;
         const std::vector<ColumnPoint> columns = busy_columns();
         const auto most = static_cast<std::size_t>(options_.most_columns);
-        // Odd, so that thinning goes through all rows of a brick.
+        // An odd step makes thinning go through all rows of a brick.
         const std::size_t step = ((columns.size() + most - 1) / most) | 1U;
         std::vector<SitePair> found;
         for (std::size_t i = 0; i < columns.size(); i += step)
@@ -40,7 +40,8 @@ class Matcher {
     }
 
   private:
-    // Columns of A in bricks that hold values and are near enough to both sites, brick by brick.
+    // Returns the columns of A in bricks that hold values and are near enough to both sites, brick
+    // by brick.
     [[nodiscard]] std::vector<ColumnPoint> busy_columns() const {
         std::vector<ColumnPoint> found;
         for (int bx = 0; bx < a_.view.bricks_x; ++bx) {
@@ -82,7 +83,8 @@ class Matcher {
         SitePair pair;
         pair.column = b_plane_.to_column(place);
         pair.block = block_of(spec, column);
-        // A degree about B, and a metre away from it, by a tenth of a degree and 100 m.
+        // The shift for a degree about B, and for a meter away from it, from differences over a
+        // tenth of a degree and 100 m.
         const ColumnPoint turned =
             b_plane_.to_column(b_frame_.to_geo({from_b.azimuth_deg + 0.1, from_b.arc_m}));
         const ColumnPoint farther =
@@ -112,13 +114,13 @@ class Matcher {
         const double farther_m = (raised.arc_m - arc_m) * 10;
         pair.by_elevation = {away.x * farther_m, away.y * farther_m,
                              (raised.height_m - pair.height_m) * 10};
-        // B has seen what A saw there by so much later.
+        // B has seen there, so much later, what A saw.
         pair.column = moved(pair.column, pair.by_time, *apart_s);
         found.push_back(pair);
     }
 
-    // How much later than A's cell B's was seen; 0 where ages are not known. None where one of the
-    // two was not seen at a known time.
+    // Returns how much later B's cell was seen than A's; 0 if ages are not known. Returns none if
+    // one of the two was not seen at a known time.
     [[nodiscard]] std::optional<double> ages_apart_s(ColumnPoint in_a, ColumnPoint in_b,
                                                      int iz) const {
         const double height_m = a_.view.spec->levels_m[static_cast<std::size_t>(iz)];
@@ -127,7 +129,7 @@ class Matcher {
         if (!a_s || !b_s) return std::nullopt;
         return *b_s - *a_s;
     }
-    // Of the nearest cell.
+    // Returns the age of the nearest cell.
     static std::optional<double> age_s(const SiteGrid& of, ColumnPoint column, double height_m) {
         if (of.details == nullptr) return 0;
         const GridSpec& spec = *of.view.spec;

@@ -1,9 +1,11 @@
-// grid/mosaic/echo_image.h -- a grid seen from above, coarse: what motion is estimated from.
+// grid/mosaic/echo_image.h -- a coarse image of a grid seen from above, from which motion is
+// estimated.
 //
-// A pixel is the mean of its columns' maxima, as decibels above `floor_dbz` (0 where there is no
-// echo or less). A pixel is seen when half of its columns are, at any level of those that count.
-// Levels below `lowest_m` do not count where there are others: ground clutter stands still.
-// Thread contract: plain values.
+// A pixel is the mean of the maxima of its columns, in decibels above `floor_dbz` (0 where there is
+// less, or no echo). A pixel is seen if half of its columns are, at any level that counts. Levels
+// below `lowest_m` do not count if there are others, because ground clutter does not move.
+//
+// Threads   Plain values.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +17,7 @@ namespace stormcellar::grid {
 
 struct EchoImage {
     int width = 0, height = 0;       // west to east, south to north
-    int cells = 1;                   // columns along the side of a pixel
+    int cells = 1;                   // columns along each side of a pixel
     std::vector<float> echo_db;      // above the floor; row by row
     std::vector<std::uint8_t> seen;  // 1 or 0
 
@@ -32,7 +34,7 @@ struct EchoImageOptions {
 };
 [[nodiscard]] EchoImage echo_image(const BrickView& view, const EchoImageOptions& options);
 
-// Four pixels become one: their mean, seen where at least two are.
+// Makes one pixel of four: their mean; it is seen if at least two of them are.
 [[nodiscard]] EchoImage halved(const EchoImage& image);
 
 }  // namespace stormcellar::grid

@@ -7,7 +7,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// How well two sets of numbers go together.
+// The correlation of two sets of numbers.
 struct Correlation {
     double value = -1;
     std::size_t echoes = 0;
@@ -15,7 +15,7 @@ struct Correlation {
 
 Correlation correlate(const EchoImage& before, const EchoImage& after, const PixelBox& box, int dx,
                       int dy) {
-    // Rounded towards minus infinity, so that the two halves make up the whole.
+    // Rounded toward minus infinity, so that the two halves add up to the whole.
     const int back_x = dx >> 1, back_y = dy >> 1;
     double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
     std::size_t echoes = 0;
@@ -45,7 +45,8 @@ Correlation correlate(const EchoImage& before, const EchoImage& after, const Pix
     return {(n * sum_ab - sum_a * sum_b) / std::sqrt(spread_a * spread_b), echoes};
 }
 
-// Where a parabola through three values at -1, 0 and 1, the middle one the greatest, has its top.
+// Returns where the parabola through three values at -1, 0 and 1, the middle one the greatest, has
+// its top.
 double top_of_parabola(double before, double middle, double after) {
     const double curvature = before - 2 * middle + after;
     if (!(curvature < 0)) return 0;
@@ -65,7 +66,8 @@ class Search {
         }
     }
 
-    // The shortest of those that are as good: an image that does not change has not moved.
+    // Returns the shortest of the equally good shifts, because an image that does not change has
+    // not moved.
     [[nodiscard]] std::optional<Shift> best() const {
         std::optional<Shift> best;
         for (int dy = -search_.reach_y; dy <= search_.reach_y; ++dy) {

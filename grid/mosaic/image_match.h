@@ -1,7 +1,9 @@
 // grid/mosaic/image_match.h -- by how many pixels a part of one image must be moved to look like
-// another.
+// another image.
 //
-// Inside the grid room only.
+// This is used only inside the grid room.
+//
+// Threads   Plain values and pure functions.
 #pragma once
 
 #include <optional>
@@ -10,21 +12,21 @@
 
 namespace stormcellar::grid {
 
-// Pixels [x0, x1) x [y0, y1).
+// The pixels [x0, x1) x [y0, y1).
 struct PixelBox {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
 struct Shift {
-    double x = 0, y = 0;     // pixels, from `before` to `after`
-    double correlation = 0;  // at its best
-    std::size_t pixels = 0;  // with echo in one of the two
+    double x = 0, y = 0;     // in pixels, from `before` to `after`
+    double correlation = 0;  // of the best shift
+    std::size_t pixels = 0;  // pixels with echo in one of the two images
 };
 
-// Shifts within +-reach_x, +-reach_y of (around_x, around_y). Half of a shift is taken from either
-// image, so that it belongs to the box at the time in the middle. Correlation is of the pixels that
-// both saw. Parts of a pixel by a parabola through the best and its neighbours. None where no shift
-// leaves echo in both.
+// The shifts within +-reach_x and +-reach_y of (around_x, around_y). Half of a shift is applied to
+// either image, so that the motion belongs to the box at the middle time. The correlation is over
+// the pixels that both images have seen. A parabola through the best shift and its neighbors gives
+// the fraction of a pixel. The result is none if no shift leaves echo in both images.
 struct ShiftSearch {
     int around_x = 0, around_y = 0;
     int reach_x = 0, reach_y = 0;

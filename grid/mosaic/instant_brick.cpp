@@ -23,19 +23,20 @@ bool is_tdwr(const SitePosition& site) {
     return beam_width_of(site.icao) < 0.9;
 }
 
-// The ends of the code range take what lies beyond them.
+// Returns the nearest code; a value beyond the range of codes takes its end.
 std::uint16_t nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    // To the nearest whole number, of halves to the even one: what lies above 2^52 has no fraction.
+    // Adding 2^52 rounds to the nearest whole number (halves to the even one), because numbers
+    // above 2^52 have no fraction.
     constexpr double no_fraction = 0x1.8p52;
     const double code = steps + no_fraction - no_fraction + first_value_code;
     return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
                                                  static_cast<double>(quantization.largest_code())));
 }
 
-// Two ends of which none has a value anywhere: what both say, or what the one says that sees.
+// Joins two ends without any value: the state of both, or that of the end that sees.
 std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
     if (a == b || b == CellStatus::not_seen) return a;
     if (a == CellStatus::not_seen) return b;
@@ -88,6 +89,7 @@ InstantBrick::InstantBrick(const InstantMaker& maker, int bx, int by)
         read_times(end);
 }
 
+// Reads the time of each cell, for the columns of the brick at all heights.
 void InstantBrick::read_times(std::size_t end) {
     const InstantMaker::End& from = maker_.ends_[end];
     if (!from.clock) return;
@@ -108,7 +110,7 @@ void InstantBrick::read_times(std::size_t end) {
     }
 }
 
-// Of the brick at this height.
+// Finds the times of the cells of the brick at this height.
 void InstantBrick::take_times(std::size_t end, int bz) {
     Source& source = sources_[end];
     source.seconds.fill(static_cast<float>(maker_.ends_[end].middle_s));
@@ -122,7 +124,7 @@ void InstantBrick::take_times(std::size_t end, int bz) {
     }
 }
 
-// The columns that any cell of the brick may be made of.
+// Finds the columns from which any cell of the brick may be made.
 void InstantBrick::find_box(std::size_t end) {
     const GridSpec& spec = maker_.geometry_->spec();
     Source& source = sources_[end];
@@ -134,6 +136,8 @@ void InstantBrick::find_box(std::size_t end) {
     if (source.is_still) return;
     float west = static_cast<float>(x1), east = static_cast<float>(x0);
     float south = static_cast<float>(y1), north = static_cast<float>(y0);
+    // The motion of a column is the same at all heights, and a cell is moved by motion times
+    // seconds. So the extremes over the brick are at the earliest and the latest time of its cells.
     const auto [early, late] = std::minmax_element(source.seconds.begin(), source.seconds.end());
     for (const float seconds : {*early, *late}) {
         for (int x = x0; x <= x1; ++x) {
@@ -158,7 +162,7 @@ Sample InstantBrick::sample_of(std::uint16_t code) const {
     return {CellStatus::value, maker_.ends_[0].timed.view.quantization.value_of(code), 0, 0};
 }
 
-// What no echo stands for in a mixture with echo.
+// Adds the detection limit, which no echo stands for when it is mixed with echo.
 Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     const bool counts =
         sample.status == CellStatus::no_echo && maker_.blending_ == Blending::with_detection_limit;
@@ -174,12 +178,13 @@ Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     return sample;
 }
 
-// Of four columns about a place.
+// Mixes four columns around a place.
 Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t cell) {
     const std::size_t z = cell % brick_edge;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const auto code = [&](int ix, int iy) { return source.codes.column(ix, iy)[z]; };
+    // A moment that wraps is not mixed: the nearest column gives the cell.
     if (is_circular(maker_.blending_)) {
         return sample_of(code(x0 + (fx >= 0.5F ? 1 : 0), y0 + (fy >= 0.5F ? 1 : 0)));
     }
@@ -198,6 +203,8 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     return {mixed.status, mixed.value, 0, 0};
 }
 
+// Returns what one end has for a cell: the cell itself, or the place from which the echo has moved
+// there.
 Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     const Source& source = sources_[end];
     const std::size_t column = cell / brick_edge;
@@ -210,7 +217,8 @@ Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     return mix(source, x, y, cell);
 }
 
-// Linear from one end's time to the other's; the instant is at 0.
+// Returns the weight of the later end. It is linear between the times of the two ends; the instant
+// is at 0.
 float InstantBrick::weight_of_after(std::size_t cell) const {
     const float before = sources_[0].seconds[cell], after = sources_[1].seconds[cell];
     if (!(after > before)) return 0.5F;
@@ -240,6 +248,8 @@ void InstantBrick::write(int bz, BricksWriter& writer) {
     writer.put_codes(index, bytes.data(), extent);
 }
 
+// Makes the codes of the brick at this height. If all cells that may contribute have one state at
+// each end, the state of the brick is known without looking at any cell.
 std::optional<CellStatus> InstantBrick::make(int bz) {
     bz_ = bz;
     const std::size_t ends = maker_.ends_.size();
@@ -262,6 +272,8 @@ std::optional<CellStatus> InstantBrick::make(int bz) {
     return std::nullopt;
 }
 
+// Mixes the two ends cell by cell. If both have the same state, or one has not seen the cell, no
+// mixing is needed.
 void InstantBrick::fill() {
     codes_.fill(0);
     limits_.fill(std::numeric_limits<float>::quiet_NaN());

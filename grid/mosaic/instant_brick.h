@@ -1,7 +1,9 @@
-// grid/mosaic/instant_brick.h -- one brick of a grid for an instant between two volumes.
+// grid/mosaic/instant_brick.h -- makes one brick of a grid for an instant between two volumes.
 //
-// Inside the grid room only; see grid/mosaic/time_interpolation.h for what it does.
-// Threads: an InstantMaker is immutable and shared, an InstantBrick is for one thread.
+// This is used only inside the grid room; grid/mosaic/time_interpolation.h says what it does.
+//
+// Threads   An InstantMaker is immutable and shared; an InstantBrick may be used by one thread at a
+//           time.
 #pragma once
 
 #include <array>
@@ -27,13 +29,13 @@ class InstantMaker {
     friend class InstantBrick;
     struct End {
         TimedView timed;
-        double middle_s = 0;  // from the instant: negative before it
+        double middle_s = 0;  // relative to the instant: negative before it
         std::optional<SweepClock> clock;
     };
     static End end_of(const TimedView& timed, const ColumnGeometry& geometry,
                       const InstantOptions& options);
 
-    std::vector<End> ends_;  // one or two, the earlier first
+    std::vector<End> ends_;  // one or two, the earlier one first
     const ColumnGeometry* geometry_;
     InstantOptions options_;
     Blending blending_;
@@ -45,23 +47,24 @@ class InstantBrick {
   public:
     InstantBrick(const InstantMaker& maker, int bx, int by);
 
-    // The brick at this height.
+    // Writes the brick at this height.
     void write(int bz, BricksWriter& writer);
 
   private:
     static constexpr std::size_t columns = static_cast<std::size_t>(brick_edge) * brick_edge;
-    // Of one end, for the bricks of a height.
+    // One end, for the bricks of one height.
     struct Source {
         CodeBlock codes;
-        // Each cell's own time, from the instant; of the columns at all heights, where their volume
-        // has a clock.
+        // The time of each cell relative to the instant, for the columns at all heights, if their
+        // volume has a clock.
         std::vector<float> column_seconds;
         std::array<float, brick_cells> seconds;
         ColumnBox box;
         bool is_still = true;  // no column has moved
     };
 
-    // The state of all cells, where that is known without looking at any; else codes_ holds them.
+    // Returns the state of all cells if it is known without looking at any of them; otherwise
+    // codes_ holds the cells.
     std::optional<CellStatus> make(int bz);
     void read_times(std::size_t end);
     void take_times(std::size_t end, int bz);
@@ -80,7 +83,7 @@ class InstantBrick {
     std::array<CellMotion, columns> motion_{};
     std::array<float, columns> arc_m_{};
     std::array<Source, 2> sources_;
-    std::array<float, brick_cells> limits_{};  // dBZ; NaN: not asked for yet
+    std::array<float, brick_cells> limits_{};  // dBZ; NaN: not computed yet
     std::array<std::uint16_t, brick_cells> codes_{};
 };
 

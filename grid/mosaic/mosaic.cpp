@@ -77,7 +77,7 @@ std::vector<bool> changed_columns(const BrickView& shape, std::span<const GridWi
     return changed;
 }
 
-// Of sites whose windows hold nothing changed nothing is asked.
+// Drops the sites whose windows hold nothing that changed.
 void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
                     std::vector<PlacedSite>& sites) {
     std::erase_if(sites, [&](const PlacedSite& site) {

@@ -16,7 +16,7 @@ namespace {
 constexpr float least_power = -99.6578428F;  // 1e-30
 constexpr std::size_t state_block_bytes = brick_cells / 4;
 
-// All bricks with the same bx, by one thread.
+// Fills all bricks with the same bx, in one thread.
 template <class Code>
 class Slab {
   public:
@@ -58,6 +58,8 @@ class Slab {
         }
     }
 
+    // Merges all bricks above each other. Only the sites whose windows cover this column of bricks
+    // matter, and their distances are computed once for all of these bricks.
     void merge_column(int by) {
         here_.clear();
         for (const PlacedSite& site : work_.sites) {
@@ -70,6 +72,8 @@ class Slab {
             merge_brick(by, bz);
     }
 
+    // Merges one brick. A site that sees nothing in it is left out; if no site is left, the brick
+    // stays not seen.
     void merge_brick(int by, int bz) {
         layers_.clear();
         layer_sites_.clear();
@@ -101,8 +105,8 @@ class Slab {
         if (weights_) weights_->put_codes(to, counted.weights.data(), extent);
     }
 
-    // What needs no weights, by every rule alike: one site alone, and sites none of which has a
-    // value or a folded cell, where no echo is what any of them sees.
+    // Merges bricks that need no weights, whatever the rule: one site alone; and sites without a
+    // value or a folded cell, where a cell is no echo if any of them sees no echo.
     bool merge_by_rule_of_thumb(std::size_t to, const BrickExtent& extent) {
         if (layers_.size() == 1) {
             cells_.copy(to, *layers_[0].view, layers_[0].brick);
@@ -110,7 +114,7 @@ class Slab {
         }
         bool any_stored = false;
         bool any_folded = false;
-        bool all_no_echo = false;  // by one site
+        bool all_no_echo = false;  // one site sees no echo everywhere
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
             const bool uniform = entry.kind == BrickKind::uniform;
@@ -119,6 +123,8 @@ class Slab {
             all_no_echo |= uniform && entry.uniform_status == CellStatus::no_echo;
         }
         if (any_stored || any_folded) return false;
+        // All cells have states only. A state is a number of two bits; without range folded, "or"
+        // over the sites gives no echo if any site sees no echo, else not seen.
         std::array<std::byte, state_block_bytes> any{};
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
@@ -140,7 +146,7 @@ class Slab {
         return true;
     }
 
-    // Distances and weights of the layers, once for all bricks above each other.
+    // Computes distances and weights of the layers, once for all bricks above each other.
     void measure(int by) {
         const bool by_distance = work_.options.overlap == Overlap::distance_weighted;
         const auto log2_per_m2 = static_cast<float>(
@@ -156,6 +162,8 @@ class Slab {
                 columns.weights.fill(1);
                 continue;
             }
+            // The weight exp(-r^2 / L^2) is computed as a power of two, which fast_exp2()
+            // vectorizes.
             for (std::size_t c = 0; c < brick_columns; ++c) {
                 const float power = columns.squared_arcs_m2[c] * log2_per_m2;
                 columns.weights[c] = fast_exp2(std::max(power, least_power));
@@ -170,13 +178,13 @@ class Slab {
     std::optional<BricksWriter> counts_, weights_;
     BrickMerger<Code> merger_;
     std::vector<const PlacedSite*> here_;
-    std::vector<LayerColumns> columns_;  // of those here
+    std::vector<LayerColumns> columns_;  // for the sites of this column of bricks
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
-    std::vector<std::size_t> layer_sites_;  // among those here
+    std::vector<std::size_t> layer_sites_;  // index among these sites
 };
 
-// What the writers of all slabs hold, in the order of its bricks.
+// Puts together what the writers of all slabs hold, in the order of the bricks.
 template <class Code, class Pick>
 std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
@@ -186,7 +194,8 @@ std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& sla
     return writers;
 }
 
-// Each grid of the mosaic takes over what the writers hold by finish(grid, writers).
+// Calls finish(grid, writers) for each grid of the mosaic, so that it takes over what the writers
+// hold.
 template <class Code, class Finish>
 void fill(const MosaicWork& work, Finish finish) {
     const int count = work.made.cells.view().bricks_x;

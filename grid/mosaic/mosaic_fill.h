@@ -1,6 +1,7 @@
 // grid/mosaic/mosaic_fill.h -- fills the bricks of a mosaic.
 //
-// Threads: columns of bricks are shared out; the result has the same bits for any number.
+// Threads   The threads share the columns of bricks among them. The result has the same bits for
+//           any number of threads.
 #pragma once
 
 #include <span>
@@ -11,19 +12,19 @@
 
 namespace stormcellar::grid {
 
-// What is merged, and into what.
+// What is merged, and into which mosaic.
 struct MosaicWork {
     const GridSpec& domain;
     const MosaicOptions& options;
     std::span<const PlacedSite> sites;
-    const MosaicView* previous = nullptr;  // bricks not changed are copied from it
-    std::vector<bool> changed = {};        // of each column of bricks; empty: all
+    const MosaicView* previous = nullptr;  // bricks that did not change are copied from it
+    std::vector<bool> changed = {};        // for each column of bricks; empty: all changed
     Mosaic& made;
 };
 
-// Fills a mosaic in which nothing was seen so far.
+// Fills a mosaic in which nothing has been seen so far.
 void fill_mosaic(const MosaicWork& work);
-// Fills the changed columns of a mosaic anew; the rest of it stays. There is no previous.
+// Fills the changed columns of a mosaic anew and leaves the rest. There is no previous mosaic.
 void refill_mosaic(const MosaicWork& work);
 
 }  // namespace stormcellar::grid

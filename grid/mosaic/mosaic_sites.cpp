@@ -63,7 +63,7 @@ bool has_shape_of(const BrickView& view, const GridSpec& spec) {
                bricks * brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
 }
 
-// In the order in which sites are summed, whatever the order in which they came.
+// Puts the sites in the order in which they are summed, whatever the order in which they came.
 Result<std::vector<PlacedSite>> place_sites(const GridSpec& domain,
                                             std::span<const Partial> partials,
                                             const Quantization& quantization) {

@@ -1,6 +1,6 @@
 // grid/mosaic/mosaic_sites.h -- the partials of a mosaic, checked and in the order of their sums.
 //
-// Threads: plain values.
+// Threads   Plain values and functions.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace stormcellar::grid {
 
-// A partial in its place.
+// A partial and its place in the domain.
 struct PlacedSite {
     const Partial* partial = nullptr;
     GridWindow window;
@@ -34,12 +34,13 @@ struct PlacedSite {
 
 [[nodiscard]] bool has_shape_of(const BrickView& view, const GridSpec& spec);
 
-// By ICAO, then position, whatever the order in which they came; bad_argument as merge() says.
+// Sorts by ICAO, then position, whatever the order in which the partials came. Returns bad_argument
+// as merge() says.
 [[nodiscard]] Result<std::vector<PlacedSite>> place_sites(const GridSpec& domain,
                                                           std::span<const Partial> partials,
                                                           const Quantization& quantization);
 
-// Makes the distances that are not there yet.
+// Makes the distances that are missing.
 void measure_distances(const GridSpec& domain, int threads, std::vector<PlacedSite>& sites);
 
 }  // namespace stormcellar::grid

@@ -11,11 +11,11 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t fewest_pixels = 200;  // of 4 km, for the motion of the whole
+constexpr std::size_t fewest_pixels = 200;  // pixels of 4 km, for the motion of the whole image
 constexpr std::size_t fewest_in_block = 40;
 constexpr double worthless_correlation = 0.3;
 
-// What a block, or the whole, says of the motion.
+// What a block, or the whole image, says about the motion.
 struct Vote {
     double x = 0, y = 0;  // pixels
     double weight = 0;
@@ -26,8 +26,8 @@ int reach_of(double speed_mps, double seconds, double pixel_m) {
 }
 
 struct Images {
-    EchoImage before, after;                // of pixel_m
-    EchoImage coarse_before, coarse_after;  // of twice that
+    EchoImage before, after;                // with pixels of pixel_m
+    EchoImage coarse_before, coarse_after;  // with pixels of twice that size
     double pixel_width_m = 0, pixel_height_m = 0;
 };
 
@@ -46,7 +46,7 @@ Images images_of(const BrickView& before, const BrickView& after, const MotionOp
     return images;
 }
 
-// In pixels of the fine images.
+// Returns the motion of the whole image in pixels of the fine images.
 std::optional<Vote> motion_of_whole(const Images& images, double seconds,
                                     const MotionOptions& options) {
     const EchoImage& before = images.coarse_before;
@@ -61,10 +61,10 @@ std::optional<Vote> motion_of_whole(const Images& images, double seconds,
     return Vote{2 * shift->x, 2 * shift->y, 1};
 }
 
-// Blocks overlap by half: their middles are the nodes of the motion field.
+// Blocks overlap by half. Their middles are the nodes of the motion field.
 struct Blocks {
     int width = 0, height = 0;
-    int step = 0;  // pixels from middle to middle; a block is twice as wide
+    int step = 0;  // pixels from one middle to the next; a block is twice as wide
 
     [[nodiscard]] std::size_t index(int column, int row) const {
         const int before = row * width + column;
@@ -94,8 +94,8 @@ Vote vote_of_block(const Images& images, const Blocks& blocks, int column, int r
     return {shift->x, shift->y, worth * worth * std::sqrt(static_cast<double>(shift->pixels))};
 }
 
-// The mean of what the blocks say, those about a node counting most (a Gaussian of one step), and a
-// little of the whole, which decides where none of them says anything.
+// Returns the mean of what the blocks say, weighted by a Gaussian of one step about the node, and a
+// little of the whole motion, which decides where no block says anything.
 Vote smoothed(const std::vector<Vote>& votes, const Blocks& blocks, int column, int row,
               const Vote& whole) {
     constexpr double weight_of_whole = 0.02;

@@ -18,7 +18,7 @@ constexpr double geodesic_error_m = 1e-6;
 constexpr double half_meridian_m = 20003931.5;  // of WGS84: no two points are farther apart
 constexpr double quarter_meridian_m = 10001965.7;
 
-// How much longer the sphere is than the ellipsoid along the meridian and along the parallel.
+// How much longer the sphere is than the ellipsoid, along the meridian and along the parallel.
 struct ScaleError {
     double north = 0;
     double east = 0;
@@ -32,8 +32,8 @@ ScaleError scale_error(double latitude_deg) {
             SphereFrame::radius_m / prime_vertical_m - 1};
 }
 
-// The largest scale error in any direction between two latitudes. Both errors fall from the
-// equator to the poles, so their extremes stand at the ends.
+// Returns the largest error in scale in any direction between two latitudes. Both errors fall from
+// the equator to the poles, so their extremes are at the ends.
 double largest_scale_error(double latitude_deg, double width_deg) {
     const double middle_deg = std::abs(latitude_deg);
     const ScaleError low = scale_error(std::max(0.0, middle_deg - width_deg));
@@ -42,7 +42,7 @@ double largest_scale_error(double latitude_deg, double width_deg) {
         {std::abs(low.north), std::abs(low.east), std::abs(high.north), std::abs(high.east)});
 }
 
-// Columns along the border of a grid, at most some 256 a side, its corners included.
+// Returns columns along the border of a grid, at most some 256 on each side, with its corners.
 std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     std::vector<ColumnPoint> border;
     const auto along = [](int count, auto add) {
@@ -57,7 +57,8 @@ std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     return border;
 }
 
-// The arc from a site has no greatest value inside a region but at the site's antipode.
+// Returns true if the region holds the site's antipode. Nowhere else inside a region does the arc
+// from the site have a maximum.
 bool holds_antipode(const SitePosition& site, const GridSpec& spec,
                     const GridProjection& projection) {
     const ColumnPoint at = projection.to_column({-site.latitude_deg, site.longitude_deg + 180});
@@ -106,29 +107,31 @@ double reach_m(const SitePosition& site, const GridSpec& spec) {
         last = point;
         first = false;
     }
-    // A column of the border is at most half a gap from one that was asked; a tenth more, because
-    // the border may be curved between them.
+    // A column of the border is at most half a gap from one that was computed. A tenth more is
+    // added because the border may be curved between them.
     return std::min(farthest_m + 0.55 * widest_gap_m, half_meridian_m);
 }
 
 double storage_error_bound_m(double reach_m) noexcept {
-    // Half a unit in the last place of a float: of an azimuth below 360, and of the arc.
+    // The error is half a unit in the last place of a float: for an azimuth below 360, and for the
+    // arc.
     constexpr double azimuth_rad = 0x1p-16 * radians;
     const double arc_m = std::ldexp(1.0, std::ilogb(std::max(reach_m, 1e-30)) - 24);
     return std::hypot(reach_m * azimuth_rad, arc_m);
 }
 
-// Along a geodesic from the site the sphere's image of a step ds is the step stretched by
-// (1 + north) along the meridian and (1 + east) along the parallel, both of the latitude there. The
-// image curve turns against a great circle by exactly what these stretches turn it (latitude and
-// azimuth change alike on both), so that its end is off by at most the integral of the larger one,
-// and in the equidistant plane by theta / sin(theta) more. 1 % is for products of the errors.
+// Consider a step ds along a geodesic from the site. On the sphere its image is stretched by (1 +
+// north) along the meridian and by (1 + east) along the parallel, both for the latitude there.
+// These stretches also turn the image against a great circle, and by nothing else, because latitude
+// and azimuth change alike on both. So the end of the image is off by at most the integral of the
+// larger error; in the equidistant plane, by theta / sin(theta) more. 1 % is added for the products
+// of errors.
 double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
     if (!(reach_m > 0)) return 0;
-    // Two points of the disc cannot be farther apart than it is wide.
+    // Two points of the disc cannot be farther apart than the disc is wide.
     if (reach_m > quarter_meridian_m) return 2.01 * reach_m;
     constexpr int steps = 64;
-    constexpr double shortest_degree_m = 110574;  // of latitude, at the equator
+    constexpr double shortest_degree_m = 110574;  // length of a degree of latitude at the equator
     double sum = 0;
     for (int step = 1; step <= steps; ++step) {
         const double width_deg = reach_m * step / steps / shortest_degree_m;

@@ -11,16 +11,17 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t order = 6;  // nodes along a side
+constexpr std::size_t order = 6;  // nodes along each side
 constexpr int largest_side = 128;
-constexpr int fewest_columns = 128;  // below, nodes and checks cost as much as the columns
-constexpr double farthest_m = 15e6;  // towards the antipode directions run apart
+// below this number, nodes and checks cost as much as the columns
+constexpr int fewest_columns = 128;
+constexpr double farthest_m = 15e6;  // closer to the antipode, directions diverge
 
 struct Block {
     int x, y, width, height;  // in columns
 };
 
-// Along one side, -1 to 1: Chebyshev's nodes, where T6 is 0, and its peaks.
+// Return, on a side from -1 to 1, Chebyshev's nodes, where T6 is 0, and the peaks of T6.
 double node(std::size_t i) {
     return std::cos((2.0 * static_cast<double>(i) + 1) * std::numbers::pi / (2 * order));
 }
@@ -28,7 +29,7 @@ double peak(std::size_t i) {
     return std::cos(static_cast<double>(i) * std::numbers::pi / order);
 }
 
-// The polynomials that are 1 at one node and 0 at the others.
+// The values of the polynomials that are 1 at one node and 0 at the others.
 using Weights = std::array<double, order>;
 Weights weights_at(double t) {
     Weights weights;
@@ -41,7 +42,7 @@ Weights weights_at(double t) {
     return weights;
 }
 
-// At the middles of `count` columns, which fill -1 to 1.
+// Returns the weights at the centers of `count` columns, which fill -1 to 1.
 std::vector<Weights> weights_of_columns(int count) {
     std::vector<Weights> weights;
     weights.reserve(static_cast<std::size_t>(count));
@@ -80,7 +81,7 @@ class TableFiller {
         ++geodesics_;
         return SiteFrame::to_plane(site_.to_polar(projection_.to_geo({x, y})));
     }
-    // -1 to 1 over a block are the outer edges of its columns.
+    // -1 and 1 are the outer edges of the columns of a block.
     PlanePoint solve_in(const Block& block, double s, double t) {
         return solve(block.x - 0.5 + 0.5 * block.width * (1 + s),
                      block.y - 0.5 + 0.5 * block.height * (1 + t));
@@ -95,7 +96,7 @@ class TableFiller {
         }
     }
 
-    // False where a node is too far from the site for the plane to be smooth.
+    // Returns false if a node is too far from the site for the plane to be smooth.
     bool solve_nodes(const Block& block) {
         for (std::size_t j = 0; j < order; ++j) {
             for (std::size_t i = 0; i < order; ++i) {
@@ -107,7 +108,7 @@ class TableFiller {
         return true;
     }
 
-    // The polynomial along x that stands at one place along y.
+    // Returns the polynomial along x at one place along y.
     [[nodiscard]] std::array<PlanePoint, order> row_at(const Weights& weights) const {
         std::array<PlanePoint, order> row{};
         for (std::size_t j = 0; j < order; ++j) {
@@ -127,7 +128,8 @@ class TableFiller {
         return value;
     }
 
-    // At the peaks the errors along x and along y take every pair of signs: none hides the other.
+    // At the peaks, the errors along x and along y have every pair of signs, so neither hides the
+    // other.
     bool holds(const Block& block) {
         for (std::size_t j = 0; j <= order; ++j) {
             const auto row = row_at(peak_weights_[j]);

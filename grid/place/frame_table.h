@@ -1,16 +1,19 @@
 // grid/place/frame_table.h -- azimuth and arc of a grid's columns from few exact geodesics.
 //
-// The grid is cut into blocks of at most 128 x 128 columns. In each, the columns' place in the
-// azimuthal equidistant plane about the site (smooth wherever the site's antipode is far, the site
-// itself included, which azimuth and arc are not) is a polynomial of degree 5 in both directions
-// through exact geodesics at 6 x 6 Chebyshev nodes. It is compared with exact geodesics where its
-// error peaks, the extremes of the nodes' own polynomial; a block that is off by more than half of
-// frame_table_error_m is cut into four, and one of 128 columns or fewer is solved exactly. At worst
-// that costs half as much again as solving each column; as a rule it solves one column in 200.
-// Accuracy: frame_table_error_m of the exact place, before it is stored as floats; enforced by
+// The grid is cut into blocks of at most 128 x 128 columns. In each block, the place of a column in
+// the azimuthal equidistant plane about the site is a polynomial of degree 5 in both directions,
+// through exact geodesics at 6 x 6 Chebyshev nodes. The plane is smooth wherever the site's
+// antipode is far, even at the site itself, where azimuth and arc are not.
+//
+// The polynomial is compared with exact geodesics where its error peaks, at the extremes of the
+// polynomial of the nodes. A block that is off by more than half of frame_table_error_m is cut into
+// four; one of 128 columns or fewer is solved exactly. In the worst case this costs half as much
+// again as solving each column. As a rule it solves one column in 200.
+//
+// Accuracy  frame_table_error_m from the exact place, before it is stored as floats. Enforced by
 //           tests/grid/frame_table_test.cpp for every column of grids of all projections, from pole
 //           to pole, with cells of 10 m to 100 km.
-// Threads:  a pure function.
+// Threads   A pure function.
 #pragma once
 
 #include <cstddef>
@@ -24,11 +27,11 @@ namespace stormcellar::grid {
 
 inline constexpr double frame_table_error_m = 1e-3;
 
-// Columns of row iy from first_ix on: where they lie in the plane about the site.
+// Receives the places of the columns of row iy from first_ix on, in the plane about the site.
 using TakePlaces = std::function<void(int iy, int first_ix, std::span<const PlanePoint> places)>;
 
-// Gives every column of a valid spec once, in runs along the rows. Returns how many geodesics it
-// solved.
+// Calls `take` with every column of a valid spec once, in runs along the rows. Returns the number
+// of geodesics that were solved.
 std::size_t fill_by_table(const GridSpec& spec, const SiteFrame& site, const TakePlaces& take);
 
 }  // namespace stormcellar::grid

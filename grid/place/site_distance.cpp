@@ -10,24 +10,25 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int widest_step = 8;
-constexpr double tolerance_m = 0.05;         // of an arc, where asked
-constexpr double least_arc_m = 100e3;        // nearer, the square is as far off as there
-constexpr double farthest_asked_m = 2000e3;  // a patch with all nodes beyond sees nothing
-constexpr int patches_to_ask = 1024;         // of more, one in 4 along x and along y
+constexpr double tolerance_m = 0.05;   // allowed error of an arc where it is checked
+constexpr double least_arc_m = 100e3;  // for shorter arcs, the square may be off by as much as here
+// a patch whose nodes are all farther away sees nothing
+constexpr double farthest_asked_m = 2000e3;
+constexpr int patches_to_ask = 1024;  // of more patches, one in 4 along x and along y is checked
 
-// Of three nodes at -1, 0 and 1.
+// The weights of three nodes at -1, 0 and 1.
 using Weights = std::array<double, 3>;
 constexpr Weights weights_at(double t) {
     return {0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)};
 }
 
-// Squares of arcs at fractional columns of a domain.
+// Computes the squares of arcs at fractional columns of a domain.
 class Solver {
   public:
     Solver(const GridSpec& domain, const GridWindow& window, const SitePosition& site)
         : projection_(domain), frame_(site.latitude_deg, site.longitude_deg), window_(window) {}
 
-    // Columns of the window. NaN beyond a pole of a grid in degrees.
+    // Returns the square at columns of the window; NaN beyond a pole of a grid in degrees.
     [[nodiscard]] double at(double x, double y) const {
         const double arc_m =
             frame_.to_polar(projection_.to_geo({window_.first_x + x, window_.first_y + y})).arc_m;
@@ -61,7 +62,7 @@ struct Lattice {
 };
 
 Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
-    // A column each; or nodes at both ends of whole bricks.
+    // One node for each column; or nodes up to both ends of whole bricks.
     const auto along = [&](int cells) {
         return step == 1 ? cells : bricks_along(cells) * brick_edge / step + 1;
     };
@@ -85,7 +86,8 @@ Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
     return true;
 }
 
-// Errors of a second degree peak at 1 / sqrt(3) between its nodes.
+// Returns true if the lattice is accurate enough. The error of a polynomial of second degree peaks
+// at 1 / sqrt(3) between its nodes, so it is checked there.
 bool holds(const Lattice& lattice, const Solver& solver) {
     static constexpr double peak = 0.577;
     static constexpr Weights weights = weights_at(peak);

@@ -1,11 +1,12 @@
-// grid/plan/cell_circle.h -- how far apart two values of a cell are, where the moment may wrap.
+// grid/plan/cell_circle.h -- how far apart two values of a cell are if the moment may wrap.
 //
-// VEL lies on a circle of twice the Nyquist velocity, PHI on one of 360 degrees: their values
-// differ by the shorter way round. Sweeps may have different Nyquist velocities. A cell's circle is
-// that of the two sweeps whose beams (4/3 earth) pass next above and below it; where theirs differ,
-// the longer of both ways is taken, so that no difference looks smaller than it is. Where a circle
-// is not known, and for all other moments, values differ as numbers. Threads: one object, one
-// thread.
+// VEL lies on a circle of twice the Nyquist velocity and PHI on one of 360 degrees, so their values
+// differ by the shorter way round. Sweeps may have different Nyquist velocities. The circle of a
+// cell is that of the two sweeps whose beams (4/3 earth) pass next above and below it. If these
+// have different circles, the longer of both ways is taken, so that no difference looks smaller
+// than it is. If a circle is not known, and for all other moments, values differ as plain numbers.
+//
+// Threads   One thread for each object.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +24,9 @@ class CellCircles {
     CellCircles(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                 const SitePosition& site, const GridSpec& spec, level2::Moment moment);
 
-    // Differences are of cells of the column at this distance until the next call.
+    // Makes differences refer to cells of the column at this distance, until the next call.
     void move_to(double arc_m);
-    // a - b.
+    // Returns a - b.
     [[nodiscard]] double difference(float a, float b, std::size_t level) const;
 
   private:
@@ -34,7 +35,7 @@ class CellCircles {
         double period = 0;  // 0: not known
         double height_m = 0;
     };
-    std::vector<Sweep> sweeps_;  // none: as numbers
+    std::vector<Sweep> sweeps_;  // empty: as plain numbers
     std::vector<double> levels_m_;
 };
 

@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Tiles are filled in pieces of 16, which are what threads share.
+// Threads share tiles in pieces of 16.
 constexpr std::size_t tiles_a_piece = 16;
 constexpr std::size_t fewest_pieces = 2;
 constexpr std::size_t most_pieces = 8;
@@ -29,7 +29,7 @@ bool may_hold_values(const GridScene& scene, const Tile& tile) {
     return false;
 }
 
-// Evenly along the arc; every piece of them reaches from near to far.
+// Spreads the sample evenly along the arc, so that each piece of it reaches from near to far.
 TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     std::stable_sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) {
         return a.bounds.least_arc_m < b.bounds.least_arc_m;
@@ -45,7 +45,7 @@ TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     return stratum;
 }
 
-// Once more where it was short: the lesser is less of the machine's noise.
+// Times a stratum, and once more if it was short: the smaller time has less of the machine's noise.
 Result<double> stratum_s(GridScene& scene, const Method& method,
                          const TileSample::Stratum& stratum) {
     if (stratum.tiles.empty()) return 0.0;
@@ -59,7 +59,7 @@ Result<double> stratum_s(GridScene& scene, const Method& method,
     return *took_s * static_cast<double>(stratum.count) / static_cast<double>(stratum.tiles.size());
 }
 
-// For every column a geodesic of its own, by some of them.
+// Returns the time of one geodesic for every column, from the times of some.
 double geodesics_s(const GridScene& scene) {
     constexpr int a_side = 16;
     const GridSpec& spec = scene.spec();
@@ -80,11 +80,11 @@ double geodesics_s(const GridScene& scene) {
         }
         least_s = std::min(least_s, accuracy::thread_s() - start_s);
     }
-    if (!(sum_m >= 0)) return 0;  // uses the sum, so that it is made
+    if (!(sum_m >= 0)) return 0;  // using the sum keeps the compiler from removing the work
     return least_s * static_cast<double>(spec.column_count()) / (a_side * a_side);
 }
 
-// Filling the whole grid by each interpolation, of points and of areas.
+// The times of filling the whole grid by each interpolation, for points and for areas.
 using Fills = std::array<std::array<double, 2>, interpolation_facts.size()>;
 
 Result<Fills> predicted_fills(GridScene& scene, Method method, const TileSample& sample) {
@@ -105,7 +105,7 @@ double more(double with_s, double without_s) {
     return std::max(0.0, with_s - without_s);
 }
 
-// Each effect alone: of points by the nearest gate.
+// Sets the cost of each effect alone, for points by the nearest gate.
 void set_effect_costs(const Fills& fills, std::size_t interpolation, std::size_t cell,
                       accuracy::Chain& chain) {
     std::vector<accuracy::Effect>& rungs = chain.steps[interpolation].effects;
@@ -138,7 +138,8 @@ TileSample draw_tiles(GridScene& scene, std::size_t of_each) {
     std::vector<Tile> without;
     const auto reach_m = static_cast<float>(scene.reach_m());
     for (const Tile& tile : scene.tiles()) {
-        if (!(tile.bounds.least_arc_m < reach_m)) continue;  // filled with nothing at once
+        // such tiles are filled with nothing at once
+        if (!(tile.bounds.least_arc_m < reach_m)) continue;
         (may_hold_values(scene, tile) ? with_echo : without).push_back(tile);
     }
     return {spread(std::move(with_echo), of_each), spread(std::move(without), of_each)};
@@ -160,7 +161,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     const std::size_t cell = accuracy::find_step(chain, step::cell).value();
     accuracy::Choice cheapest;
     cheapest.rungs.resize(chain.steps.size());
-    Method usual;  // but for the averaging, which is nobody's choice
+    Method usual;  // except for the averaging, which is not a choice
     usual.averaging = scene_choice(chain, cheapest).method.averaging;
     const auto fills = predicted_fills(scene, usual, sample);
     if (!fills) return pass_on(fills);
@@ -185,7 +186,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
         method.on_circle = false;
         if (auto done = set_cost_without(step::circle, method); !done) return done;
     }
-    // Closed formulas are all alike, and sampling takes the same along any path.
+    // The closed formulas take equally long, and sampling takes the same time along any path.
     method = usual;
     method.beam = BeamKind::traced;
     const double traced_s = scene.stack_seconds(method);

@@ -1,18 +1,20 @@
-// grid/plan/grid_cost.h -- how long a scene's grid takes by any choice of rungs, from timing parts
-// of it.
+// grid/plan/grid_cost.h -- predicts how long the grid of a scene takes with any choice of rungs, by
+// timing parts of it.
 //
-// A grid takes the time of its tiles, of the tables of its sweeps, of its geometry where that is by
-// exact geodesics, and what is left, which is alike for all choices and known from the scene's
-// base. Tiles are not alike: with echo they take more than clear air, and cells with an extent take
-// most near the radar, where gates are dense. So tiles are drawn in two strata, those where a cell
-// may hold a value and those within reach that hold none, each evenly along the arc; each is timed
-// by itself and scaled by its own number. What interpolation and extent take together is not the
-// sum of what each takes, so that every pair of them is timed (accuracy::JointCost).
+// The time of a grid is that of its tiles, of the tables of its sweeps, of its geometry if that
+// uses exact geodesics, and of a rest that is the same for all choices and known from the base of
+// the scene. Tiles differ: with echo they take longer than in clear air, and cells with an extent
+// take longest near the radar, where gates are dense. So tiles are drawn in two strata, those where
+// a cell may hold a value and those within reach that hold none, each evenly along the arc. Each
+// stratum is timed by itself and scaled by its own number of tiles. Interpolation and extent
+// together do not take the sum of what each takes, so every pair of them is timed
+// (accuracy::JointCost).
 //
-// Accuracy  meant to be within 1.5 of the time that gridding then takes; measured over real volumes
-//           by bench/bench_plan.cpp (docs/performance.md). No test holds it: it is a clock's word.
-//           Of one thread it is time of the processor, as it passes where nobody else needs it.
-// Threads   as the scene (grid/plan/grid_scene.h).
+// Accuracy  Meant to be within a factor of 1.5 of the time that gridding then takes.
+//           bench/bench_plan.cpp measures it over real volumes (docs/performance.md). No test
+//           enforces it, because it depends on a clock. For one thread it is processor time, as it
+//           passes if nobody else needs the processor.
+// Threads   Those of the scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include "grid/plan/grid_scene.h"
@@ -20,7 +22,7 @@
 
 namespace stormcellar::grid {
 
-// Tiles to time, and how many each stratum has in all.
+// The tiles to time, and how many tiles each stratum has in all.
 struct TileSample {
     struct Stratum {
         std::vector<Tile> tiles;
@@ -28,15 +30,15 @@ struct TileSample {
     };
     Stratum with_echo, without;
 };
-// Up to so many of each stratum, spread over threads alike.
+// Draws up to `of_each` tiles of each stratum, spread evenly over threads.
 [[nodiscard]] TileSample draw_tiles(GridScene& scene, std::size_t of_each);
 
-// Seconds that filling the whole grid by this method takes, by the sample.
+// Returns the predicted seconds for filling the whole grid by this method, from the sample.
 [[nodiscard]] Result<double> predicted_fill_s(GridScene& scene, const Method& method,
                                               const TileSample& sample);
 
-// Sets all costs of a chain of effects_of() the scene's moment: those of its effects, jointly, and
-// of the cheapest choice.
+// Sets all costs of a chain that effects_of() made for the moment of the scene: those of its
+// effects, the joint costs, and that of the cheapest choice.
 [[nodiscard]] Status predict_costs(GridScene& scene, accuracy::Chain& chain);
 
 }  // namespace stormcellar::grid

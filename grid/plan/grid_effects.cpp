@@ -16,7 +16,7 @@ using accuracy::Step;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Times of 460 x 460 x 32 cells over a convective volume, of which nearest gates take 1
+// The times for 460 x 460 x 32 cells over a convective volume, relative to nearest gates
 // (docs/accuracy.md).
 constexpr std::array<std::pair<std::string_view, double>, 11> efforts{{
     {"ellipsoid", 0.1},

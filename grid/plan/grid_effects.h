@@ -1,19 +1,20 @@
 // grid/plan/grid_effects.h -- the steps, rungs and effects of a grid, as the accuracy planner knows
 // them.
 //
-//   step           rungs, from cheap to exact                           effects that reach them
-//   frame          sphere, table, geodesic                              ellipsoid, exact_geodesic
-//   beam           flat earth, 4/3 earth, traced                        earth_curvature, refraction
-//   elevation      one a sweep, each radial's                           antenna_jitter
-//   interpolation  nearest, linear, eight-point, beam-weighted          column_interpolation,
-//                                                        horizontal_interpolation, beam_width
-//   cell           point, area                                          cell_size
-//   averaging      in dB or, for REF, in Z: what the user says, a definition with no effect
-//   circle         (VEL, PHI) as numbers, on the circle                 velocity_folding,
-//   phase_folding
-// The chain's exact form is the last rung of every step; a budget bounds the difference from it on
-// the same gates. Which of two forms is nearer to the truth is another question: docs/accuracy.md.
-// Threads: pure functions, but for those that take a scene (grid/plan/grid_scene.h).
+//   step           rungs, from cheap to exact                      effects that reach them
+//   frame          sphere, table, geodesic                         ellipsoid, exact_geodesic
+//   beam           flat earth, 4/3 earth, traced                   earth_curvature, refraction
+//   elevation      one for each sweep, one for each radial         antenna_jitter
+//   interpolation  nearest, linear, eight-point, beam-weighted     column_interpolation,
+//                                                       horizontal_interpolation, beam_width
+//   cell           point, area                                     cell_size
+//   averaging      in dB or, for REF, in Z                         none: the user defines it
+//   circle         (VEL, PHI) as numbers, on the circle            velocity_folding, phase_folding
+// The exact form of the chain is the last rung of every step. A budget bounds the difference from
+// it on the same gates. Which of two forms is nearer to the truth is another question; see
+// docs/accuracy.md.
+//
+// Threads   Pure functions, except those that take a scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include <span>
@@ -37,16 +38,18 @@ inline constexpr std::string_view averaging = "averaging";
 inline constexpr std::string_view circle = "circle";
 }  // namespace step
 
-// Names, rungs and sentences; sizes and costs are 0 and settings automatic. The chain's exact form
-// averages as stated, too: neither dB nor Z is the other's approximation.
+// Returns the chain with names, rungs and sentences; sizes and costs are 0 and all settings
+// automatic. The exact form averages as stated too, because neither dB nor Z approximates the
+// other.
 [[nodiscard]] accuracy::Chain effects_of(level2::Moment moment,
                                          Averaging averaging = Averaging::in_db);
 
 [[nodiscard]] SceneChoice scene_choice(const accuracy::Chain& chain,
                                        const accuracy::Choice& choice);
 
-// The table, the 4/3 earth, each radial's elevation, linear along the column at a point, in the
-// moment's unit on its circle. The effects' settings change it.
+// Returns the usual choice: the table, the 4/3 earth, each radial's elevation, linear along the
+// column at a point, in the unit of the moment, on its circle. The settings of the effects change
+// it.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
 
 // What choices are measured against: the last rung of every step, but for the frame's, which is the
@@ -56,27 +59,29 @@ inline constexpr std::string_view circle = "circle";
 // The same choice as it is measured: by the table in place of geodesics.
 [[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
-// Effort (stormcellar/accuracy/effect.h) that these two rungs take together beyond what each takes
-// alone.
+// Returns the effort (stormcellar/accuracy/effect.h) that these two rungs take together beyond what
+// each takes alone.
 [[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
 
-// What is done when no budget is given: the usual; but area where cells are wider than the beam is
-// 160 km away (2.7 km of a WSR-88D), because a point sample would alias. Not by the grid's extent:
-// a part of a grid holds what the whole does.
+// The default without a budget is the usual choice. But if cells are wider than the beam is at 160
+// km (2.7 km for a WSR-88D), it is area, because point samples would alias. The extent of the grid
+// does not matter, because a part of a grid must hold what the whole grid holds.
 inline constexpr double wide_cells_arc_m = 160e3;
 [[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
                                               double beam_width_deg);
 
-// dB for REF, ZDR and CFP, m/s for VEL and SW, degrees for PHI, a ratio for RHO.
+// Returns dB for REF, ZDR and CFP, m/s for VEL and SW, degrees for PHI and a ratio for RHO.
 [[nodiscard]] accuracy::ValueUnit value_unit_of(level2::Moment moment);
 
 struct PlanOptions {
-    std::size_t predict_columns = 500;   // estimates of each effect's size and cost
-    std::size_t measure_columns = 2500;  // bounds of what is chosen: so many, or what a bound needs
+    std::size_t predict_columns = 500;  // for estimates of the size and cost of each effect
+    // for bounds of what is chosen: so many, or as many as a bound needs
+    std::size_t measure_columns = 2500;
     std::uint64_t seed = 1;
 };
 
-// Each effect's size and cost for this scene: positions by proven bounds, values by a sample.
+// Predicts the size and cost of each effect for this scene: positions by proven bounds, values by a
+// sample.
 [[nodiscard]] Status predict(GridScene& scene, const PlanOptions& options, accuracy::Chain& chain);
 
 struct GridPlan {
@@ -84,13 +89,14 @@ struct GridPlan {
     SceneChoice choice;
 };
 
-// Predicts, chooses and measures (accuracy/governor.h). Without a budget: the default, with each
-// effect's size. Errors: those of accuracy::govern() and of gridding.
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds the
+// default, with the size of each effect. Errors: those of accuracy::govern() and of gridding.
 [[nodiscard]] Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                                          const std::optional<accuracy::Budget>& budget,
                                          const PlanOptions& options = {});
 
-// For provenance: "position 70.3 m, value 0.42 dB (99th percentile)", as the plan promises.
+// Returns the error that the plan promises, for provenance: "position 70.3 m, value 0.42 dB (99th
+// percentile)".
 [[nodiscard]] std::string predicted_error(const accuracy::Plan& plan);
 
 }  // namespace stormcellar::grid

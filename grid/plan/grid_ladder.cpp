@@ -57,7 +57,7 @@ Result<Position> frame_position(GridScene& scene, FrameKind kind) {
     return errors.summary();
 }
 
-// Of gates every 2 km of the sweeps, up to the top level.
+// Computes the position errors over gates every 2 km of the sweeps, up to the top level.
 Position beam_position(const GridScene& scene, BeamKind kind) {
     constexpr double step_m = 2000;
     const RefractivityProfile& profile = scene.options().profile;
@@ -81,7 +81,7 @@ Position beam_position(const GridScene& scene, BeamKind kind) {
     return errors.summary();
 }
 
-// Of each radial where it leaves the grid.
+// Computes the position error of each radial where it leaves the grid.
 Position elevation_position(const GridScene& scene) {
     constexpr double step_m = 1000;
     PositionErrors errors;
@@ -113,7 +113,8 @@ Result<Position> position_of(GridScene& scene, const std::string& name, std::siz
     return Position{};
 }
 
-// The whole chain's: each step's largest, and the root of the sum of squares.
+// Returns the position error of the whole chain: the largest of each step, and the root of the sum
+// of squares.
 Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
     auto frame = frame_position(scene, choice.frame);
     if (!frame) return frame;
@@ -124,7 +125,7 @@ Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
                     std::hypot(frame->rms_m, beam.rms_m, jitter.rms_m)};
 }
 
-// First with geometry and all, then with what can be kept.
+// Times the grid, first with geometry and everything else, then with whatever can be kept.
 Status time_grid(GridScene& scene, const SceneChoice& choice, int rounds,
                  accuracy::LadderRow& row) {
     const GridderOptions options{scene.options().moment, scene.options().beam_width_deg,

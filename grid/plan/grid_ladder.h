@@ -1,11 +1,16 @@
 // grid/plan/grid_ladder.h -- what accuracy costs in time, rung by rung, on one scene.
 //
-// For each step a row a rung: its error with every other step exact, against the chain's exact
-// form, over sampled columns; its time as a whole grid with the other steps at their default, since
-// that is what going up or down this ladder changes. Rows of the step "chain" are whole chains, the
-// default methods among them, with their own times and errors.
-// Position errors: of the frame over the sampled columns; of the beam over gates of the sweeps;
-// of the elevation over the radials. Times are single-threaded unless the scene has more threads.
+// For each step there is a row for each rung. It has the error of the rung with every other step
+// exact, against the exact form of the chain, over sampled columns. It also has the time of a whole
+// grid with the other steps at their default, because that is what changes when a user goes up or
+// down this ladder. Rows of the step "chain" are whole chains, including the default methods, with
+// their own times and errors.
+//
+// Position errors of the frame are over the sampled columns, of the beam over gates of the sweeps,
+// and of the elevation over the radials. Times are single-threaded unless the scene has more
+// threads.
+//
+// Threads   Those of the scene (grid/plan/scene.h).
 #pragma once
 
 #include <vector>
@@ -19,9 +24,9 @@ namespace stormcellar::grid {
 
 struct LadderOptions {
     std::size_t columns = 2000;
-    int rounds = 3;  // of timing; the least counts
+    int rounds = 3;  // rounds of timing; the least time counts
     std::uint64_t seed = 1;
-    Averaging averaging = Averaging::in_db;  // of all, the exact form too
+    Averaging averaging = Averaging::in_db;  // of all chains, the exact form too
 };
 
 // A whole chain with a name of its own.
@@ -29,7 +34,7 @@ struct NamedChain {
     const char* name;
     SceneChoice choice;
 };
-// Nearest, linear, ... area, (REF) area with the other averaging, and the exact chain.
+// Returns nearest, linear, ..., area, (for REF) area with the other averaging, and the exact chain.
 [[nodiscard]] std::vector<NamedChain> named_chains(level2::Moment moment, Averaging averaging);
 
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,

@@ -21,7 +21,7 @@ Tile tile_of_one(const ColumnGeometry& geometry, int ix, int iy) {
     return {ix, ix + 1, iy, iy + 1, bounds.widened(0.01F, 0)};
 }
 
-// An integer below `size`, the same on every machine.
+// Returns an integer below `size`, the same on every machine.
 std::uint64_t below(std::uint64_t size, std::mt19937_64& random) {
     return random() % size;  // size is below 2^32: off by less than 1 in 2^32
 }
@@ -135,8 +135,9 @@ double GridScene::reach_m() const {
     return grid::reach_m({*volume_, site_, spec_, chosen_, options_.profile, options_.moment});
 }
 
-// Neighbouring columns tell what other interpolations may bring into a column; each valued cell may
-// become two, and a column without any keeps a small chance.
+// Returns how many cells of each column may hold a value. Neighboring columns tell what other
+// interpolations may bring into a column; each valued cell may become two, and a column without any
+// keeps a small chance.
 std::vector<std::uint16_t> GridScene::sizes() const {
     const auto nz = spec_.levels_m.size();
     const auto width = static_cast<std::size_t>(spec_.nx);
@@ -170,7 +171,7 @@ std::size_t GridScene::columns_with_echo() const {
 }
 
 ColumnSample GridScene::draw(std::size_t count, std::uint64_t seed) const {
-    std::vector<std::uint64_t> ends;  // running sum of sizes
+    std::vector<std::uint64_t> ends;  // running sum of the sizes
     ends.reserve(sizes_.size());
     std::uint64_t total = 0;
     for (const std::uint16_t size : sizes_)

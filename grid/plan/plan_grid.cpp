@@ -16,7 +16,8 @@ PositionScene position_scene(const GridScene& scene) {
             scene.options().profile, scene.options().moment};
 }
 
-// Velocities whose spread exceeds the smallest Nyquist velocity may lie on two sides of a fold.
+// Returns true if velocities spread over more than the smallest Nyquist velocity, so that they may
+// lie on two sides of a fold.
 bool may_fold(const GridScene& scene) {
     float least = std::numeric_limits<float>::max();
     float most = std::numeric_limits<float>::lowest();
@@ -34,7 +35,7 @@ bool may_fold(const GridScene& scene) {
     return most > least && most - least > nyquist;
 }
 
-// Sizes of one step's effects from its rungs, the others exact.
+// Predicts the sizes of one step's effects from its rungs, with the other steps exact.
 Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledCells& exact,
                     std::size_t index, accuracy::Chain& chain) {
     accuracy::Step& step = chain.steps[index];
@@ -61,9 +62,10 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     return {};
 }
 
-// How many columns bound the 99th percentile, and not only its neighbourhood's greatest: 900 that
-// hold as many errors as they may need just exist (accuracy/quantile_bound.h), thrice as many find
-// it well. How much columns hold is asked of a sample that is not used again.
+// Returns how many columns are needed to bound the 99th percentile, and not only the greatest error
+// near it. 900 columns that hold as many errors as they may are just enough for a bound to exist
+// (accuracy/quantile_bound.h); three times as many give a good one. How much columns hold is
+// estimated from a sample that is not used again.
 Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exact,
                                         const PlanOptions& options) {
     constexpr double full_columns = 3 * 900;
@@ -92,7 +94,7 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                            const std::optional<accuracy::Budget>& budget,
                            const PlanOptions& options) {
     if (auto done = predict(scene, options, chain); !done) return pass_on(done);
-    // Drawn anew: what was predicted from the first sample is checked on another.
+    // The columns are drawn anew, so that a prediction from the first sample is checked on another.
     std::optional<ColumnSample> sample;
     std::optional<SampledCells> exact;
     const auto measure = [&](const accuracy::Choice& choice) -> Result<accuracy::Measured> {

@@ -1,13 +1,17 @@
 // grid/plan/position_error.h -- how far each effect of geometry moves what a grid samples: bounds
-// for a volume over a grid, in metres.
+// for a volume over a grid.
 //
-//   ellipsoid        the sphere's bound of stormcellar/grid/frame_ladder.h within the reach
-//   exact_geodesic   1 mm, the table's
-//   earth_curvature  the greatest distance between a gate's places by both beams, over the sweeps'
-//   refraction       elevations, arcs within the reach and heights of the grid (beam_model.h)
-//   antenna_jitter   the farthest a radial was measured off its sweep, times the range at which
-//                    it leaves the grid
-// Others move nothing: 0. Threads: pure.
+//   ellipsoid        the bound of the sphere in stormcellar/grid/frame_ladder.h within the reach
+//   exact_geodesic   1 mm, the bound of the table
+//   earth_curvature, refraction   the greatest distance between the places of a gate by both beams,
+//                                 over the elevations of the sweeps, arcs within the reach and
+//                                 heights of the grid (beam_model.h)
+//   antenna_jitter   the farthest that a radial was measured off its sweep, times the range at
+//                    which it leaves the grid
+// The other effects move nothing, so their size is 0.
+//
+// Units     Meters.
+// Threads   Pure functions.
 #pragma once
 
 #include <string>
@@ -23,7 +27,7 @@
 
 namespace stormcellar::grid {
 
-// Refers to what it is made of.
+// Refers to the objects that it is made of, which must outlive it.
 struct PositionScene {
     const level2::Volume& volume;
     const SitePosition& site;
@@ -33,17 +37,17 @@ struct PositionScene {
     level2::Moment moment = level2::Moment::ref;
 };
 
-// The lesser of the farthest column's and the farthest gate's arc.
+// Returns the lesser of the arcs of the farthest column and the farthest gate.
 [[nodiscard]] double reach_m(const PositionScene& scene);
 
 [[nodiscard]] double effect_position_m(const PositionScene& scene, std::string_view effect);
 
-// The sum over what a method and a frame leave off.
+// Returns the sum over everything that a method and a frame leave off.
 [[nodiscard]] double position_error_bound_m(const PositionScene& scene, FrameKind frame,
                                             const Method& method);
 
-// For provenance of a grid that was made without a plan: "position 714 m, values not predicted,
-// against the chain's exact form".
+// Returns the error of a grid that was made without a plan, for provenance: "position 714 m, values
+// not predicted, against the chain's exact form".
 [[nodiscard]] std::string unplanned_error(const level2::Volume& volume, const SitePosition& site,
                                           const GridSpec& spec, FrameKind frame,
                                           const GridderOptions& options);

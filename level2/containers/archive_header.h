@@ -1,5 +1,7 @@
-// level2/containers/archive_header.h -- the 24 bytes before the first record (ICD 2620010,
-// section 7.3.3).
+// level2/containers/archive_header.h -- the 24 bytes before the first record (ICD 2620010, section
+// 7.3.3).
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +14,8 @@ namespace stormcellar::level2 {
 
 inline constexpr std::size_t archive_header_bytes = 24;
 
-// The header at the start of `bytes`, or none: it begins with "AR2V" or "ARCHIVE2" and a dot.
-// An ICAO that is not one (spaces, zeros) is left empty.
+// Reads the header at the start of `bytes`, which begins with "AR2V" or "ARCHIVE2" and a dot.
+// Returns none if there is no header. An ICAO that cannot be one (blanks, zeros) is left empty.
 [[nodiscard]] std::optional<VolumeHeader> read_archive_header(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

@@ -7,7 +7,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The marks are decimal digits of pi and of its root.
+// The marks are decimal digits of pi and of its square root.
 constexpr std::uint64_t block_mark = 0x314159265359;
 constexpr std::uint64_t end_mark = 0x177245385090;
 constexpr std::uint64_t mark_mask = 0xFFFFFFFFFFFF;
@@ -21,7 +21,7 @@ std::uint64_t big_endian(std::span<const std::byte> bytes) {
     return number;
 }
 
-// Writes numbers of any width one behind the other.
+// Writes numbers of any width, one after the other.
 class BitWriter {
   public:
     explicit BitWriter(std::vector<std::byte>& out) : out_(out) {}
@@ -47,7 +47,7 @@ class BitWriter {
     int held_bits_ = 0;
 };
 
-// The eight bytes from `at` on, zeros beyond the end.
+// Returns the eight bytes from `at` on, with zeros beyond the end.
 std::uint64_t eight_bytes(std::span<const std::byte> bytes, std::size_t at) {
     std::array<std::byte, 8> raw{};
     if (at < bytes.size()) {
@@ -57,7 +57,7 @@ std::uint64_t eight_bytes(std::span<const std::byte> bytes, std::size_t at) {
     return big_endian(raw);
 }
 
-// Copies whole bytes from any bit on, then what is left bit by bit.
+// Copies whole bytes from any bit on, then the remaining bits.
 void copy_bits(std::span<const std::byte> bytes, std::uint64_t begin, std::uint64_t end,
                std::vector<std::byte>& out, BitWriter& writer) {
     const auto shift = static_cast<unsigned>(begin % 8);
@@ -100,7 +100,7 @@ std::optional<std::size_t> find_bzip2(std::span<const std::byte> bytes, std::siz
 bool ends_as_bzip2(std::span<const std::byte> bytes) {
     constexpr std::size_t tail_bytes = 11;  // 48 bits of mark, 32 of checksum, up to 7 of padding
     if (bytes.size() < tail_bytes + 4) return false;
-    // The checksum's 32 bits but for the last 24, and what stands before it.
+    // The window holds the mark and the first 8 bits of the checksum, whatever the padding.
     const std::uint64_t window = big_endian(bytes.last(tail_bytes).first(8));
     for (int padding = 0; padding < 8; ++padding) {
         if (((window >> (8 + padding)) & mark_mask) == end_mark) return true;
@@ -116,7 +116,8 @@ std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) co
     std::uint64_t window = eight_bytes(bytes_, static_cast<std::size_t>(from_bit / 8));
     auto at = static_cast<std::size_t>(from_bit / 8);
     for (; at + 6 <= bytes_.size(); ++at) {
-        // The window holds bytes at .. at + 7: the mark at all eight places that begin in `at`.
+        // The window holds the bytes at .. at + 7, with the mark at all eight places that begin in
+        // `at`.
         for (int shift = 0; shift < 8; ++shift) {
             const std::uint64_t here = (window >> (64 - mark_bits - shift)) & mark_mask;
             if (here != block_mark && here != end_mark) continue;
@@ -132,7 +133,7 @@ std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) co
 
 bunzip::Status BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit,
                                   std::size_t limit) {
-    // Behind its mark a block has its checksum, which is also that of a stream of one block.
+    // After its mark a block has its checksum, which is also that of a stream of one block.
     const std::uint64_t checksum_bit = begin_bit + mark_bits;
     if (end_bit < begin_bit + least_block_bits) return bunzip::Status::truncated;
     const std::uint64_t window = eight_bytes(bytes_, static_cast<std::size_t>(checksum_bit / 8));
@@ -152,7 +153,7 @@ bunzip::Status BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit
 }
 
 std::optional<BzipBlocks::Block> BzipBlocks::next(std::size_t limit) {
-    // A mark can stand inside a block by chance; then the block goes on to one of the next marks.
+    // A mark can occur inside a block by chance. Then the block ends at one of the next marks.
     constexpr int most_joined = 3;
     const std::uint64_t all_bits = std::uint64_t{bytes_.size()} * 8;
     while (mark_ && mark_->end_of_stream) {

@@ -7,7 +7,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// d: a digit, s: a separator.
+// d stands for a digit, s for a separator.
 constexpr std::string_view dashed_volume = "dddddddd-dddddd-";
 constexpr std::string_view key_time = "dddddddddddddds";
 constexpr std::size_t most_digits = 3;
@@ -45,7 +45,7 @@ std::optional<ChunkKind> kind_of(char letter) {
     }
 }
 
-// 1 to 999, from `at` on, which is then behind it; 0: none stands there.
+// Reads a number from 1 to 999 at `at`, and moves `at` behind it. Returns 0 if there is none.
 int read_number(std::string_view text, std::size_t& at) {
     int number = 0;
     for (std::size_t digits = 0; digits < most_digits && at < text.size() && is_digit(text[at]);
@@ -54,8 +54,8 @@ int read_number(std::string_view text, std::size_t& at) {
     return number;
 }
 
-// "043-I" at this place, whatever follows behind a separator; a number without leading zeros is as
-// good.
+// Reads "043-I" at this place; anything may follow after a separator. The number may lack its
+// leading zeros.
 std::optional<PlacedChunkName> read_chunk(std::string_view name, std::size_t number_at) {
     PlacedChunkName chunk;
     chunk.number_at = number_at;
@@ -73,7 +73,8 @@ std::optional<PlacedChunkName> read_chunk(std::string_view name, std::size_t num
     return chunk;
 }
 
-// Where the volume's part of the name ends and the chunk's number begins, if it can begin at `at`.
+// Returns where the volume's part of the name ends and the number of the chunk begins, if the name
+// can begin at `at`.
 std::optional<std::size_t> number_behind_volume(std::string_view name, std::size_t at) {
     const std::string_view rest = name.substr(at);
     if (begins_as(dashed_volume, rest)) return at + dashed_volume.size();

@@ -59,7 +59,7 @@ void CompressStream::begin_group(int width) {
 }
 
 void CompressStream::enter(std::uint32_t prefix, std::byte last) {
-    if (next_entry_ >= prefixes_.size()) return;  // full: the table stays as it is
+    if (next_entry_ >= prefixes_.size()) return;  // the table is full and stays as it is
     prefixes_[next_entry_] = static_cast<std::uint16_t>(prefix);
     lasts_[next_entry_] = last;
     ++next_entry_;
@@ -88,7 +88,7 @@ void CompressStream::take(std::uint32_t code) {
         return;
     }
     if (own) {
-        // The string that this very code enters: the previous one and its first byte again.
+        // This very code enters the string: the previous string and its first byte again.
         enter(*previous_, first_of_previous_);
         first_of_previous_ = expand(code);
     } else {
@@ -102,8 +102,8 @@ void CompressStream::take(std::uint32_t code) {
 std::span<const std::byte> CompressStream::next() {
     output_.clear();
     while (end_ == CompressEnd::none && output_.size() < piece_bytes) {
-        // The writer widens its codes once the table is as full as their width; by a quirk of
-        // compress also where 9 bits are the most, though no code then needs the tenth.
+        // The writer widens its codes once the table fills their width. By a quirk of compress it
+        // does so even if 9 bits are the most, although no code then needs the tenth.
         if (width_ < std::max(limit_, least_width + 1) && next_entry_ >= (1U << width_))
             begin_group(width_ + 1);
         const auto code = next_code();

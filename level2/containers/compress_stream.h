@@ -1,16 +1,17 @@
-// level2/containers/compress_stream.h -- Unix compress (.Z) as archives of the 1990s have it, piece
-// by piece.
+// level2/containers/compress_stream.h -- expands Unix compress (.Z), as in archives of the 1990s,
+// piece by piece.
 //
-// What was expanded before damage is given out; damage is a state at the end, never lost.
-// Format  3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 when code 256 clears the
-//         table); then codes, low bits first, beginning with 9 bits. Codes of one width come in
-//         groups of eight; where the width changes, or the table is cleared, the rest of the group
-//         is padding. The format has no checksum and no length, so a cut between two codes cannot
-//         be seen here.
-// Source  Welch, IEEE Computer 17(6) 1984 (the algorithm); the behaviour of compress 4.0 for the
-//         grouping, which no document states.
-// Memory  256 KiB of tables and a piece.
-// Thread contract: one thread.
+// Whatever was expanded before damage is given out. Damage is a state at the end and never lost.
+//
+// Format    3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 if code 256 clears the
+//           table). Then follow codes, low bits first, beginning with 9 bits. Codes of one width
+//           come in groups of eight; where the width changes or the table is cleared, the rest of
+//           the group is padding. The format has no checksum and no length, so a cut between two
+//           codes cannot be detected.
+// Source    Welch, IEEE Computer 17(6) 1984, for the algorithm; the behavior of compress 4.0 for
+//           the grouping, which no document describes.
+// Memory    256 KiB of tables, and one piece.
+// Threads   One thread at a time.
 #pragma once
 
 #include <array>
@@ -26,9 +27,9 @@ namespace stormcellar::level2 {
 
 enum class CompressEnd : std::uint8_t {
     none,       // not at the end yet
-    whole,      // all codes; see above
-    truncated,  // shorter than its head
-    corrupt     // a code that cannot be
+    whole,      // all codes were read; see above
+    truncated,  // shorter than its header
+    corrupt     // an impossible code
 };
 
 class CompressStream {
@@ -37,10 +38,10 @@ class CompressStream {
 
     explicit CompressStream(std::span<const std::byte> bytes);
 
-    // The next bytes, valid until the next call; empty at the end.
+    // Returns the next bytes, which are valid until the next call; empty at the end.
     [[nodiscard]] std::span<const std::byte> next();
     [[nodiscard]] CompressEnd end() const { return end_; }
-    // How far into the compressed bytes.
+    // Returns how many compressed bytes were read.
     [[nodiscard]] std::size_t position() const;
 
   private:
@@ -48,16 +49,16 @@ class CompressStream {
     static constexpr int most_width = 16;
 
     [[nodiscard]] std::optional<std::uint32_t> next_code();
-    // Skips what is left of the group of eight codes; the next one has this width.
+    // Skips the rest of the group of eight codes. The next group has this width.
     void begin_group(int width);
     void take(std::uint32_t code);
     void enter(std::uint32_t prefix, std::byte last);
-    // Appends the string of a code to the output; gives its first byte.
+    // Appends the string of a code to the output, and returns its first byte.
     std::byte expand(std::uint32_t code);
 
     std::span<const std::byte> bytes_;
     std::uint64_t bit_ = 0;          // of the next code
-    std::uint64_t group_start_ = 0;  // bit at which the codes of this width began
+    std::uint64_t group_start_ = 0;  // the bit at which the codes of this width began
     int width_ = least_width;
     int limit_ = least_width;  // the largest width
     bool clears_ = false;

@@ -1,4 +1,6 @@
-// level2/containers/content.h -- what bytes hold, told from the bytes.
+// level2/containers/content.h -- finds out from the bytes what they hold.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +13,15 @@ enum class Content : std::uint8_t {
     gzip,
     bzip2,     // a bzip2 stream at the start: a whole file
     compress,  // Unix compress, ".Z"
-    ldm,       // LDM records, behind a 24-byte header or not
-    messages,  // uncompressed messages, behind a 24-byte header or not
+    ldm,       // LDM records, with or without a 24-byte header before them
+    messages,  // uncompressed messages, with or without a 24-byte header before them
     unknown
 };
 
-// Looks at the start only. A first frame that is no message is allowed if messages follow it.
+// Looks only at the start. A first frame that is not a message is allowed if messages follow it.
 [[nodiscard]] Content content_at_start(std::span<const std::byte> bytes);
 
-// As above; where the start is damaged, looks through all of it for an LDM record or a message.
+// The same, but if the start is damaged, searches all of it for an LDM record or a message.
 [[nodiscard]] Content content_anywhere(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

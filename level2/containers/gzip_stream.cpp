@@ -10,7 +10,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-constexpr int gzip_window_bits = 15 + 16;  // the largest window, gzip wrapping only
+constexpr int gzip_window_bits = 15 + 16;  // the largest window, for gzip only
 
 }  // namespace
 

@@ -1,8 +1,9 @@
-// level2/containers/gzip_stream.h -- gzip through zlib, piece by piece, members one behind the
-// other.
+// level2/containers/gzip_stream.h -- inflates gzip with zlib, piece by piece, with one member after
+// the other.
 //
-// What was inflated before damage is given out; damage is a state at the end, never lost.
-// Thread contract: one thread.
+// Whatever was inflated before damage is given out. Damage is a state at the end and never lost.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +19,11 @@ namespace stormcellar::level2 {
 
 enum class GzipEnd : std::uint8_t {
     none,             // not at the end yet
-    whole,            // all members, checksums right
+    whole,            // all members, with right checksums
     truncated,        // the file ends inside a member
     corrupt,          // the data contradict themselves
-    bad_checksum,     // all there, but length or CRC-32 differ
-    trailing_garbage  // something that is not gzip behind the last member
+    bad_checksum,     // everything is there, but length or CRC-32 differ
+    trailing_garbage  // something other than gzip follows the last member
 };
 
 class GzipStream {
@@ -34,14 +35,14 @@ class GzipStream {
     GzipStream& operator=(const GzipStream&) = delete;
     ~GzipStream();
 
-    // The next bytes, valid until the next call; empty at the end.
+    // Returns the next bytes, which are valid until the next call; empty at the end.
     [[nodiscard]] std::span<const std::byte> next();
     [[nodiscard]] GzipEnd end() const { return end_; }
-    // How far into the compressed bytes.
+    // Returns how many compressed bytes were read.
     [[nodiscard]] std::size_t position() const { return fed_ - stream_.avail_in; }
 
   private:
-    // Whether another member begins behind the one that ended.
+    // Returns true if another member begins after the one that ended.
     [[nodiscard]] bool next_member();
     [[nodiscard]] GzipEnd end_of(int code) const;
 

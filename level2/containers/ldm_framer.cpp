@@ -12,10 +12,12 @@ namespace {
 
 constexpr std::size_t control_word_bytes = 4;
 
-// What stands behind a record when its length is right; undecided while too little is there.
+// Returns true if what follows can follow a record with the right length; none while there are too
+// few bytes to decide.
 std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
     if (rest.size() < archive_header_bytes && !last) return std::nullopt;
-    if (rest.size() < control_word_bytes + bzip2_mark_bytes) return true;  // a tail, or the end
+    // a remainder, or the end
+    if (rest.size() < control_word_bytes + bzip2_mark_bytes) return true;
     return is_ldm_record(rest) || read_archive_header(rest) ||
            all_zero(rest.first(control_word_bytes + bzip2_mark_bytes));
 }
@@ -32,7 +34,7 @@ void LdmStreamFramer::end_part(std::size_t bytes) {
     searched_behind_ = 0;
 }
 
-// find_bzip2, which goes on where it stopped when there are more bytes.
+// Does what find_bzip2() does, but continues where it stopped when there are more bytes.
 std::optional<std::size_t> LdmStreamFramer::find_stream(std::span<const std::byte> rest,
                                                         std::size_t from) {
     const auto found = find_bzip2(rest, std::max(from, searched_));
@@ -60,7 +62,7 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
             return part;
         }
     }
-    // The length lies, or the file is cut: the record reaches to the next one or to the end.
+    // The length is wrong or the file is cut: the record extends to the next one or to the end.
     const auto next = find_stream(rest, 2 * control_word_bytes + bzip2_mark_bytes);
     if (!next && !last) return std::nullopt;
     part.bytes = next ? rest.subspan(control_word_bytes, *next - 2 * control_word_bytes) : stream;
@@ -70,7 +72,7 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
     return part;
 }
 
-// A stream before which bytes of the control word are lost.
+// Returns a stream whose control word has lost bytes.
 std::optional<LdmPart> LdmStreamFramer::record_without_length(std::span<const std::byte> rest,
                                                               std::size_t stream, bool last) {
     const std::size_t from = stream + bzip2_mark_bytes + control_word_bytes;

@@ -1,8 +1,10 @@
 // level2/containers/ldm_framer.h -- cuts a file into LDM records (ICD 2620010, section 7.3.4).
 //
-// A record is a signed 4-byte length, whose sign marks the last record as a rule, and a bzip2
-// stream. Lengths that contradict the bytes are not believed: the next stream is searched for.
-// Thread contract: one thread at a time.
+// A record is a signed 4-byte length, whose sign usually marks the last record, and a bzip2 stream.
+// A length that contradicts the bytes is not believed; the framer then searches for the next
+// stream.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +17,13 @@
 
 namespace stormcellar::level2 {
 
-// The largest volume known, all of it, has 12 MB. A length beyond this is a lie, and is known to be
-// one before so many bytes have come.
+// The largest known volume has 12 MB. A larger length is wrong, and known to be wrong before that
+// many bytes have come.
 inline constexpr std::size_t longest_record_bytes = std::size_t{32} << 20;
 
 struct LdmPart {
     enum class Kind : std::uint8_t {
-        record,   // `bytes` is a bzip2 stream, maybe with something behind it
+        record,   // `bytes` is a bzip2 stream; something may follow it
         header,   // a 24-byte volume header between records
         padding,  // zeros up to the end
         garbage   // `bytes` belong to no record
@@ -30,17 +32,18 @@ struct LdmPart {
     std::size_t position = 0;  // of the part in the file
     std::span<const std::byte> bytes;
     VolumeHeader header;
-    bool negative = false;    // the control word of a record
+    bool negative = false;    // the control word of a record is negative
     bool cut = false;         // the file ends before the record does
     bool bad_length = false;  // the control word contradicts the bytes
 };
 
-// Cuts what grows. Decides nothing that later bytes could change, except that a record whose
-// length ends at the end mark of a bzip2 stream is taken at once.
+// Cuts a file that grows. It decides nothing that later bytes could change, with one exception: a
+// record whose length ends at the end mark of a bzip2 stream is accepted at once.
 class LdmStreamFramer {
   public:
-    // `rest`: the bytes from position() on, as far as there are any yet; `last`: there will be no
-    // more. None when more are needed, or at the end. The part's bytes lie in `rest`.
+    // Returns the next part, or none if more bytes are needed, or at the end. `rest` holds the
+    // bytes from position() on, as far as they have come. `last` means that no more will come. The
+    // bytes of the part lie in `rest`.
     [[nodiscard]] std::optional<LdmPart> next(std::span<const std::byte> rest, bool last);
     [[nodiscard]] std::size_t position() const { return at_; }
 
@@ -53,11 +56,11 @@ class LdmStreamFramer {
     void end_part(std::size_t bytes);
 
     std::size_t at_ = 0;
-    std::size_t searched_ = 0;         // no stream begins in so many bytes of the part that is due
-    std::size_t searched_behind_ = 0;  // nor, behind its own, of one without a length
+    std::size_t searched_ = 0;  // no stream begins in this many bytes of the part that is due
+    std::size_t searched_behind_ = 0;  // nor after its own stream, for a part without a length
 };
 
-// Cuts what is there as a whole.
+// Cuts a file that is complete.
 class LdmFramer {
   public:
     explicit LdmFramer(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -70,11 +73,11 @@ class LdmFramer {
     LdmStreamFramer framer_;
 };
 
-// Whether an LDM record begins with these bytes.
+// Returns true if an LDM record begins with these bytes.
 [[nodiscard]] bool is_ldm_record(std::span<const std::byte> bytes);
 
-// The bzip2 streams of a file, in its order, cut ones included; none where the file does not begin
-// with an LDM record, behind a volume header or at once.
+// Returns the bzip2 streams of a file in order, cut ones included. Returns none if the file does
+// not begin with an LDM record, with or without a volume header before it.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(std::span<const std::byte> file);
 
 }  // namespace stormcellar::level2

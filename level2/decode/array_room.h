@@ -1,13 +1,15 @@
-// level2/decode/array_room.h -- counts what arrays take before they are made, and says where it
-// ends.
+// level2/decode/array_room.h -- counts the memory of arrays before they are made, and enforces a
+// limit.
 //
-// A sweep takes, for each of its radials, a row of each of its kinds of a moment (which differ in
-// gates, scale or word size), as long as the kind's longest, and something for each kind. The count
-// does not depend on how the radials come, one by one or in pieces, and the pieces of a sweep never
-// count for more than the sweep: for a piece that may go on with one begun before it, the sweep
-// itself and its kinds are not counted. So a volume that exceeds its limit does so however it was
-// cut into fragments.
-// Thread contract: one thread at a time.
+// For each of its radials, a sweep takes one row of each of its kinds of a moment (which differ in
+// gates, scale or word size), as long as the longest row of the kind, and something for each kind.
+// The count does not depend on whether radials come one by one or in pieces, and the pieces of a
+// sweep never count for more than the sweep: for a piece that may continue an earlier one, the
+// sweep itself and its kinds are not counted. So a volume that exceeds its limit does so however it
+// was cut into fragments.
+//
+// Units     Bytes.
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -21,42 +23,42 @@
 
 namespace stormcellar::level2 {
 
-// The largest sweep known takes 7 MB. Arrays are copied as they grow, so no sweep may be large.
+// The largest known sweep takes 7 MB. Arrays are copied as they grow, so no sweep may be large.
 inline constexpr std::uint64_t most_sweep_bytes = std::uint64_t{64} << 20;
-// What a sweep takes whatever it holds, and each kind in it, the allocator's share included.
+// What a sweep takes in any case, and what each kind in it takes, including the allocator's share.
 inline constexpr std::uint64_t empty_sweep_bytes = 1024;
 inline constexpr std::uint64_t empty_kind_bytes = 320;
 
 [[nodiscard]] std::uint64_t bytes_of(const Vcp& vcp);
 
-// The error where the system gives no memory: exhausted, for the input is not to blame, and may be
-// decoded when others have given theirs back.
+// Returns the error if the system has no more memory. It is exhausted, because the input is not to
+// blame and may be decoded after others have returned their memory.
 [[nodiscard]] tl::unexpected<Error> no_memory();
 
 class ArrayRoom {
   public:
-    // Gives the limit from then on, 0 for no more. Asked once, when the first limit is reached or
-    // when all room is asked for.
+    // Returns the limit from now on, or 0 if there is no more. It is called once: when the first
+    // limit is reached, or when all room is requested.
     using More = std::function<std::uint64_t()>;
 
     explicit ArrayRoom(std::uint64_t limit_bytes, More more = {})
         : limit_bytes_(limit_bytes), more_(std::move(more)) {}
 
-    // Each is false where the limit is exceeded; what was counted stays counted.
+    // Each of these returns false if the limit is exceeded; what was counted stays counted.
     [[nodiscard]] bool add(std::uint64_t bytes);
     [[nodiscard]] bool begin_sweep();
-    // A piece that may go on with a sweep which was begun, and counted, before.
+    // Begins a piece that may continue a sweep that was begun, and counted, before.
     void continue_sweep();
     [[nodiscard]] bool add_radials(std::size_t count);
-    // The rows of the sweep's moment number `moment` hold at least so many gates.
+    // Counts rows of the sweep's moment number `moment` as holding at least this many gates.
     [[nodiscard]] bool widen(std::size_t moment, std::size_t gates, std::uint64_t bytes_per_code);
 
     [[nodiscard]] std::uint64_t taken_bytes() const { return closed_bytes_ + sweep_bytes(); }
     [[nodiscard]] std::uint64_t left_bytes() const;
     void set_limit(std::uint64_t limit_bytes) { limit_bytes_ = limit_bytes; }
-    // Asks for all that there is, before it is needed. False: there is no more.
+    // Requests all room before it is needed. Returns false if there is no more.
     bool ask_for_more();
-    // Nothing is taken.
+    // Makes all room free.
     void clear();
 
   private:
@@ -71,7 +73,7 @@ class ArrayRoom {
     std::uint64_t radials_ = 0;       // of the newest sweep
     std::uint64_t row_bytes_ = sizeof(Radial);
     std::uint64_t kind_bytes_ = 0;
-    std::vector<std::size_t> gates_;  // of its moments
+    std::vector<std::size_t> gates_;  // gates of its moments
 };
 
 }  // namespace stormcellar::level2

@@ -24,8 +24,8 @@ namespace {
 
 constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
 
-// What comes out of a compressed layer: messages, read at once, or something to peel further, which
-// is held until it is whole.
+// The output of a compressed layer: either messages, which are read at once, or something to peel
+// further, which is held until it is complete.
 struct LayerOutput {
     LayerOutput(std::uint64_t limit_bytes, const Selection& selection)
         : room(limit_bytes), builder(room, rows_of_a_stretch, selection) {}
@@ -38,7 +38,7 @@ struct LayerOutput {
     bool messages = false;
 };
 
-// One decode, from the outermost layer inwards.
+// One decode, from the outermost layer inward.
 class Decoder {
   public:
     explicit Decoder(const DecodeOptions& options) : options_(options) {}
@@ -48,9 +48,10 @@ class Decoder {
     Result<Decoded> run(std::span<const std::byte> bytes);
 
   private:
-    // Each gives an error only where nothing can be kept: limits, and content of another kind.
+    // These return an error only if nothing can be kept: for limits, and for content of another
+    // kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
-    // Everything that a stream of pieces gives.
+    // Reads everything that a stream of pieces gives.
     template <class Stream>
     Status take_all(Stream& stream, LayerOutput& output);
     Status read_gzip(std::span<const std::byte> bytes, int depth);
@@ -85,6 +86,8 @@ Status Decoder::flush(LayerOutput& output) {
     return taken;
 }
 
+// Peels one layer. What it holds is found by content; a compressed layer is read by this function
+// again.
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
         return fail(ErrorCode::unsupported, "more than {} layers of compression", most_layers - 1);
@@ -110,7 +113,7 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
             break;
     }
     if (read_archive_header(bytes)) {
-        // Too short to know what it begins.
+        // The bytes are too few to know what they begin.
         if (bytes.size() < archive_header_bytes + message_header_bytes) {
             return fail(ErrorCode::truncated, "holds a volume header and next to nothing else");
         }
@@ -130,6 +133,8 @@ Status Decoder::read_messages(std::span<const std::byte> bytes) {
     return flush(output);
 }
 
+// Takes a piece of the output of a compressed layer. The first piece decides: messages are read at
+// once, piece by piece, and anything else is another layer, which is collected first.
 Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
     if (Status counted = builder_.count_output(piece.size()); !counted) return counted;
     if (std::exchange(output.first, false)) {
@@ -175,7 +180,8 @@ Status Decoder::take_all(Stream& stream, LayerOutput& output) {
     }
 }
 
-// A damaged container: the stream of messages is wrong from where the reader is, or ends there.
+// Reports a damaged container: the stream of messages is wrong from the reader's place on, or ends
+// there.
 void Decoder::report_container(const LayerOutput& output, Severity severity, std::string_view code,
                                std::string message, std::uint64_t position) {
     DecodeReport& report = builder_.report_data();
@@ -232,6 +238,8 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
     }
 }
 
+// A file that is compressed as a whole by bzip2 is read block by block, because each block has a
+// checksum of its own. After a damaged block, the reader must search for the next message.
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     bunzip::Workspace workspace;
     BzipBlocks blocks{bytes, workspace};
@@ -264,8 +272,8 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     return end_output(output, depth);
 }
 
-// Decodes the parts that the source gives, in their order. False when `check` says no to one; of
-// the builder, only the time spent is then of use.
+// Decodes the parts that the source gives, in order. Returns false if `check` rejects one; then the
+// builder is useless except for the time that it has spent.
 Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
                                  const std::function<bool(const Fragment&)>& check) {
     RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
@@ -279,6 +287,9 @@ Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
     return true;
 }
 
+// Reads a file of LDM records. If only some cuts are selected, it first tries a plan that skips the
+// records of the others; the plan works on a copy of the builder's state, which is restored if the
+// file does not follow it.
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {
     builder_.report_data().ldm_records = 0;
     builder_.report_data().negative_control_words = 0;
@@ -292,8 +303,8 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
                 plan->report(builder_.report_data());
                 return {};
             }
-            // The file is not as its pattern says: nothing is skipped. The time is spent all the
-            // same.
+            // The file does not follow its pattern, so nothing is skipped. The time that was spent
+            // still counts.
             const double spent_s = builder_.report_data().decompress_s;
             builder_ = before;
             builder_.report_data().decompress_s = spent_s;

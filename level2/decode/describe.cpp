@@ -25,7 +25,7 @@ Json text_or_null(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-// With microseconds unless they are zero, as the reference descriptions have it.
+// Returns the time, with microseconds unless they are zero, as in the reference descriptions.
 std::string iso_time(UtcTime time) {
     const auto second = std::chrono::floor<std::chrono::seconds>(time);
     const auto ms = (time - second).count();
@@ -39,7 +39,7 @@ double rounded(double value, double step) {
     return std::round(value / step) * step;
 }
 
-// Numbers that came as tenths or hundredths, as such and not as the nearest float.
+// Returns a number that came as tenths or hundredths exactly so, and not as the nearest float.
 double decimal(float value, int digits) {
     const double power = std::pow(10.0, digits);
     return std::round(static_cast<double>(value) * power) / power;
@@ -189,7 +189,7 @@ Json describe_corruption(const DecodeReport& report) {
     return {{"offset", report.corruption->offset}, {"reason", report.corruption->reason}};
 }
 
-// Times of the first and last radial of the file, or null.
+// Describes the times of the first and the last radial of the file, or null.
 void describe_times(Json& json, const Volume& volume) {
     json["first_radial_time"] = nullptr;
     json["last_radial_time"] = nullptr;
@@ -198,7 +198,7 @@ void describe_times(Json& json, const Volume& volume) {
     json["last_radial_time"] = iso_time(volume.sweeps.back().radials.back().time);
 }
 
-// The last message 2; null where there is none.
+// Describes the last message 2; null if there is none.
 Json describe_status(const std::optional<RdaStatus>& status) {
     if (!status) return nullptr;
     Json json = {{"state", static_cast<int>(status->state)},
@@ -206,7 +206,7 @@ Json describe_status(const std::optional<RdaStatus>& status) {
                  {"vcp", status->vcp},
                  {"build", nullptr},
                  {"troubles", rda_troubles(*status)}};
-    // Hundredths, as the ICD has them: a float would show its last bits.
+    // The number is in hundredths, as in the ICD, because a float would show its last bits.
     if (status->build) json["build"] = std::round(*status->build * 100.0) / 100.0;
     return json;
 }

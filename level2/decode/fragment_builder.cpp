@@ -9,7 +9,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-constexpr std::size_t most_rows = 720;  // to make room for
+constexpr std::size_t most_rows = 720;  // the most rows for which room is made
 
 }  // namespace
 
@@ -35,7 +35,7 @@ bool FragmentBuilder::add_expanded(std::uint64_t bytes) {
     return fragment_.output_bytes <= most_expanded_bytes;
 }
 
-// Whether the radial does not go on with the newest piece.
+// Returns true if the radial does not continue the newest piece.
 bool FragmentBuilder::begins_sweep_here(const RadialMessage& message) const {
     if (marks_.header || begins_sweep(message.radial)) return true;
     const Sweep& sweep = fragment_.pieces.back().sweep;
@@ -44,12 +44,12 @@ bool FragmentBuilder::begins_sweep_here(const RadialMessage& message) const {
 }
 
 bool FragmentBuilder::begin_piece(const RadialMessage& message) {
-    // Whole sweeps one behind the other: make room for the next at once.
+    // With whole sweeps one after the other, room for the next one is made at once.
     if (!fragment_.pieces.empty()) {
         const std::size_t newest = fragment_.pieces.back().sweep.radials.size();
         expected_rows_ = std::clamp(newest, expected_rows_, std::max(expected_rows_, most_rows));
     }
-    // The first piece may go on with a sweep of the fragment before.
+    // The first piece may continue a sweep of the fragment before.
     bool has_room = true;
     if (fragment_.pieces.empty()) {
         room_.continue_sweep();
@@ -74,7 +74,7 @@ void FragmentBuilder::note_volume_facts(const RadialMessage& message) {
     if (fragment_.vcp == 0) fragment_.vcp = message.vcp.value_or(0);
 }
 
-// Adds the row of the piece's newest radial.
+// Adds a row to a moment, for the newest radial of the piece.
 bool FragmentBuilder::add_moment(Sweep& sweep, const MomentBlock& block) {
     const std::size_t count = sweep.radials.size();
     const auto same = [&](const SweepMoment& moment) { return rows::same_kind(moment, block); };
@@ -115,7 +115,7 @@ bool FragmentBuilder::add(const RadialMessage& message) {
     note_volume_facts(message);
     Fragment::Piece& piece = fragment_.pieces.back();
     if (!piece.left_out) {
-        // Room is made with the second radial: a piece of one stays small.
+        // Room is made with the second radial, so that a piece with one radial stays small.
         if (piece.sweep.radials.size() == 1) reserve_rows(piece.sweep);
         return add_rows(piece.sweep, message);
     }

@@ -1,10 +1,12 @@
 // level2/decode/fragment_builder.h -- puts radials, in the order of the stream, into pieces of
 // sweeps.
 //
-// A piece ends where the elevation number or the message type changes, where a radial has status
-// 0, 3 or 5, and at a 24-byte header. Codes are copied once, from the message into the arrays.
-// Memory: what a fragment holds stays in the room given; add() and add_pattern() then say so and
-// the builder takes no more.
+// A piece ends where the elevation number or the message type changes, at a radial with status 0, 3
+// or 5, and at a 24-byte header. Codes are copied once, from the message into the arrays.
+//
+// Memory    A fragment stays within the given room. When it is full, add() and add_pattern() say so
+//           and the builder accepts no more.
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -18,38 +20,39 @@
 
 namespace stormcellar::level2 {
 
-// Radials that are compressed inside messages expand to so much in a fragment: each costs time.
+// Radials that are compressed inside messages may expand to this much in a fragment, because each
+// of them takes time.
 inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
 
-// Whether the radial's status begins a sweep: 0, 3 or 5.
+// Returns true if the status of the radial begins a sweep: 0, 3 or 5.
 [[nodiscard]] bool begins_sweep(const Radial& radial);
-// Whether it ends one: 2 or 4.
+// Returns true if it ends a sweep: 2 or 4.
 [[nodiscard]] bool ends_sweep(const Radial& radial);
 
-// Radials in a record of a live volume.
+// The number of radials in a record of a live volume.
 inline constexpr std::size_t rows_of_a_record = 120;
 
 class FragmentBuilder {
   public:
-    // `expected_rows`: radials of a piece, to make room for. The room and the selection must
-    // outlive the builder.
+    // `expected_rows` is the number of radials in a piece, for which room is made. The room and the
+    // selection must outlive the builder.
     FragmentBuilder(ArrayRoom& room, std::size_t expected_rows, const Selection& selection)
         : room_(room), expected_rows_(expected_rows), selection_(selection) {}
 
-    // False: the room does not suffice.
+    // Adds a radial. Returns false if there is not enough room.
     [[nodiscard]] bool add(const RadialMessage& message);
     [[nodiscard]] bool add_pattern(Vcp vcp);
-    // Counts what a radial expanded to. False: there was too much of it.
+    // Counts the bytes to which a radial expanded. Returns false if there were too many.
     [[nodiscard]] bool add_expanded(std::uint64_t bytes);
     void further_header(const VolumeHeader& header) { marks_.header = header; }
 
-    // That the fragment's first radials name; empty where none does.
+    // Returns the station that the fragment's first radials name; empty if none does.
     [[nodiscard]] const std::string& station() const { return fragment_.station; }
     [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
     [[nodiscard]] DecodeReport& report_data() { return fragment_.report; }
 
-    // Gives up what there is; the builder goes on with an empty fragment, and nothing is taken of
-    // its room.
+    // Returns the fragment. The builder continues with an empty one, which takes nothing of its
+    // room.
     [[nodiscard]] Fragment take();
 
   private:
@@ -65,7 +68,7 @@ class FragmentBuilder {
     const Selection& selection_;
     Fragment fragment_;
     std::uint64_t errors_at_last_radial_ = 0;
-    // Since the last piece began; a pattern in the midst of a sweep holds for those to come.
+    // since the last piece began; a pattern within a sweep applies to later sweeps
     FragmentMarks marks_;
 };
 

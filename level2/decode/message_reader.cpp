@@ -13,19 +13,19 @@
 namespace stormcellar::level2 {
 namespace {
 
-// A radial's size has 16 bits and counts halfwords. Message 29 has been seen nowhere; its size has
-// 32 bits.
+// The size of a radial has 16 bits and counts halfwords. Message 29, whose size has 32 bits, has
+// never been seen.
 constexpr std::size_t longest_radial_bytes = std::size_t{1} << 18;
 constexpr std::size_t longest_message_bytes = std::size_t{1} << 22;
-// The length of a radial without its compression has 16 bits.
+// The length of an uncompressed radial has 16 bits.
 constexpr std::size_t longest_expanded_bytes = std::size_t{1} << 16;
 
-// Whether what stands behind a message leaves no doubt that the message ends there: another one, a
+// Returns true if what follows a message proves that the message ends there: another message, a
 // fill frame, a further volume header, or the end.
 bool surely_follows(std::span<const std::byte> next, bool last, bool after_radial) {
     if (next.size() < message_header_bytes) return last && all_zero(next);
     if (read_archive_header(next)) return true;
-    // Zeros after a radial are more likely its neighbour's gates below threshold than a frame.
+    // Zeros after a radial are more likely its neighbor's gates below threshold than a frame.
     if (all_zero(next.first(message_header_bytes))) return !after_radial;
     return is_surely_message(next);
 }
@@ -34,16 +34,16 @@ bool is_radial(const MessageHeader& header) {
     return header.type == 1 || header.type == 31;
 }
 
-// Whether what stands behind a message can be what follows it, seen that no message begins inside
-// it: as above, or a radial whatever is odd about it, or zeros.
+// Returns true if this can follow a message inside which no other message begins: as above, or a
+// radial however odd, or zeros.
 bool plausibly_follows(std::span<const std::byte> next, bool last) {
     if (next.size() < message_header_bytes) return last && all_zero(next);
     if (all_zero(next.first(message_header_bytes)) || read_archive_header(next)) return true;
     return is_surely_message(next) || places_its_gates(read_message_header(next), next);
 }
 
-// Whether these bytes can be a message's header though a field of it is impossible. What follows
-// the message must bear it out.
+// Returns true if these bytes can be the header of a message although one of its fields is
+// impossible. What follows the message must confirm it.
 bool may_be_odd(const MessageHeader& header, std::span<const std::byte> bytes) {
     if (is_radial(header)) return places_its_gates(header, bytes);
     return header.type != 0 && !header.has_own_length() && is_known_message_type(header.type) &&
@@ -58,6 +58,8 @@ std::size_t longest(int type) {
 
 }  // namespace
 
+// Reads message by message. At the end of a block no message goes on, so open damage ends there and
+// the next block begins in step.
 std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     std::size_t at = 0;
     while (at < data.size() && !full()) {
@@ -73,6 +75,9 @@ std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     return full() ? data.size() : at;
 }
 
+// Takes one step at the start of `rest`: a volume header, a fill frame, or a message. If none of
+// these can begin here, the reader searches for the next message. It needs enough bytes to decide,
+// and waits for more unless these are the last.
 std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (!last && rest.size() < frame_bytes + sure_message_bytes) return 0;
     if (!in_sync_) return resynchronise(rest, 0, last, "bytes of the message stream are missing");
@@ -113,6 +118,8 @@ std::size_t MessageReader::read_fill(std::span<const std::byte> rest, bool last)
     return frame.size();
 }
 
+// Reads a message whose header looks possible. The question is whether the message really ends
+// where its header says.
 std::size_t MessageReader::read_message(const MessageHeader& header,
                                         std::span<const std::byte> rest, bool last) {
     const std::size_t length = header.length_bytes();
@@ -124,11 +131,13 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
     }
     if (!last && rest.size() < length + sure_message_bytes) return 0;
     const auto message = rest.first(length);
+    // A firm message is a radial that agrees with its length, followed by a sure successor. Nearly
+    // all messages are firm, and nothing more is checked.
     const bool firm = is_firm_radial(header, message) &&
                       surely_follows(rest.subspan(length), last, is_radial(header));
     if (!firm) {
         // A message that begins inside this one shows that this one has lost bytes, or that its
-        // header is none.
+        // header is not a header.
         const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
         const auto next = find_message(search, message_header_bytes);
         if (next && *next < length) {
@@ -140,6 +149,9 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             return resynchronise(rest, *next, last, {});
         }
     }
+    // The message lost nothing, since no other begins inside it. It is framed if what follows is at
+    // least plausible. An unframed message must at least have a plausible header; its content is
+    // then read more strictly.
     const bool framed = firm || ((!is_radial(header) || places_its_gates(header, message)) &&
                                  plausibly_follows(rest.subspan(length), last));
     if (!framed && !is_plausible(header)) {
@@ -161,7 +173,7 @@ std::size_t MessageReader::resynchronise(std::span<const std::byte> rest, std::s
         in_sync_ = true;
     } else {
         in_sync_ = false;
-        // A message may begin in the last bytes; they are looked at again with what follows.
+        // A message may begin in the last bytes, so they are read again with what follows.
         if (!last) dropped -= std::min(rest.size(), sure_message_bytes);
     }
     open_damage_->bytes += dropped;
@@ -187,6 +199,7 @@ void MessageReader::close_damage() {
     open_damage_.reset();
 }
 
+// Reads the content of a message by its type.
 void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message,
                          Framing framing, bool firm) {
     if (is_radial(header)) {
@@ -204,7 +217,7 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         return;
     }
     ++builder_.report_data().message_counts[header.type];
-    // What stands behind its own length only fills the frame.
+    // Whatever follows its own length only fills the frame.
     const std::size_t own_bytes = terminal_manager_bytes + std::size_t{2} * header.size_halfwords;
     const auto body =
         message.first(std::min(message.size(), own_bytes)).subspan(message_header_bytes);
@@ -236,7 +249,7 @@ std::optional<std::span<const std::byte>> MessageReader::expand(std::span<const 
                                                                 std::vector<std::byte>& store) {
     const auto body = message.subspan(message_header_bytes);
     auto whole = expand_message_31(body);
-    // What is damaged took time, too.
+    // Damaged data took time, too.
     if (!builder_.add_expanded(whole ? whole->size() : longest_expanded_bytes)) {
         failure_ = Fragment::Failure::too_much_output;
         return std::nullopt;
@@ -270,6 +283,8 @@ void MessageReader::note_oddities(const MessageHeader& header, std::span<const s
         builder_.report().refuse("lost_moment", lost.reason, offset_, lost.bytes);
 }
 
+// Reads a radial: expands it if it is compressed, reads its blocks, notes what is odd about it, and
+// hands it to the builder.
 void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message,
                                 Framing framing, bool firm) {
     auto body = message.subspan(message_header_bytes);
@@ -281,7 +296,7 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     const int compression = is_31 ? message_31_compression(body) : 0;
     std::vector<std::byte> expanded;
     if (compression != 0) {
-        // It may also not be compressed though it says so.
+        // The radial may also not be compressed although it says so.
         const bool is_plain = framing == Framing::proven && read_message_31(body).has_value();
         if (is_plain) {
             builder_.report().oddity(Severity::note, "odd_radials",

@@ -1,10 +1,12 @@
 // level2/decode/message_reader.h -- walks a stream of messages and keeps what is whole.
 //
-// A message counts only when the next one begins where it ends (or the data end there). Where that
-// fails the reader searches for the next place at which a message surely begins; if that lies
-// inside the message before, bytes of it are lost, and it is dropped too: never half a radial.
-// Where it holds, a radial is kept whatever is odd about it, but for what makes its gates
-// unreadable (docs/level2.md has the table): strictness is for searching after damage.
+// A message counts only if the next one begins where it ends, or the data end there. Otherwise the
+// reader searches for the next place at which a message surely begins. If that place lies inside
+// the message before, this message has lost bytes and is dropped too, so that no half radial is
+// kept. If the next message does begin there, a radial is kept however odd it is, unless its gates
+// cannot be read (docs/level2.md has the table). The strict rules are for searching after damage.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -24,39 +26,40 @@ class MessageReader {
   public:
     explicit MessageReader(FragmentBuilder& builder) : builder_(builder) {}
 
-    // Reads messages from the start of `data`, which goes on from where the last call stopped, and
-    // says how many bytes are done with. With `last`, `data` are a block's last bytes (messages do
-    // not go over the end of an LDM record): all of it is then done with.
+    // Reads messages from the start of `data`, which continues where the last call stopped, and
+    // returns how many bytes were consumed. `last` means that `data` holds the last bytes of a
+    // block; all of it is then consumed, because messages do not cross the end of an LDM record.
     std::size_t read(std::span<const std::byte> data, bool last);
 
-    // Bytes of the stream are missing here: search before anything else is believed.
+    // Tells the reader that bytes of the stream are missing here, so it must search before it
+    // believes anything.
     void lose_sync() { in_sync_ = false; }
 
-    // Where the next byte stands in the message stream (24-byte headers inside it included),
-    // counted from where the builder's fragment begins.
+    // Returns the place of the next byte in the message stream, including 24-byte headers inside
+    // it, counted from the beginning of the builder's fragment.
     [[nodiscard]] std::uint64_t offset() const { return offset_; }
-    // The fragment up to here, which no damage reaches beyond: none while damage is open. Offsets
-    // count from here afterwards.
+    // Returns the fragment up to here, or none while damage is still open, since it might continue.
+    // After this, offsets count from here.
     [[nodiscard]] std::optional<Fragment> take_fragment();
-    // Why no more is read: the fragment would exceed a limit. Else none.
+    // Returns why the reader stopped, if the fragment would exceed a limit; else none.
     [[nodiscard]] Fragment::Failure failure() const { return failure_; }
 
   private:
-    // Bytes done with; 0 where more are needed to decide.
+    // Returns the bytes consumed; 0 if more are needed to decide.
     std::size_t step(std::span<const std::byte> rest, bool last);
     std::size_t read_fill(std::span<const std::byte> rest, bool last);
     std::size_t read_message(const MessageHeader& header, std::span<const std::byte> rest,
                              bool last);
     std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
                               std::string reason);
-    // `firm`: a radial agrees with its header.
+    // `firm` means that the radial agrees with its header.
     void take(const MessageHeader& header, std::span<const std::byte> message, Framing framing,
               bool firm);
     [[nodiscard]] bool full() const { return failure_ != Fragment::Failure::none; }
     void take_radial(const MessageHeader& header, std::span<const std::byte> message,
                      Framing framing, bool firm);
-    // The message's body, expanded into `store` where it is compressed; none where that fails,
-    // which is in the report then.
+    // Returns the body of the message, expanded into `store` if it is compressed. Returns none if
+    // that fails; the report then says so.
     std::optional<std::span<const std::byte>> expand(std::span<const std::byte> message,
                                                      std::vector<std::byte>& store);
     void refuse_radial(std::string_view reason, std::size_t bytes);
@@ -69,21 +72,21 @@ class MessageReader {
     bool in_sync_ = true;
     Fragment::Failure failure_ = Fragment::Failure::none;
     struct OpenDamage {
-        std::uint64_t offset = 0;    // of the first byte dropped
-        std::uint64_t found_at = 0;  // where a message was due and none was
+        std::uint64_t offset = 0;    // of the first dropped byte
+        std::uint64_t found_at = 0;  // where a message was due and none was found
         std::uint64_t bytes = 0;
         std::string reason;
     };
     std::optional<OpenDamage> open_damage_;
 };
 
-// Feeds a MessageReader from pieces that are cut anywhere. Holds back less than one message.
+// Feeds a MessageReader with pieces of any size. It holds back less than one message.
 class MessageFeed {
   public:
     explicit MessageFeed(MessageReader& reader) : reader_(reader) {}
 
     void append(std::span<const std::byte> bytes);
-    void end();  // what was held back is the last of a block
+    void end();  // the bytes held back are the last of a block
 
   private:
     MessageReader& reader_;

@@ -18,7 +18,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{256} << 10;
-// A record that holds far more than a live volume's is a file of its own.
+// A record that holds far more than that of a live volume is a file of its own.
 constexpr std::size_t rows_of_a_sweep = 720;
 constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
 
@@ -44,6 +44,9 @@ double thread_cpu_s() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// Decompresses a record in pieces and reads its messages as they come. The buffer holds only what
+// the reader has not consumed yet. If the stream proves damaged, everything is given up;
+// read_blocks() then reads it again.
 std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom& room,
                                                  Damage& damage) {
     const bool large = part.bytes.size() > large_record_bytes;
@@ -90,7 +93,7 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
     return fragment;
 }
 
-// A record that is damaged: its blocks have checksums of their own.
+// Reads a damaged record block by block, because each block has its own checksum.
 Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, const Damage& damage) {
     FragmentBuilder builder{room, rows_of_a_record, selection_};
     MessageReader reader{builder};

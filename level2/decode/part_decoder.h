@@ -1,10 +1,12 @@
-// level2/decode/part_decoder.h -- an LDM record, or what stands between two, -> Fragment.
+// level2/decode/part_decoder.h -- makes a Fragment from an LDM record, or from what is between two
+// records.
 //
-// A record is decompressed and read in small pieces, so its messages are never held whole. Where
-// its checksum then proves wrong, all of that is thrown away and the record is read again block by
-// block, keeping the blocks that are whole. A block is held whole, and there may be much in it, so
-// all room is asked for first.
-// Thread contract: one thread at a time; a decoder for each thread.
+// A record is decompressed and read in small pieces, so its messages are never held whole. If its
+// checksum then proves wrong, all of that is thrown away, and the record is read again block by
+// block, keeping the whole blocks. A block is held whole and may be large, so all room is requested
+// first.
+//
+// Threads   One thread at a time; each thread has its own decoder.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +28,8 @@ class PartDecoder {
     PartDecoder(std::uint64_t output_limit_bytes, const Selection& selection)
         : limit_bytes_(output_limit_bytes), selection_(selection) {}
 
-    // The fragment's arrays stay in the room. Never throws for want of memory: the fragment says
-    // so.
+    // Decodes a part. The arrays of the fragment stay within the room. A lack of memory is not
+    // thrown; the fragment says so.
     [[nodiscard]] Fragment decode(const LdmPart& part, ArrayRoom room);
     [[nodiscard]] Fragment decode(const LdmPart& part) {
         return decode(part, ArrayRoom{limit_bytes_});
@@ -40,7 +42,7 @@ class PartDecoder {
         bool is_cut = false;             // the end is missing
         std::uint64_t wasted_bytes = 0;  // see BzipBlocks::Block
     };
-    // None where the record is damaged.
+    // Returns none if the record is damaged.
     [[nodiscard]] std::optional<Fragment> read_record(const LdmPart& part, ArrayRoom& room,
                                                       Damage& damage);
     [[nodiscard]] Fragment read_blocks(const LdmPart& part, ArrayRoom& room, const Damage& damage);
@@ -51,7 +53,7 @@ class PartDecoder {
     bunzip::Workspace workspace_;
 };
 
-// CPU time of the calling thread.
+// Returns the CPU time of the calling thread.
 [[nodiscard]] double thread_cpu_s();
 
 }  // namespace stormcellar::level2

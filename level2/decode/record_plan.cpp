@@ -9,7 +9,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr int radials_per_record = 120;
-// ICD 2620002 table XI: bit 0 of a cut's super resolution control.
+// ICD 2620002 table XI: bit 0 of the cut's super resolution control.
 constexpr unsigned half_degree_azimuth = 1;
 constexpr std::uint64_t most_metadata_bytes = std::uint64_t{16} << 20;
 
@@ -30,14 +30,14 @@ std::optional<Vcp> pattern_in(const LdmPart& part) {
     const Selection everything;
     PartDecoder decoder{most_metadata_bytes, everything};
     const Fragment fragment = decoder.decode(part);
-    // Radials among the metadata: an order of records that is not known.
+    // Radials among the metadata: the order of records is not known.
     if (!fragment.pieces.empty() || fragment.behind.patterns.empty()) return std::nullopt;
     return fragment.behind.patterns.front();
 }
 
 }  // namespace
 
-// The records that a whole volume has: at most 51 cuts fit into the pattern's frame.
+// Returns the records that a whole volume has. At most 51 cuts fit into the frame of the pattern.
 std::vector<RecordPlan::Record> RecordPlan::expected(const Vcp& pattern,
                                                      const Selection& selection) {
     std::vector<Record> records(1);
@@ -69,12 +69,12 @@ std::optional<RecordPlan> RecordPlan::make(std::span<const std::byte> bytes,
     if (count < 2) return std::nullopt;
     plan.records_.resize(count);
     plan.want_witnesses();
-    plan.records_[1].wanted = true;      // the volume's block is that of the first radial
+    plan.records_[1].wanted = true;      // the first radial has the volume block
     plan.records_.back().wanted = true;  // shows whether the volume has ended
     return plan;
 }
 
-// The records on either side of wanted cuts show that these are all there.
+// The records on either side of the wanted cuts prove that these cuts are complete.
 void RecordPlan::want_witnesses() {
     std::vector<std::size_t> witnesses;
     for (std::size_t i = 1; i < records_.size(); ++i) {
@@ -101,8 +101,8 @@ bool RecordPlan::agrees(const Fragment& fragment) {
     if (fragment.failure != Fragment::Failure::none) return true;  // an error, whatever the plan
     if (record.cut == 0) return fragment.pieces.empty();
     if (fragment.pieces.size() != 1 || fragment.report.bytes_dropped != 0) return false;
-    // A whole decode takes the block, and the station with it, from where they first come; it has
-    // the VCP from the pattern.
+    // A whole decode takes the volume block, and with it the station, from where they come first;
+    // the pattern gives the VCP.
     if (at == 1 && !fragment.block) return false;
     const Fragment::Piece& piece = fragment.pieces.front();
     const bool is_first = begins_sweep(piece.sweep.radials.front());
@@ -112,7 +112,7 @@ bool RecordPlan::agrees(const Fragment& fragment) {
 }
 
 void RecordPlan::report(DecodeReport& report) const {
-    std::set<int> counted;  // a record of theirs was decoded, and the cut counted with it
+    std::set<int> counted;  // cuts that were counted because one of their records was decoded
     for (const Record& record : records_) {
         if (record.wanted) counted.insert(record.cut);
     }

@@ -1,20 +1,20 @@
-// level2/decode/record_plan.h -- which LDM records hold the cuts that are asked for, told from the
-// VCP.
+// level2/decode/record_plan.h -- finds the LDM records of the selected cuts from the VCP, so that
+// other records are skipped.
 //
-// The volume's pattern (message 5 in the first record) gives the cuts and how many radials each
-// has, and a record holds up to 120 radials of one cut. So the place of each cut's records is known
-// before they are decompressed, and those of other cuts are skipped. What is decoded must agree
-// with the plan, the first and the last record of each cut by their radials' status, and so must
-// the records on either side of a wanted cut. Where something does not agree (lost, repeated or
-// longer records, restarted cuts, several volumes, metadata beside radials that are decoded), the
-// plan is void. Limit   what is in a skipped record is not seen. Metadata there: a message 5 would
-// give later
-//         sweeps another vcp_elevation_deg, a message 2 the report another status; the RDA sends
-//         the pattern in the first record only. And cuts that are not wanted may be others than the
-//         plan has, where as many of their records came twice as were lost; sweeps_left_out is the
-//         plan's.
-// Memory  as many records as the pattern has, some hundreds.
-// Thread contract: next() and agrees() from different threads, each from one at a time.
+// The pattern of the volume (message 5 in the first record) gives the cuts and the number of
+// radials of each, and a record holds up to 120 radials of one cut. So the place of each cut's
+// records is known before they are decompressed. The decoded records must agree with the plan: the
+// first and the last record of each cut by the status of their radials, and also the records on
+// either side of a wanted cut. If something does not agree (lost, repeated or longer records,
+// restarted cuts, several volumes, metadata beside decoded radials), the plan is void.
+//
+// Limits    The content of a skipped record is not seen. If there were metadata, a message 5 would
+//           give later sweeps another vcp_elevation_deg, and a message 2 would give the report
+//           another status; but the RDA sends the pattern in the first record only. Also, the
+//           skipped cuts may be others than in the plan if as many of their records came twice as
+//           were lost; sweeps_left_out is the plan's number.
+// Memory    As many records as the pattern has, some hundreds.
+// Threads   next() and agrees() may be called by different threads, each by one at a time.
 #pragma once
 
 #include <cstddef>
@@ -32,16 +32,17 @@ namespace stormcellar::level2 {
 
 class RecordPlan {
   public:
-    // None where the pattern is not known, there is more than records, or more records than the
-    // pattern has. `bytes` (behind the 24-byte header) must outlive the plan.
+    // Makes a plan. Returns none if the pattern is not known, if there is anything other than
+    // records, or if there are more records than the pattern has. `bytes`, which begin after the
+    // 24-byte header, must outlive the plan.
     [[nodiscard]] static std::optional<RecordPlan> make(std::span<const std::byte> bytes,
                                                         const Selection& selection);
 
-    // The records to be decoded, in their order.
+    // Returns the records to decode, in order.
     [[nodiscard]] std::optional<LdmPart> next();
-    // Whether the fragment of the next record, in the same order, is what the plan expects.
+    // Returns true if the fragment of the next record, in the same order, is what the plan expects.
     [[nodiscard]] bool agrees(const Fragment& fragment);
-    // Adds what was skipped.
+    // Adds to the report what was skipped.
     void report(DecodeReport& report) const;
 
   private:

@@ -26,9 +26,9 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
         for (int i = 1; i < threads; ++i)
             workers_.emplace_back(&RecordQueue::run, this);
     } catch (const std::system_error&) {
-        // The system has no more threads: those there are do the work.
+        // The system has no more threads, so those that exist do the work.
     } catch (const std::bad_alloc&) {
-        // The same.
+        // likewise
     }
 }
 
@@ -42,6 +42,7 @@ RecordQueue::~RecordQueue() {
         worker.join();
 }
 
+// Fills all free slots of the ring with the next parts.
 void RecordQueue::fill() {
     while (used_ < slots_.size() && !source_ended_) {
         std::optional<LdmPart> part = source_();
@@ -61,10 +62,13 @@ bool RecordQueue::has_turn(const Slot& slot) const {
     return turn_bytes_ && &slot == &slots_[head_];
 }
 
+// Returns the first slot that waits for work. A slot that outgrew its share, or any slot once the
+// caller decodes alone, is left to the caller when it is at the head.
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
-        if (slot.state != State::waiting) continue;  // who works on it may say that it is large
+        // the thread that works on it may find that it is large
+        if (slot.state != State::waiting) continue;
         const bool is_head = who == Who::caller && has_turn(slot);
         if (is_head || !(slot.large || alone_)) return &slot;
     }
@@ -77,19 +81,21 @@ std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
     return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
 }
 
-// The functions hold two pointers, so that none of them takes memory.
+// Each function holds two pointers, so that none of them allocates memory.
 ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
     if (has_turn(slot)) return ArrayRoom{*turn_bytes_};
     if (who == Who::worker && may_wait_) {
         return ArrayRoom{share_bytes_, [this, &slot] { return wait_for_turn(slot); }};
     }
-    // The caller never waits, since it is the one who takes the head.
+    // The caller never waits, because the caller is the one who takes the head.
     return ArrayRoom{share_bytes_, [&slot] {
                          slot.large = true;
                          return std::uint64_t{0};
                      }};
 }
 
+// Decodes the part of a slot without holding the mutex. A slot that outgrew its share goes back to
+// waiting, without its fragment.
 void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
                        std::unique_lock<std::mutex>& lock) {
     slot.state = State::working;
@@ -116,13 +122,17 @@ void RecordQueue::run() {
     }
 }
 
-// With the room that there is, and not with that of one decoded ahead.
+// Decodes the head with all the room that there is, and not with the share of a record that is
+// decoded ahead.
 void RecordQueue::decode_alone(Slot& head, std::unique_lock<std::mutex>& lock) {
     changed_.wait(lock, [&] { return head.state != State::working; });
     head.fragment = {};
     work(head, own_decoder_, Who::caller, lock);
 }
 
+// Hands out the head of the ring. If it is not ready, the caller decodes too: the head, or any
+// other part that waits. When less room is left than a share, parts that were decoded ahead might
+// not fit, so from then on the caller decodes everything alone.
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     std::unique_lock lock{mutex_};
     if (used_ == 0) return std::nullopt;

@@ -1,12 +1,15 @@
-// level2/decode/record_queue.h -- LDM records decoded ahead by threads, handed out in order.
+// level2/decode/record_queue.h -- decodes LDM records ahead with several threads, and hands them
+// out in order.
 //
-// The caller of next() decodes too, so `threads` counts it. At most two fragments a thread are
-// held, and each is small: one that outgrows its share waits until it is the next to be handed out,
-// or, with more than a few threads, is decoded anew by the caller then, since the C library keeps
-// for each thread what it has freed.
-// What comes out does not depend on the number of threads: where less is left than a share, nothing
-// is decoded ahead any more, and what was is thrown away.
-// Thread contract: next() from one thread.
+// The caller of next() decodes too, so `threads` includes it. At most two fragments for each thread
+// are held, and each is small. One that outgrows its share waits until it is the next to be handed
+// out. With more than a few threads it is instead decoded anew by the caller at that time, because
+// the C library keeps freed memory for each thread.
+//
+// The output does not depend on the number of threads: when less room is left than a share, nothing
+// is decoded ahead any more, and what was decoded ahead is thrown away.
+//
+// Threads   next() may be called by one thread.
 #pragma once
 
 #include <condition_variable>
@@ -26,24 +29,26 @@ namespace stormcellar::level2 {
 
 class RecordQueue {
   public:
-    // Gives the parts, in their order, none after the last. Called by one thread at a time.
+    // Returns the parts in order, and none after the last one. It is called by one thread at a
+    // time.
     using Source = std::function<std::optional<LdmPart>()>;
 
-    // What the parts point to and the selection must outlive the queue.
+    // The data of the parts and the selection must outlive the queue.
     RecordQueue(Source source, int threads, std::uint64_t output_limit_bytes,
                 const Selection& selection);
     RecordQueue(const RecordQueue&) = delete;
     RecordQueue& operator=(const RecordQueue&) = delete;
     ~RecordQueue();
 
-    // None after the last. `limit_bytes`: what the fragment may take; it never grows.
+    // Returns the next fragment, or none after the last one. The fragment may take `limit_bytes`;
+    // this limit never grows.
     [[nodiscard]] std::optional<Fragment> next(std::uint64_t limit_bytes);
 
     // A volume has some sixty records.
     static constexpr int most_threads = 32;
     static constexpr int most_waiting_threads = 4;
-    // Of each fragment that is decoded ahead. Records of a live volume take 1 MB, the largest seen,
-    // of whole sweeps, 5.
+    // The share of each fragment that is decoded ahead. Records of a live volume take 1 MB; the
+    // largest seen, of whole sweeps, take 5.
     static constexpr std::uint64_t most_share_bytes = std::uint64_t{8} << 20;
     static constexpr std::uint64_t all_shares_bytes = std::uint64_t{128} << 20;
 
@@ -52,11 +57,11 @@ class RecordQueue {
     enum class Who : std::uint8_t { caller, worker };
     struct Slot {
         State state = State::empty;
-        bool large = false;  // outgrew its share: it is decoded again, when its turn has come
+        bool large = false;  // outgrew its share; it is decoded again when its turn has come
         LdmPart part;
         Fragment fragment;
     };
-    // All but run() and wait_for_turn() under mutex_.
+    // All but run() and wait_for_turn() are called under mutex_.
     void fill();
     [[nodiscard]] Slot* first_waiting(Who who);
     [[nodiscard]] bool has_turn(const Slot& slot) const;
@@ -69,17 +74,18 @@ class RecordQueue {
     std::uint64_t limit_bytes_;
     const Selection& selection_;
     PartDecoder own_decoder_;
-    std::mutex mutex_;  // guards all below
+    std::mutex mutex_;  // guards everything below
     std::condition_variable changed_;
     Source source_;
     std::vector<Slot> slots_;  // a ring
     std::uint64_t share_bytes_;
-    bool may_wait_;         // workers with what outgrows its share
-    bool alone_ = false;    // the caller decodes all
+    bool may_wait_;         // threads wait with a fragment that outgrows its share
+    bool alone_ = false;    // the caller decodes everything
     std::size_t head_ = 0;  // the slot that is handed out next
     std::size_t used_ = 0;
     bool source_ended_ = false;
-    // The caller waits for the head slot, which may take so much. Before, it holds the last one.
+    // The caller waits for the head slot, which may take this much. Until then the caller holds the
+    // last fragment.
     std::optional<std::uint64_t> turn_bytes_;
     bool stopping_ = false;
     std::vector<std::thread> workers_;

@@ -1,5 +1,6 @@
-// level2/decode/report_writer.h -- fills in a DecodeReport, and keeps it small whatever the input
-// is.
+// level2/decode/report_writer.h -- fills in a DecodeReport, and keeps it small whatever the input.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +16,26 @@ class ReportWriter {
   public:
     explicit ReportWriter(DecodeReport& report) : report_(report) {}
 
-    // Beyond DecodeReport::max_problems the last of the least severity are counted only.
+    // Adds a problem. Beyond DecodeReport::max_problems, the last of the least severe problems are
+    // only counted.
     void add(Problem problem);
     void add(Severity severity, std::string_view code, std::string message,
              std::optional<std::uint64_t> offset = std::nullopt);
-    // Bytes that hold nothing usable: an error, and the stream's corruption if it is the first.
-    // `stream_offset` is into the message stream; `found_at`, where it differs, the place at which
-    // the damage showed.
+    // Reports bytes that hold nothing usable. This is an error; the first such error is the
+    // stream's corruption. `stream_offset` counts in the message stream; `found_at`, if it differs,
+    // is the place at which the damage showed.
     void damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
                 std::uint64_t dropped, std::optional<std::uint64_t> found_at = std::nullopt);
-    // Something that is odd about a message, of which nothing is lost for it: each kind is one
-    // problem, with a count.
+    // Reports something odd about a message that costs no data. Each kind is one problem with a
+    // count.
     void oddity(Severity severity, std::string_view code, std::string_view message,
                 std::uint64_t stream_offset);
-    // As damage(), of a message or a part of one, for a reason that many may have: each is one
-    // problem, with a count.
+    // Does what damage() does for a message, or a part of one, for a reason that many messages may
+    // share. Each reason is one problem with a count.
     void refuse(std::string_view code, std::string_view reason, std::uint64_t stream_offset,
                 std::uint64_t dropped);
-    // The report of what follows in the stream: counts are added, offsets and record numbers go on.
+    // Appends the report of what follows in the stream: counts are added, and offsets and record
+    // numbers continue.
     void append(DecodeReport next);
     // Says how many problems are not listed.
     void finish();

@@ -6,20 +6,21 @@
 namespace stormcellar::level2 {
 namespace {
 
-// One of the volumes: its sweeps, and what the report says of it.
+// One of the volumes: its sweeps, and what the report says about it.
 struct Share {
     std::size_t begin = 0;
     std::size_t end = 0;
-    // Its place in further_volume_starts; none for the first volume.
+    // index in further_volume_starts; none for the first volume
     std::optional<std::size_t> start;
 };
 
-// Volumes that have sweeps; of those that begin at the same one only the last has any.
+// Returns the volumes that have sweeps. Of those that begin at the same sweep, only the last has
+// any.
 std::vector<Share> shares_of(const DecodeReport& report, std::size_t sweeps) {
     std::vector<Share> shares(1);
     const std::vector<std::size_t>& starts = report.further_volume_starts;
     for (std::size_t i = 0; i < starts.size() && starts[i] < sweeps; ++i) {
-        if (starts[i] < shares.back().begin) continue;  // of no decoder's report
+        if (starts[i] < shares.back().begin) continue;  // no decoder makes such a report
         if (starts[i] > shares.back().begin) {
             shares.back().end = starts[i];
             shares.emplace_back();
@@ -30,7 +31,7 @@ std::vector<Share> shares_of(const DecodeReport& report, std::size_t sweeps) {
     return shares;
 }
 
-// The header of the volume that begins with this sweep.
+// Returns the header of the volume that begins with this sweep.
 std::optional<VolumeHeader> header_of(const DecodeReport& report, const Volume& whole,
                                       const Share& share) {
     if (!share.start) return whole.header;

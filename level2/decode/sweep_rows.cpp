@@ -19,8 +19,8 @@ void with_codes(SweepMoment& moment, Function function) {
     }
 }
 
-// What is larger than any known sweep grows by a quarter and not by as much again: many such sweeps
-// may be open at once.
+// An array that is larger than any known sweep grows by a quarter instead of doubling, because many
+// such sweeps may be open at once.
 template <class Code>
 void make_room(std::vector<Code>& codes, std::size_t more) {
     const std::size_t wanted = codes.size() + more;
@@ -42,7 +42,7 @@ void append_rows(std::vector<Code>& codes, std::size_t stride, const std::vector
     }
 }
 
-// Gives back what was reserved and is not in use.
+// Frees what was reserved and is not in use.
 void release_unused(SweepMoment& moment) {
     const auto largest = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
     if (largest < moment.gate_stride) set_stride(moment, largest);

@@ -1,7 +1,9 @@
 // level2/decode/sweep_rows.h -- the arrays of a SweepMoment as they grow, row by row.
 //
-// Rows of a moment that are fewer than its sweep's radials stand for radials that lack it; pad()
-// makes them. Codes beyond a row's gates are 0.
+// If a moment has fewer rows than its sweep has radials, the missing rows stand for radials that
+// lack the moment; pad() makes them. Codes beyond the gates of a row are 0.
+//
+// Threads   Plain functions; one thread at a time for each moment.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +14,12 @@
 
 namespace stormcellar::level2::rows {
 
-// Rows of one kind can stand in one array: the same moment, gates, word size, scale and offset.
+// Returns true if the rows of both can be in one array: same moment, gates, word size, scale and
+// offset.
 [[nodiscard]] bool same_kind(const SweepMoment& moment, const MomentBlock& block);
 [[nodiscard]] bool same_kind(const SweepMoment& a, const SweepMoment& b);
 
-// A moment without rows, of the kind of this block or of another moment.
+// Returns a moment without rows, of the kind of this block or of another moment.
 [[nodiscard]] SweepMoment empty_like(const MomentBlock& block);
 [[nodiscard]] SweepMoment empty_like(const SweepMoment& moment);
 
@@ -24,21 +27,21 @@ namespace stormcellar::level2::rows {
 
 // Makes room for rows of the present length, at most 4 MiB.
 void reserve(SweepMoment& moment, std::size_t rows);
-// Gives the rows another length; codes beyond the new length are dropped.
+// Changes the length of rows. Codes beyond the new length are dropped.
 void set_stride(SweepMoment& moment, std::int32_t stride);
-// The length that rows get so that ever longer radials are not copied ever again: `gates`, but a
-// quarter more than now where there are rows.
+// Returns the new length for rows, such that radials that become longer and longer do not cause a
+// copy each time: `gates`, but a quarter more than now if there are rows.
 [[nodiscard]] std::int32_t grown_stride(const SweepMoment& moment, std::int32_t gates);
-// Rows of no gates until there are `rows`.
+// Appends rows without gates until there are `rows`.
 void pad(SweepMoment& moment, std::size_t rows);
-// One row; `block.gates` is at most the stride.
+// Appends one row; `block.gates` is at most the stride.
 void append(SweepMoment& moment, const MomentBlock& block);
-// All rows of another moment of this kind, whose stride is at most this one's.
+// Appends all rows of another moment of this kind, whose stride is at most that of this one.
 void append(SweepMoment& moment, const SweepMoment& from);
-// What arrays larger than reserve() makes them have room for beyond their codes.
+// Returns the room beyond their codes in arrays that are larger than reserve() makes them.
 [[nodiscard]] std::uint64_t idle_bytes(const SweepMoment& moment);
-// A row for every radial in every moment, none longer than the longest; what was reserved and is
-// not in use is given back.
+// Gives every moment a row for every radial, none longer than the longest, and frees what was
+// reserved and is not in use.
 void make_whole(Sweep& sweep);
 
 }  // namespace stormcellar::level2::rows

@@ -14,7 +14,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Rows to make room for, so that arrays of an ordinary sweep are never moved or too large.
+// Rows to make room for, so that the arrays of an ordinary sweep are never moved and never too
+// large.
 constexpr std::size_t radials_half_degree = 720;
 constexpr std::size_t radials_one_degree = 368;
 // A volume has some hundreds.
@@ -86,8 +87,8 @@ void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
     }
 }
 
-// What is known of the pattern of a volume that begins with this piece. An old message 5 counts
-// only as long as the radials name its pattern.
+// Returns what is known about the pattern of a volume that begins with this piece. An old message 5
+// counts only as long as the radials name its pattern.
 DecodeReport::FurtherPattern VolumeBuilder::pattern_of(const Fragment::Piece& piece) {
     if (current_vcp_ && !vcp_is_new_ && piece.vcp != 0 &&
         piece.vcp != current_vcp_->pattern_number) {
@@ -113,7 +114,7 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
     if (!previous_) return false;
     const bool marked = status_of(piece.sweep.radials.front()) == RadialStatus::start_of_volume;
     if (marked || pending_header_) return true;
-    // A pattern's cuts only count upwards, so a lower number is another pass, even where the
+    // The cuts of a pattern only count upward, so a lower number begins another pass, even if the
     // radials that would say so are lost.
     return piece.sweep.elevation_number < previous_->elevation_number ||
            (previous_->ended_volume && piece.sweep.elevation_number == previous_->elevation_number);
@@ -137,6 +138,7 @@ bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
     return true;
 }
 
+// Begins a sweep with what it has in common with the piece, and with the fixed angle of its cut.
 Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
     Sweep& sweep = volume_.sweeps.emplace_back();
     sweep.elevation_number = from.elevation_number;
@@ -174,6 +176,9 @@ bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
     return room_.add_radials(from.radials.size());
 }
 
+// Appends the rows of a piece to the open sweep. Each moment of the piece finds the rows of the
+// same kind, or begins a new kind; rows are widened if the piece has more gates, and padded for
+// radials that lacked the kind.
 void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
     sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());
@@ -194,6 +199,8 @@ void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     }
 }
 
+// Appends a piece: it continues the open sweep or begins a new one, and perhaps a new volume. A
+// piece of a cut that is not selected is only counted.
 bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     if (!note_marks(std::move(piece.before))) return false;
     const bool begins = begins_sweep_here(piece);
@@ -215,7 +222,7 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     Sweep& sweep = begins ? begin_sweep(from) : volume_.sweeps.back();
     if (!make_room_for(sweep, from)) return false;
     if (begins && 2 * from.radials.size() >= expected_radials(from.azimuth_spacing_deg)) {
-        // Nearly all of the sweep already: its arrays are taken as they are.
+        // The piece is nearly the whole sweep, so its arrays are taken over unchanged.
         sweep.radials = std::move(from.radials);
         sweep.moments = std::move(from.moments);
     } else {
@@ -288,9 +295,9 @@ Status VolumeBuilder::hold(std::uint64_t bytes) {
                 array_limit_bytes_);
 }
 
-// False where the arrays exceed their limit.
+// Returns false if the arrays exceed their limit.
 bool VolumeBuilder::append_all(Fragment& fragment) {
-    // What a fragment takes is never more than what the volume takes for it.
+    // A fragment never takes more than the volume takes for it.
     if (fragment.array_bytes > arrays_left()) return false;
     for (Fragment::Piece& piece : fragment.pieces) {
         if (!append_piece(std::move(piece))) return false;
@@ -299,7 +306,7 @@ bool VolumeBuilder::append_all(Fragment& fragment) {
     return note_marks(std::move(fragment.behind));
 }
 
-// What stands behind a volume's last radial takes nothing of it.
+// Errors after the last radial of a volume take nothing from it.
 void VolumeBuilder::count_errors(const Fragment& fragment) {
     if (fragment.pieces.empty()) {
         errors_behind_ += fragment.report.errors;
@@ -334,6 +341,8 @@ Status VolumeBuilder::append(Fragment fragment) {
     return {};
 }
 
+// Checks whether anything is whole, settles the station, and lets check_volume() find what is
+// missing.
 Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     const bool last_is_newest = sweep_is_open_;
     end_sweep();

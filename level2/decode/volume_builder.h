@@ -1,10 +1,12 @@
 // level2/decode/volume_builder.h -- joins fragments, in the order of the stream, into a volume.
 //
-// A sweep goes on in the next fragment unless the elevation number or the message type changes, a
-// radial has status 0, 3 or 5, or a 24-byte header lies between.
-// Limits: neither the decompressed bytes nor the arrays come to more than the limits given:
-// append() gives unsupported then, and the builder is not to be used any more. Nor do the arrays of
-// a sweep come to more than most_sweep_bytes. Thread contract: one thread at a time.
+// A sweep continues in the next fragment unless the elevation number or the message type changes, a
+// radial has status 0, 3 or 5, or there is a 24-byte header in between.
+//
+// Limits    Neither the decompressed bytes nor the arrays exceed the given limits: append() then
+//           returns unsupported, and the builder must not be used any more. The arrays of one sweep
+//           do not exceed most_sweep_bytes.
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -21,35 +23,37 @@
 
 namespace stormcellar::level2 {
 
-// Messages are read, and their radials handed on, so many bytes at a time: little of them is held.
+// Messages are read, and their radials handed on, in stretches of this size, so that few of them
+// are held.
 inline constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
-inline constexpr std::size_t rows_of_a_stretch = 128;  // radials that room is made for
+inline constexpr std::size_t rows_of_a_stretch = 128;  // radials for which room is made
 
-// Whether a piece goes on with the sweep of the one before it, where no header lies between.
+// Returns true if a piece continues the sweep of the piece before it, provided that no header is
+// between them.
 [[nodiscard]] bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece);
 
 class VolumeBuilder {
   public:
     explicit VolumeBuilder(std::uint64_t limit_bytes) : VolumeBuilder(limit_bytes, limit_bytes) {}
-    // With another limit of the arrays.
+    // The same with a separate limit for the arrays.
     VolumeBuilder(std::uint64_t limit_bytes, std::uint64_t array_limit_bytes)
         : limit_bytes_(limit_bytes),
           array_limit_bytes_(array_limit_bytes),
           room_(array_limit_bytes) {}
 
     [[nodiscard]] Status append(Fragment fragment);
-    // Takes station, position and pattern, and no radials.
+    // Takes station, position and pattern, but no radials.
     void note_facts(const Fragment& fragment);
-    // For bytes that are decompressed before they become a fragment.
+    // Counts bytes that are decompressed before they become a fragment.
     [[nodiscard]] Status count_output(std::uint64_t bytes);
     [[nodiscard]] Status too_much_output() const;
     [[nodiscard]] std::uint64_t output_left() const { return limit_bytes_ - output_bytes_; }
-    // For what is held beside the arrays until the end.
+    // Counts what is held beside the arrays until the end.
     [[nodiscard]] Status hold(std::uint64_t bytes);
-    // What the arrays of the next fragment may take.
+    // Returns what the arrays of the next fragment may take.
     [[nodiscard]] std::uint64_t arrays_left() const { return room_.left_bytes(); }
-    // Of the bytes that a stream of messages or LDM records begins with: what follows the 24-byte
-    // header, if there is one.
+    // Takes the bytes with which a stream of messages or LDM records begins, and returns what
+    // follows the 24-byte header, if there is one.
     [[nodiscard]] std::span<const std::byte> begin_stream(std::span<const std::byte> bytes);
     void set_header(VolumeHeader header) { volume_.header = std::move(header); }
 
@@ -57,37 +61,39 @@ class VolumeBuilder {
     [[nodiscard]] DecodeReport& report_data() { return report_; }
     void set_cut() { cut_ = true; }  // the input ends too early
     [[nodiscard]] bool is_cut() const { return cut_; }
-    // Something of the volume is known to be missing or wrong.
+    // Something in the volume is known to be missing or wrong.
     void set_incomplete() { incomplete_ = true; }
-    // What there is up to now. The last sweep may go on, and its rows may be too few or too long.
+    // Returns the volume up to now. Its last sweep may continue, and may have too few or too long
+    // rows.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
     [[nodiscard]] bool so_far_holds_one() const { return report_.further_volume_starts.empty(); }
-    // A sweep of so_far() with its rows made whole.
+    // Returns a sweep of so_far() with complete rows.
     [[nodiscard]] Sweep whole_sweep(std::size_t index) const;
-    // So many of the sweeps are closed by what follows.
+    // Returns the number of sweeps that are closed by what follows them.
     [[nodiscard]] std::size_t closed_sweeps() const;
-    // Gives up the arrays of a closed sweep that is not the last; another of them must be put back
-    // in its place before finish().
+    // Frees the arrays of a closed sweep that is not the last. An equal sweep must be put back in
+    // its place before finish().
     void drop_sweep(std::size_t index) { volume_.sweeps.at(index) = {}; }
     void put_back(std::size_t index, Sweep sweep) { volume_.sweeps.at(index) = std::move(sweep); }
-    // What the arrays of the sweeps take that were not dropped.
+    // Returns what the arrays of the sweeps take that were not dropped.
     [[nodiscard]] std::uint64_t held_bytes() const;
-    // Of it the sweep that is open.
+    // Returns the part of it that the open sweep takes.
     [[nodiscard]] std::uint64_t open_sweep_bytes() const;
-    // The sweep behind these has had its last radial by its status; more may follow all the same.
+    // Returns true if the sweep after these has had its last radial by its status. More may follow
+    // all the same.
     [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
-    // All but the sweeps.
+    // Returns everything but the sweeps.
     [[nodiscard]] Volume facts(const std::string& fallback_station) const;
     [[nodiscard]] bool volume_has_ended() const { return previous_ && previous_->ended_volume; }
 
-    // Gives up the volume, checked: what it lacks and where it contradicts itself is in the report.
-    // The station is the fallback where the file does not say. Errors: truncated or corrupt where
-    // nothing is whole, neither a radial nor metadata.
+    // Returns the volume with its report, which names what is missing and where it contradicts
+    // itself. The builder is empty afterward. The station is the fallback if the file does not name
+    // it. Errors: truncated or corrupt if nothing is whole, neither a radial nor metadata.
     [[nodiscard]] Result<Decoded> finish(const std::string& fallback_station);
 
   private:
-    // Of the newest piece, also of one that is left out.
+    // Facts of the newest piece, even if it is left out.
     struct Previous {
         int elevation_number = 0;
         int message_type = 0;

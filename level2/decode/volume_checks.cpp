@@ -13,7 +13,7 @@ namespace {
 
 using Sweeps = std::span<const Sweep>;
 
-// Beyond what an ICD allows, 720, and what test radars are known to send.
+// beyond the 720 that an ICD allows, and beyond what test radars are known to send
 constexpr int greatest_azimuth_number = 1000;
 
 void check_position(const Volume& volume, ReportWriter& report) {
@@ -36,11 +36,12 @@ void check_time(const Volume& volume, ReportWriter& report) {
                                  : "impossible, and no radial has a better one"));
 }
 
-// Sweeps that lack radials are named one by one as far as a person reads on.
+// The number of sweeps without all radials that are named one by one, as far as a person would
+// read.
 constexpr int most_named_sweeps = 8;
 
-// Sweeps whose last radials are lost, but for the last sweep, which has a problem of its own.
-// A cut that begins again was given up by the radar.
+// Checks for sweeps whose last radials are lost, except the last sweep, which has a problem of its
+// own. A cut that begins again was given up by the radar.
 bool check_ends(Sweeps all, bool last_is_newest, ReportWriter& report) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -60,7 +61,7 @@ bool check_ends(Sweeps all, bool last_is_newest, ReportWriter& report) {
     return true;
 }
 
-// How many radials are missing.
+// Returns how many radials are missing.
 std::int64_t check_missing(Sweeps all, const std::vector<RadialGaps>& gaps, ReportWriter& report) {
     std::int64_t missing = 0;
     int sweeps = 0;
@@ -85,7 +86,7 @@ std::int64_t check_missing(Sweeps all, const std::vector<RadialGaps>& gaps, Repo
     return missing;
 }
 
-// Volumes inside the file that stop before their end and are followed by another.
+// Checks for volumes inside the file that stop before their end and are followed by another volume.
 bool check_given_up(Sweeps all, const std::vector<std::size_t>& volume_starts,
                     ReportWriter& report) {
     std::vector<std::size_t> numbers;
@@ -106,7 +107,7 @@ bool check_given_up(Sweeps all, const std::vector<std::size_t>& volume_starts,
     return true;
 }
 
-// Sweeps in which the time runs back so far that one of the two cannot be right.
+// Checks for sweeps in which the time runs back so far that one of two times must be wrong.
 void check_clock(Sweeps all, ReportWriter& report) {
     constexpr std::chrono::hours most{1};
     std::size_t sweeps = 0;
@@ -130,7 +131,7 @@ void check_clock(Sweeps all, ReportWriter& report) {
                                 : fmt::format("{} sweeps, first in sweep {}", sweeps, first)));
 }
 
-// Cuts are numbered from 1 and count upwards by one; a volume may end at any of them.
+// Checks that cuts are numbered from 1 and count upward by one. A volume may end at any cut.
 bool check_cuts(Sweeps all, const std::vector<std::size_t>& volume_starts, ReportWriter& report) {
     int gaps = 0;
     int previous = 0;
@@ -172,7 +173,7 @@ void check_repeated(Sweeps all, const std::vector<RadialGaps>& gaps, ReportWrite
                fmt::format("the radials' numbers go back inside {}", where));
 }
 
-// Numbers that no radar gives say nothing of what is missing.
+// Numbers that no radar sends say nothing about what is missing.
 void check_numbers(Sweeps all, ReportWriter& report) {
     std::size_t odd = 0;
     for (const Sweep& sweep : all) {
@@ -218,7 +219,7 @@ RadialGaps gaps_of(const Sweep& sweep) {
 
 bool check_volume(const Volume& volume, const VolumeFacts& facts, ReportWriter report) {
     const bool missing_radials = check_radials(volume.sweeps, facts.last_sweep_is_newest, report);
-    // Where only some cuts were asked for, others are bound to be missing.
+    // If only some cuts were selected, others must be missing.
     const bool missing_cuts =
         facts.all_cuts && check_cuts(volume.sweeps, facts.volume_starts, report);
     const bool given_up =

@@ -1,4 +1,7 @@
-// level2/decode/volume_checks.h -- what a whole volume lacks, and where it contradicts itself.
+// level2/decode/volume_checks.h -- finds what a whole volume lacks, and where it contradicts
+// itself.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +16,27 @@
 
 namespace stormcellar::level2 {
 
-// What a Volume does not say of itself.
+// What a Volume does not say itself.
 struct VolumeFacts {
-    bool has_radials = true;  // also when they are of cuts that were not asked for
-    bool has_ended = true;    // the last radial was marked as the volume's last
-    bool all_cuts = true;     // none was left out because it was not asked for
-    // No radial came after the last sweep, not even one that was not asked for.
+    bool has_radials = true;  // true also if all radials belong to cuts that are not selected
+    bool has_ended = true;    // the last radial was marked as the last of the volume
+    bool all_cuts = true;     // no cut was left out because it is not selected
+    // No radial came after the last sweep, not even one that is not selected.
     bool last_sweep_is_newest = true;
     std::vector<std::size_t> volume_starts = {};  // sweeps at which a further volume begins
     std::optional<RdaStatus> status = {};
 };
 
-// Reports a missing position or one that disagrees with the station table, a header's time that
-// the radials contradict, radials that are missing or come twice, cuts that are missing, a volume
-// without its end, and what the radar itself reports as trouble.
-// True when radials or cuts are missing.
+// Reports a missing position or one that disagrees with the station table, a header whose time the
+// radials contradict, radials that are missing or come twice, missing cuts, a volume without its
+// end, and the faults that the radar reports about itself. Returns true if radials or cuts are
+// missing.
 [[nodiscard]] bool check_volume(const Volume& volume, const VolumeFacts& facts,
                                 ReportWriter report);
 
-// From its first cut to its last radial nothing of this one volume is missing, as far as the
-// radials show; bytes that were dropped without a trace in their numbers are in the report only.
+// Returns true if nothing of this one volume is missing from its first cut to its last radial, as
+// far as the radials show. Bytes that were dropped without a trace in their numbers are only in the
+// report.
 [[nodiscard]] bool is_complete(const Volume& volume);
 [[nodiscard]] bool is_complete(std::span<const Sweep> sweeps);
 
@@ -42,10 +46,10 @@ struct VolumePart {
     std::size_t sweeps = 0;
     bool complete = false;  // nothing of it is missing, and nothing of the file is damaged
 };
-// In the order of the file; at least one.
+// Returns the volumes in the order of the file, at least one.
 [[nodiscard]] std::vector<VolumePart> volumes_in(const Decoded& decoded);
 
-// Radials of a sweep are numbered from 1; 0, and more than 1000, stand for no number.
+// The radials of a sweep are numbered from 1. 0, and numbers above 1000, are no numbers.
 struct RadialGaps {
     std::int64_t missing = 0;
     int first_missing = 0;

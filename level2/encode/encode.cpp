@@ -14,7 +14,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-constexpr int legacy_radials_per_record = 100;  // of builds up to 8 (ICD 2620010A to C)
+constexpr int legacy_radials_per_record = 100;  // for builds up to 8 (ICD 2620010A to C)
 
 UtcTime first_time(const Volume& volume) {
     return volume.start_time().value_or(UtcTime{});
@@ -34,9 +34,9 @@ std::vector<std::byte> encode_header(const Volume& volume) {
     return out.take();
 }
 
-// Messages as one LDM record: the size of its bzip2 stream, then the stream.
+// Compresses messages into one LDM record: the size of its bzip2 stream, then the stream.
 Result<EncodedRecord> compress(std::span<const std::byte> messages, int level) {
-    // The bound that libbz2's manual gives for BZ2_bzBuffToBuffCompress.
+    // This is the bound that libbz2's manual gives for BZ2_bzBuffToBuffCompress.
     const std::size_t bound = messages.size() + messages.size() / 100 + 600;
     if (bound > std::numeric_limits<std::int32_t>::max()) {
         return refuse("a record of {} bytes is too large", messages.size());
@@ -44,7 +44,7 @@ Result<EncodedRecord> compress(std::span<const std::byte> messages, int level) {
     EncodedRecord record;
     record.bytes.resize(4 + bound);
     auto size = static_cast<unsigned int>(bound);
-    // libbz2 takes its input as char* and only reads it.
+    // libbz2 takes its input as char*, but only reads it.
     char* source = const_cast<char*>(reinterpret_cast<const char*>(messages.data()));
     char* target = reinterpret_cast<char*>(record.bytes.data() + 4);
     const int code = BZ2_bzBuffToBuffCompress(
@@ -97,7 +97,7 @@ Status RecordMaker::add_record(EncodedVolume& encoded, std::span<const std::byte
 }
 
 Status RecordMaker::add_metadata(EncodedVolume& encoded) {
-    // Not every date is taken for one; a Volume does not keep that of its metadata.
+    // Not every date is accepted as one, and a Volume does not keep the date of its metadata.
     const bool is_dated = nexrad_from_time(encoded.start).day <= latest_day;
     ByteWriter messages;
     Status written = append_metadata(messages, volume_, is_dated ? encoded.start : UtcTime{}, run_);
@@ -161,7 +161,7 @@ std::vector<std::byte> EncodedVolume::joined() const {
 }
 
 std::vector<EncodedChunk> EncodedVolume::chunks() const {
-    // "2022-03-17T00:08:42Z" without its marks is the first part of a chunk's name.
+    // "2022-03-17T00:08:42Z" without its separators is the first part of a chunk's name.
     std::string digits = format_utc(std::chrono::floor<std::chrono::seconds>(start));
     std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
     const std::string volume = digits.substr(0, 8) + "-" + digits.substr(8, 6);

@@ -8,7 +8,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// The rows are there and as long as they say.
+// Checks that the rows exist and have the stated lengths.
 Status check_rows(const Sweep& sweep, std::size_t index, const SweepMoment& moment) {
     const auto name = moment_name(moment.moment);
     const bool narrow = moment.word_size_bits == 8;
@@ -33,7 +33,8 @@ Status check_rows(const Sweep& sweep, std::size_t index, const SweepMoment& mome
     return {};
 }
 
-// Radials are told apart into sweeps by their status and their elevation number alone.
+// Checks the limits of sweeps. Only the status and the elevation number separate radials into
+// sweeps.
 Status check_limits(const Volume& volume, std::size_t index) {
     const Sweep& sweep = volume.sweeps[index];
     if (sweep.radials.empty()) return refuse("sweep {} has no radials", index);

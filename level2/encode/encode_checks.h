@@ -1,4 +1,7 @@
-// level2/encode/encode_checks.h -- whether a volume can be written at all; internal to the writer.
+// level2/encode/encode_checks.h -- checks whether a volume can be written at all; internal to the
+// writer.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include "stormcellar/base/result.h"
@@ -12,9 +15,9 @@ tl::unexpected<Error> refuse(fmt::format_string<Args...> format, Args&&... args)
                 fmt::format(format, std::forward<Args>(args)...));
 }
 
-// That its arrays hold what they say, its sweeps are told apart by their radials, and message 31
-// gets the station and the block that it must have. What messages do with the numbers is for
-// read_back.h.
+// Checks that the arrays hold what they say, that the radials separate the sweeps, and that message
+// 31 gets the station and the block that it needs. read_back.h checks what messages do with the
+// numbers.
 [[nodiscard]] Status check_encodable(const Volume& volume);
 
 }  // namespace stormcellar::level2

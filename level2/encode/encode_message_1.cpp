@@ -1,4 +1,4 @@
-// Message 1, digital radar data of the first RDA, as the writer makes it (ICD 2620002, table III).
+// Writes message 1, digital radar data of the first RDA (ICD 2620002, table III).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::uint8_t legacy_channel = 0;
-constexpr std::size_t data_at = 100;  // behind the header: the first gate
+constexpr std::size_t data_at = 100;  // of the first gate, after the header
 constexpr std::size_t body_bytes = frame_bytes - message_header_bytes;
 constexpr double code_per_degree = 32768.0 / 180.0;
 
@@ -19,7 +19,7 @@ std::uint16_t angle_code(float angle_deg) {
     return static_cast<std::uint16_t>(static_cast<unsigned long>(code) & 0xFFFFU);
 }
 
-// The moments of one radial, null where it lacks them.
+// The moments of one radial; null if it lacks one.
 struct Gates {
     const SweepMoment* ref = nullptr;
     const SweepMoment* vel = nullptr;
@@ -82,7 +82,7 @@ void append_head(ByteWriter& out, const Volume& volume, const Sweep& sweep, std:
     out.u16(static_cast<std::uint16_t>(count_of(gates.ref, index)));
     out.u16(static_cast<std::uint16_t>(count_of(gates.doppler(), index)));
     out.u16(radial.cut_sector);
-    out.u32(0);  // calibration constant: a Volume does not hold it
+    out.u32(0);  // calibration constant, which a Volume does not hold
     std::size_t pointer = data_at;
     for (const SweepMoment* moment : {gates.ref, gates.vel, gates.sw}) {
         out.u16(static_cast<std::uint16_t>(moment == nullptr ? 0 : pointer));

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t communications_header_bytes = 12;
 constexpr std::size_t frame_body_bytes = 2400;  // 1,208 halfwords with the header
-constexpr std::uint8_t orda_channel = 8;        // single channel, open RDA
-// Stands for a number that the radar does not know, inside a block that it does send.
+constexpr std::uint8_t orda_channel = 8;        // single channel, Open RDA
+// This stands for a number that the radar does not know, inside a block that it does send.
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 std::int16_t to_i16(double number) {
@@ -23,7 +23,7 @@ std::uint16_t to_u16(double number) {
 }
 
 void append_cut(ByteWriter& out, const VcpCut& cut) {
-    // 180 degrees are 2^15 and negative angles wrap round (ICD table III-A).
+    // 180 degrees are 2^15, and negative angles wrap around (ICD table III-A).
     out.u16(static_cast<std::uint16_t>(std::lround(cut.elevation_deg * (32768.0 / 180.0))));
     out.u8(cut.channel_configuration);
     out.u8(cut.waveform);
@@ -34,14 +34,14 @@ void append_cut(ByteWriter& out, const VcpCut& cut) {
     for (const std::int16_t threshold : cut.thresholds_eighth_db) {
         out.i16(threshold);
     }
-    // The supplemental flags stand between the first Doppler sector and the second.
+    // The supplemental flags are between the first Doppler sector and the second.
     const std::span<const std::uint8_t> rest = cut.rest;
     out.raw(rest.first(6));
     out.u16(cut.supplemental);
     out.raw(rest.subspan(6));
 }
 
-// Message 5 or 7, ICD table XI.
+// Writes message 5 or 7, ICD table XI.
 Status append_vcp(ByteWriter& out, const Vcp& vcp, UtcTime time, MessageRun& run) {
     constexpr std::size_t header_bytes = 22;
     constexpr std::size_t cut_bytes = 46;
@@ -75,7 +75,8 @@ Status append_vcp(ByteWriter& out, const Vcp& vcp, UtcTime time, MessageRun& run
     return {};
 }
 
-// The first build that sends such radials, in hundredths (ICD 2620002, tables XVII by build).
+// Returns the first build that sends such radials, in hundredths (ICD 2620002, tables XVII by
+// build).
 std::uint16_t build_of(const Volume& volume) {
     constexpr std::uint16_t build_13 = 1300, build_17 = 1700, build_19 = 1900, build_20 = 2000;
     const auto has_cfp = [](const Sweep& sweep) { return sweep.find(Moment::cfp) != nullptr; };
@@ -85,7 +86,7 @@ std::uint16_t build_of(const Volume& volume) {
     return version == 2 ? build_17 : build_13;
 }
 
-// Message 2, ICD table IV: the radar operates under remote control, is on line, sends
+// Writes message 2, ICD table IV: the radar operates under remote control, is on line, sends
 // reflectivity, velocity and width, and has no alarm. What a Volume does not know (power, maps,
 // corrections) is zero.
 void append_status(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
@@ -115,7 +116,7 @@ void append_status(ByteWriter& out, const Volume& volume, UtcTime time, MessageR
     out.pad_to_multiple_of(frame_bytes);
 }
 
-// The volume data block, ICD table XVII-E.
+// Writes the volume data block, ICD table XVII-E.
 void append_volume_block(ByteWriter& out, const VolumeBlock& block) {
     out.text("RVOL", 4);
     out.u16(block.size_bytes);
@@ -140,7 +141,7 @@ bool has_elevation_block(const Radial& radial) {
            radial.elevation_calibration_db.has_value();
 }
 
-// The elevation data block, ICD table XVII-F.
+// Writes the elevation data block, ICD table XVII-F.
 void append_elevation_block(ByteWriter& out, const Radial& radial) {
     out.text("RELV", 4);
     out.u16(12);
@@ -158,7 +159,7 @@ bool has_radial_block(const Radial& radial) {
            radial.unambiguous_range_m != 0 || radial.radial_flags != 0;
 }
 
-// The radial data block, ICD table XVII-H; 20 bytes in the form without calibration.
+// Writes the radial data block, ICD table XVII-H. It has 20 bytes in the form without calibration.
 void append_radial_block(ByteWriter& out, const Radial& radial) {
     out.text("RRAD", 4);
     out.u16(has_calibration(radial) ? 28 : 20);
@@ -172,11 +173,11 @@ void append_radial_block(ByteWriter& out, const Radial& radial) {
     out.f32(radial.vertical_calibration_dbz.value_or(unknown));
 }
 
-// A moment's data block, ICD table XVII-B.
+// Writes the data block of a moment, ICD table XVII-B.
 void append_moment(ByteWriter& out, const SweepMoment& moment, std::size_t radial) {
     const std::size_t gates = moment.gate_counts[radial];
     const std::size_t row = radial * static_cast<std::size_t>(moment.gate_stride);
-    // "SW" and the like are filled with blanks, as the RDA does it.
+    // Names such as "SW" are filled with blanks, as the RDA does.
     out.text("D", 1);
     std::string name{moment_name(moment.moment)};
     name.resize(3, ' ');
@@ -205,10 +206,10 @@ std::uint8_t azimuth_spacing_code(float spacing_deg) {
     return spacing_deg < 0.75F ? 1 : 2;
 }
 
-// The blocks of one radial and the table of pointers that announces them.
+// Writes the blocks of one radial and the table of pointers to them.
 class BlockTable {
   public:
-    // `start` is where pointers count from; the table stands at the end of what was written.
+    // `start` is where pointers count from. The table is at the end of what was written.
     BlockTable(ByteWriter& out, std::size_t start, std::size_t slots)
         : out_(out), start_(start), next_(out.size()) {
         out_.zeros(4 * slots);
@@ -238,8 +239,8 @@ std::size_t begin_message(ByteWriter& out, std::uint8_t channel, std::uint8_t ty
     out.u16(run.sequence++);
     out.u16(static_cast<std::uint16_t>(stamp.day));
     out.u32(stamp.milliseconds);
-    out.u16(1);  // segments
-    out.u16(1);  // this one's number
+    out.u16(1);  // number of segments
+    out.u16(1);  // number of this segment
     return size_position;
 }
 
@@ -248,7 +249,7 @@ void end_message(ByteWriter& out, std::size_t size_position) {
     out.set_u16(size_position, static_cast<std::uint16_t>(halfwords));
 }
 
-// Builds that send CFP (19 and later) have room for ten pointers, those before for nine.
+// Builds that send CFP (19 and later) have room for ten pointers, earlier ones for nine.
 MessageRun::MessageRun(const Volume& volume) {
     const auto has_cfp = [](const Sweep& sweep) { return sweep.find(Moment::cfp) != nullptr; };
     const bool late = std::any_of(volume.sweeps.begin(), volume.sweeps.end(), has_cfp);
@@ -256,7 +257,7 @@ MessageRun::MessageRun(const Volume& volume) {
 }
 
 Status append_metadata(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
-    // An RDA before the open one has another message 2, of which a Volume knows nothing.
+    // An RDA before the Open RDA has another message 2, about which a Volume knows nothing.
     const bool legacy = !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
     const std::size_t used_frames = (volume.vcp_message ? 1U : 0U) + (legacy ? 0U : 1U);
     out.zeros((metadata_frames - used_frames) * frame_bytes);

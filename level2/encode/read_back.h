@@ -1,11 +1,11 @@
-// level2/encode/read_back.h -- what the decoder makes of a volume as it is written; internal to the
-// writer.
+// level2/encode/read_back.h -- checks what the decoder makes of a volume while it is written;
+// internal to the writer.
 //
-// The decoder's own reader gets the messages of each record before they are compressed, and its
-// volume must be the one that is written, to the bit, within the limits that decode() has if nobody
-// gives it others.
-// Memory: a second copy of the volume.
-// Thread contract: one thread.
+// The decoder's own reader gets the messages of each record before they are compressed. Its volume
+// must equal the one that is written, to the bit, within the default limits of decode().
+//
+// Memory    A second copy of the volume.
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -22,23 +22,23 @@ namespace stormcellar::level2 {
 
 class ReadBack {
   public:
-    // `volume` must outlive it.
+    // `volume` must outlive the object.
     explicit ReadBack(const Volume& volume) : volume_(volume) {}
 
-    // The 24 bytes. Errors: bad_argument where they are not taken for a header, or where the one
-    // that was made for a volume without a header does not give its station.
+    // Reads the 24 bytes. Errors: bad_argument if they are not recognized as a header, or if the
+    // header that was made for a volume without one does not give its station.
     [[nodiscard]] Status read_header(std::span<const std::byte> bytes);
 
-    // Why the decoder does not take all of a record.
+    // Why the decoder does not accept all of a record.
     struct Fault {
-        std::size_t offset = 0;  // in the record's messages
+        std::size_t offset = 0;  // in the messages of the record
         std::string reason;
     };
-    // The messages of the next record; none where they are read without a problem.
+    // Reads the messages of the next record. Returns none if they are read without a problem.
     [[nodiscard]] std::optional<Fault> read_record(std::span<const std::byte> messages);
 
-    // After the last record. Errors: bad_argument where the volume is another, naming the first
-    // difference.
+    // Compares the volumes after the last record. Errors: bad_argument, naming the first
+    // difference, if they differ.
     [[nodiscard]] Status finish();
 
   private:

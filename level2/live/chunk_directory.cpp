@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Found {
-    // By number; where a number comes twice, LiveVolume takes the better one.
+    // By number. If a number comes twice, LiveVolume takes the better chunk.
     std::multimap<int, std::pair<ChunkName, fs::path>> chunks;
     std::set<std::string> volumes;
 };
 
-// A file that its sender has not finished.
+// Returns true for a file that its sender has not finished.
 bool is_temporary(const fs::path& path) {
     const std::string name = path.filename().string();
     return name.starts_with('.') || name.ends_with(".part") || name.ends_with(".tmp") ||
@@ -46,7 +46,7 @@ Result<Found> find_chunks(const fs::path& directory) {
         found.volumes.insert(name->volume);
         found.chunks.emplace(name->number, std::pair{*name, entry->path()});
     }
-    // An error ends the loop too.
+    // The loop also ends at an error.
     if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
     if (found.chunks.empty()) {
         return fail(ErrorCode::not_found,
@@ -90,7 +90,7 @@ Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOp
         if (!added && added.error().code == ErrorCode::exhausted) {
             return fail(ErrorCode::exhausted, "{}: {}", path.string(), added.error().message);
         }
-        // One that is not taken is named by the volume's report.
+        // a chunk that is not accepted is named in the volume's report
     }
     auto decoded = volume.finish();
     if (!decoded) {

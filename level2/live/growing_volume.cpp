@@ -14,13 +14,14 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Enough to tell LDM records and compressed files from the rest, and messages from anything.
+// Enough bytes to tell LDM records and compressed files from other files, and messages from
+// anything.
 constexpr std::size_t decide_container_bytes = archive_header_bytes + 16;
 constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
 // The longest record, and what is appended at once.
 constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
-// So much is looked through where nothing that is known stands at the start.
+// This much is searched if the start holds nothing known.
 constexpr std::size_t most_unknown_bytes = std::size_t{16} << 20;
 constexpr std::size_t kept_bytes = std::size_t{16} << 10;
 
@@ -46,7 +47,7 @@ class GrowingVolume::Reader {
     void drop_sweep(std::size_t index) { volume_.drop_sweep(index); }
     void put_back(std::size_t index, Sweep sweep) { volume_.put_back(index, std::move(sweep)); }
     Result<Decoded> finish();
-    // There is no memory for it.
+    // The system has no more memory for this file.
     Status give_up() { return failed_ = no_memory(); }
 
   private:
@@ -60,9 +61,9 @@ class GrowingVolume::Reader {
 
     DecodeOptions options_;
     Kind kind_ = Kind::undecided;
-    bool is_unknown_ = false;  // held, and nothing that is known stands at the start
+    bool is_unknown_ = false;  // held, and the start holds nothing known
     Status failed_;
-    std::vector<std::byte> held_;  // what is not yet done with
+    std::vector<std::byte> held_;  // bytes that are not consumed yet
     VolumeBuilder volume_{options_.output_limit_bytes, options_.most_array_bytes()};
     LdmStreamFramer framer_;
     bool last_is_negative_ = false;
@@ -70,8 +71,8 @@ class GrowingVolume::Reader {
     FragmentBuilder fragment_{room_, rows_of_a_stretch, options_.selection};
     MessageReader reader_{fragment_};
     MessageFeed feed_{reader_};
-    std::size_t next_sweep_ = 0;      // those before it are closed and handed out
-    std::size_t radials_handed_ = 0;  // of that sweep
+    std::size_t next_sweep_ = 0;      // sweeps below this one are closed and were handed out
+    std::size_t radials_handed_ = 0;  // radials of that sweep
 };
 
 void GrowingVolume::Reader::decide() {
@@ -97,7 +98,7 @@ void GrowingVolume::Reader::decide() {
 }
 
 Status GrowingVolume::Reader::read_records(bool last) {
-    PartDecoder parts{options_.output_limit_bytes, options_.selection};  // with a buffer of its own
+    PartDecoder parts{options_.output_limit_bytes, options_.selection};  // has a buffer of its own
     std::size_t done = 0;
     while (const auto part = framer_.next(std::span{held_}.subspan(done), last)) {
         done += framer_.position() - part->position;
@@ -109,8 +110,9 @@ Status GrowingVolume::Reader::read_records(bool last) {
             return fail(ErrorCode::over_budget, "a sweep takes more than {} bytes", limit);
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
-    // Many volumes grow at once, and each has a record of half a megabyte once a sweep. A record
-    // that is still coming keeps its room: to move it with each stretch takes time by the square.
+    // Many volumes grow at once, and each has a record of half a megabyte for each sweep. An
+    // unfinished record keeps its room, because moving it with each stretch would take quadratic
+    // time.
     if (held_.capacity() > kept_bytes + 2 * held_.size()) held_.shrink_to_fit();
     return {};
 }
@@ -177,7 +179,7 @@ Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
 
 std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     std::vector<LiveSweep> taken;
-    if (!failed_) return taken;  // what there is may be half done
+    if (!failed_) return taken;  // the volume may be incomplete
     const std::size_t closed = volume_.closed_sweeps();
     std::uint64_t bytes = 0;
     const auto hand_out = [&](std::size_t index) {
@@ -199,7 +201,7 @@ std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     return taken;
 }
 
-// The last one is looked at by whatever comes next, closed or not.
+// The next piece reads the last sweep, whether it is closed or not.
 std::size_t GrowingVolume::Reader::droppable_sweeps() const {
     const std::size_t count = volume_.so_far().sweeps.size();
     return std::min(next_sweep_, count == 0 ? 0 : count - 1);

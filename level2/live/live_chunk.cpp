@@ -15,12 +15,13 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t rows_of_a_chunk = 120;
-// A chunk has one as a rule; a file of a whole volume has some hundreds.
+// A chunk usually has one record. A file of a whole volume has some hundreds.
 constexpr std::size_t most_records = 1000;
 constexpr std::uint64_t bytes_of_a_problem = 256;
 
-// What a fragment takes while it is held by itself. Its first piece counts for nothing but its rows
-// in a volume, whose sweep it may go on with.
+// Returns what a fragment takes while it is held by itself. The count of a fragment leaves out its
+// first piece but for the rows, because that piece may continue a sweep; here the piece is counted
+// fully.
 std::uint64_t held_bytes(const Fragment& fragment) {
     std::uint64_t bytes = fragment.array_bytes + sizeof(Fragment) +
                           fragment.report.problems.size() * bytes_of_a_problem;

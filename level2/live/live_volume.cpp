@@ -55,7 +55,7 @@ Result<LiveVolume::Added> LiveVolume::keep_better(int number, LiveChunk chunk,
         return Added::added;
     }
     LiveChunk& old = there->second;
-    // A name that says that it is the last is believed, whatever another name says.
+    // A name that says that the chunk is the last is believed, whatever another name says.
     if (chunk.kind == ChunkKind::end) old.kind = ChunkKind::end;
     if (old.bytes == chunk.bytes && old.checksum == chunk.checksum) return Added::repeated;
     const auto worth = [](const LiveChunk& c) { return std::tie(c.radials, c.bytes, c.checksum); };
@@ -86,7 +86,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
             return kept;
         }
         if (chunk.error().cause() == Cause::data && !chunks_.contains(number)) {
-            // Of several the same one is named in any order.
+            // Of several reasons, the same one is kept in any order.
             std::string& reason = refused_[number];
             if (reason.empty() || chunk.error().message < reason) reason = chunk.error().message;
         }
@@ -99,7 +99,8 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
 bool LiveVolume::has_ended() const {
     return std::any_of(chunks_.begin(), chunks_.end(), [](const auto& entry) {
         const LiveChunk& chunk = entry.second;
-        // A start chunk alone may have a negative word: its record is the last of the metadata.
+        // A start chunk alone may have a negative control word, because its record is the last of
+        // the metadata.
         return chunk.kind == ChunkKind::end || chunk.ended_volume ||
                (chunk.negative && chunk.radials > 0);
     });
@@ -150,7 +151,7 @@ std::vector<LiveSweep> LiveVolume::changed_sweeps() {
         if (!sweeps[i].closed || handed_out_.contains(pieces)) continue;
         handed_out.insert(pieces);
         Result<Sweep> sweep = join(sweeps[i], options_.decode.most_array_bytes(), options_.depot);
-        // Joined they exceed the limit, or cannot be read back: finish() says so.
+        // The pieces exceed the limit when joined, or cannot be read back; finish() says so.
         if (!sweep || sweep->radials.empty()) continue;
         bytes += bytes_of(*sweep);
         const bool whole = level2::is_whole(*sweep);
@@ -164,7 +165,7 @@ std::vector<LiveSweep> LiveVolume::take_sweeps() {
     try {
         return changed_sweeps();
     } catch (const std::bad_alloc&) {
-        return {};  // they come when there is memory
+        return {};  // they are returned when there is memory
     }
 }
 

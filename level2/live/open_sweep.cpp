@@ -6,7 +6,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Goes from piece to piece in their order.
+// Goes from piece to piece, in order.
 class Grouper {
   public:
     void begin_chunk(const LiveChunk& chunk) {
@@ -43,7 +43,7 @@ class Grouper {
   private:
     std::vector<OpenSweep> sweeps_;
     const Vcp* pattern_ = nullptr;
-    OpenSweep::PieceId pattern_id_{};  // the chunk that gave the pattern, if any
+    OpenSweep::PieceId pattern_id_{};  // the chunk that gave the pattern, if there is one
     const Fragment::Piece* previous_ = nullptr;
     bool header_between_ = false;
     bool first_chunk_ = true;

@@ -1,5 +1,6 @@
-// level2/live/open_sweep.h -- which pieces of a live volume's chunks make a sweep.
-// Thread contract: functions are pure.
+// level2/live/open_sweep.h -- finds the pieces of a live volume's chunks that make up a sweep.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +14,29 @@
 
 namespace stormcellar::level2 {
 
-// Points into the chunks that it was made of.
+// Refers to the chunks from which it was made.
 struct OpenSweep {
-    // The serial number of a piece's chunk, and its place there.
+    // The serial number of the chunk of a piece, and the index of the piece in the chunk.
     using PieceId = std::pair<std::uint64_t, std::size_t>;
 
     struct OpenPiece {
         const Fragment::Piece* piece = nullptr;
         const LiveChunk* chunk = nullptr;
-        std::size_t place = 0;  // in the chunk
+        std::size_t place = 0;  // index in the chunk
     };
     std::vector<OpenPiece> pieces;
     std::vector<PieceId>
-        ids;  // behind that of the chunk that gave the pattern, which counts from 1
+        ids;  // after the ID of the chunk that gave the pattern, which counts from 1
     const Vcp* pattern = nullptr;
-    bool closed = false;  // by its last radial's status, or by what follows
+    bool closed = false;  // closed by the status of its last radial, or by what follows
 };
 
-// By the rule of the VolumeBuilder, over the chunks in the order of their numbers.
+// Groups the pieces by the rule of the VolumeBuilder, over the chunks in the order of their
+// numbers.
 [[nodiscard]] std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks);
 
-// The pieces as the VolumeBuilder joins them; a sweep without radials where that exceeds the limit.
-// Errors: those of the depot (null: nothing lies elsewhere).
+// Joins the pieces as the VolumeBuilder does. Returns a sweep without radials if that exceeds the
+// limit. Errors: those of the depot (null: nothing lies in a depot).
 [[nodiscard]] Result<Sweep> join(const OpenSweep& sweep, std::uint64_t limit_bytes,
                                  const SweepDepot* depot);
 

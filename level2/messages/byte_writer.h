@@ -1,5 +1,7 @@
-// level2/messages/byte_writer.h -- big-endian numbers into a growing row of bytes: ByteReader's
-// opposite. Thread contract: a writer is a value; do not share one between threads.
+// level2/messages/byte_writer.h -- writes big-endian numbers into a growing row of bytes: the
+// opposite of ByteReader.
+//
+// Threads   A writer is a plain value; do not share one between threads.
 #pragma once
 
 #include <bit>
@@ -30,7 +32,7 @@ class ByteWriter {
     void raw(std::span<const std::byte> part) {
         bytes_.insert(bytes_.end(), part.begin(), part.end());
     }
-    // Exactly `width` bytes: the text, cut or followed by NULs.
+    // Writes exactly `width` bytes: the text, cut or followed by NULs.
     void text(std::string_view text, std::size_t width) {
         const auto part = std::as_bytes(std::span(text.substr(0, width)));
         raw(part);
@@ -39,7 +41,7 @@ class ByteWriter {
     void zeros(std::size_t count) { bytes_.resize(bytes_.size() + count); }
     void pad_to_multiple_of(std::size_t size) { zeros((size - bytes_.size() % size) % size); }
 
-    // Overwrites a number that was written as zeros before its value was known.
+    // Overwrites a number that was written as zero before its value was known.
     void set_u16(std::size_t position, std::uint16_t number) {
         bytes_[position] = static_cast<std::byte>(number >> 8);
         bytes_[position + 1] = static_cast<std::byte>(number & 0xFFU);

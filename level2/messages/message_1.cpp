@@ -1,4 +1,4 @@
-// Message 1, digital radar data of the first RDA (ICD 2620002, table III; used until 2008).
+// Reads message 1, digital radar data of the first RDA (ICD 2620002, table III; used until 2008).
 #include <array>
 
 #include "base/byte_reader.h"
@@ -16,13 +16,13 @@ struct Gates {
 
 constexpr std::size_t data_bytes = 100;  // before the gates
 
-// A moment's gates: where they begin and end in the message.
+// Where the gates of a moment begin and end in the message.
 struct Extent {
     std::size_t begin = 0;  // 0: the radial lacks the moment
     std::size_t end = 0;
 };
 
-// Adds one moment. False if it does not fit, or reaches into the gates of another.
+// Adds one moment. Returns false if it does not fit, or reaches into the gates of another.
 bool add_moment(RadialMessage& message, MomentBlock block, const Gates& gates,
                 const std::array<Extent, 3>& extents, std::size_t own,
                 std::span<const std::byte> body) {
@@ -66,7 +66,7 @@ RadialResult read_message_1(std::span<const std::byte> body, Framing framing) {
     surveillance.count = reader.u16();
     doppler.count = reader.u16();
     radial.cut_sector = static_cast<std::uint8_t>(reader.u16());
-    reader.skip(4);                           // calibration constant: not the dBZ0 of message 31
+    reader.skip(4);  // calibration constant, which is not the dBZ0 of message 31
     std::array<std::uint16_t, 3> pointers{};  // REF, VEL, SW
     for (std::uint16_t& pointer : pointers)
         pointer = reader.u16();

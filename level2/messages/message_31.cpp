@@ -1,4 +1,5 @@
-// Message 31, digital radar data, generic format (ICD 2620002, tables XVII-A to XVII-I).
+// Reads message 31, digital radar data in the generic format (ICD 2620002, tables XVII-A to
+// XVII-I).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,15 +14,15 @@ namespace {
 constexpr std::size_t volume_block_bytes = 44;        // of the first version
 constexpr std::size_t radial_block_short_bytes = 20;  // without calibration
 constexpr std::size_t radial_block_full_bytes = 28;
-constexpr std::uint16_t most_blocks = 32;  // 10 is the most that is known
-// Behind the gates of a moment; TDWRs leave up to 7.
+constexpr std::uint16_t most_blocks = 32;  // the known maximum is 10
+// The bytes after the gates of a moment; TDWRs leave up to 7.
 constexpr std::size_t most_padding_bytes = 16;
 
 std::optional<float> finite(float number) {
     return std::isfinite(number) ? std::optional{number} : std::nullopt;
 }
 
-// Each block reader gives the reason for a fault, or nothing.
+// Each reader of a block returns the reason for a fault, or nothing.
 using Reason = std::optional<std::string_view>;
 
 Reason read_radial_block(Radial& radial, std::span<const std::byte> block) {
@@ -57,7 +58,7 @@ Reason read_elevation_block(Radial& radial, std::span<const std::byte> block) {
     return std::nullopt;
 }
 
-// The block's bytes end where the next one begins.
+// The bytes of the block end where the next block begins.
 Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const std::byte> bytes) {
     ByteReader reader{bytes};
     reader.skip(8);
@@ -135,7 +136,8 @@ BlockFault read_block(RadialMessage& message, std::span<const std::byte> block) 
     if (name.front() == 'D' && known) {
         return fault_of(Loss::moment, read_moment_block(message, *known, block));
     }
-    // A name that no ICD has is a later build's, unless it is not even text: then a pointer lies.
+    // A name that is in no ICD is from a later build, unless it is not even text: then a pointer is
+    // wrong.
     for (const char c : name) {
         if (c < ' ' || c > '~') return Fault{Loss::radial, "a block has no name"};
     }
@@ -143,7 +145,7 @@ BlockFault read_block(RadialMessage& message, std::span<const std::byte> block) 
     return std::nullopt;
 }
 
-// Where the blocks begin, in the order of the message, and behind them its end.
+// Where the blocks begin, in the order of the message, and after them where the message ends.
 struct BlockPlaces {
     std::array<std::uint32_t, most_blocks> pointers{};
     std::size_t count = 0;

@@ -17,7 +17,7 @@ VcpCut read_cut(ByteReader& reader) {
     cut.azimuth_rate_code = reader.i16();
     for (std::int16_t& threshold : cut.thresholds_eighth_db)
         threshold = reader.i16();
-    // The supplemental flags stand between the Doppler sectors 1 and 2.
+    // The supplemental flags are between the Doppler sectors 1 and 2.
     for (std::size_t i = 0; i < cut.rest.size(); ++i) {
         if (i == 6) cut.supplemental = reader.u16();
         cut.rest[i] = reader.u8();
@@ -31,7 +31,7 @@ std::optional<Vcp> read_vcp(int message_type, std::span<const std::byte> body) {
     ByteReader reader{body};
     Vcp vcp;
     vcp.message_type = message_type;
-    reader.skip(2);  // size, which the header has said
+    reader.skip(2);  // the size, which the header has given
     vcp.pattern_type = reader.u16();
     vcp.pattern_number = reader.u16();
     const std::uint16_t cuts = reader.u16();

@@ -12,11 +12,11 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::uint32_t ms_per_day = 86'400'000;
-constexpr std::uint32_t slack_ms = 1'000;      // leap seconds and clocks that overrun
+constexpr std::uint32_t slack_ms = 1'000;      // for leap seconds and clocks that overrun
 constexpr std::uint16_t earliest_day = 7'305;  // 1990, before the first archived volume
 constexpr std::uint16_t own_length_in_segments = 65'535;
 
-// What stands at the head of a message 1 (ICD 2620002 table III).
+// The fields at the head of a message 1 (ICD 2620002 table III).
 struct Start1 {
     std::uint32_t ms = 0;
     std::uint16_t date = 0;
@@ -30,7 +30,7 @@ struct Start1 {
 constexpr std::uint16_t most_surveillance_gates = 460;
 constexpr std::uint16_t most_doppler_gates = 920;
 constexpr std::size_t gate_counts_at = 26;  // of message 1, after its header
-constexpr std::size_t start_1_bytes = 100;  // its gates are behind these, in all known
+constexpr std::size_t start_1_bytes = 100;  // in all known messages its gates come after these
 constexpr std::size_t frame_body_bytes = frame_bytes - message_header_bytes;
 
 std::optional<Start1> read_start_1(std::span<const std::byte> body) {
@@ -53,14 +53,14 @@ std::optional<Start1> read_start_1(std::span<const std::byte> body) {
     return start;
 }
 
-// What stands at the head of a message 31 (ICD 2620002 table XVII-A).
+// The fields at the head of a message 31 (ICD 2620002 table XVII-A).
 struct Start31 {
     std::string_view icao;
     std::uint32_t ms = 0;
     std::uint16_t date = 0;
     float azimuth_deg = 0;
     std::uint8_t compression = 0;
-    std::uint16_t length = 0;  // of the radial when it is not compressed
+    std::uint16_t length = 0;  // length of the uncompressed radial
     float elevation_deg = 0;
     std::uint16_t blocks = 0;
 };
@@ -90,7 +90,7 @@ bool are_near(std::uint16_t day, std::uint16_t other) {
     return std::abs(static_cast<int>(day) - static_cast<int>(other)) <= 1;
 }
 
-// A field that a radial agrees with its header in, or that has a range of its own.
+// A field in which a radial agrees with its header, or that has a range of its own.
 struct Check {
     bool holds = true;
     std::string_view oddity;
@@ -144,7 +144,7 @@ bool agrees_with_message_1(const MessageHeader& header, std::span<const std::byt
     return start && all_hold(checks_of_1(header, *start));
 }
 
-// As above; zeros, which agree with many things, are no gates.
+// The same; but zeros, which agree with many things, do not count as gates.
 bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte> body) {
     return agrees_with_message_1(header, body) && !all_zero(body.subspan(gate_counts_at, 4));
 }
@@ -161,7 +161,7 @@ bool places_gates_of_1(const MessageHeader& header, std::span<const std::byte> b
         start->doppler_gates > most_doppler_gates) {
         return false;
     }
-    // The moments stand one behind the other, or begin at an even byte.
+    // The moments follow one another directly, or begin at an even byte.
     std::size_t end = start_1_bytes;
     for (std::size_t i = 0; i < start->pointers.size(); ++i) {
         const std::size_t pointer = start->pointers.at(i);
@@ -184,7 +184,7 @@ bool places_gates_of_31(const MessageHeader& header, std::span<const std::byte> 
     bool any = false;
     for (std::uint16_t i = 0; i < start->blocks; ++i) {
         const std::uint32_t pointer = reader.u32();
-        if (reader.failed()) break;  // as far as it is at hand
+        if (reader.failed()) break;  // the bytes at hand end here
         if (pointer == 0) continue;
         if (pointer < least || pointer >= end) return false;
         any = true;
@@ -192,7 +192,7 @@ bool places_gates_of_31(const MessageHeader& header, std::span<const std::byte> 
     return any;
 }
 
-// A frame of another kind: nothing in its body is fixed, so its header has to be beyond doubt.
+// Checks a frame of another kind. Nothing in its body is fixed, so its header must be beyond doubt.
 bool is_surely_other_message(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool one_of_the_archived = header.type == 2 || header.type == 3 || header.type == 5 ||
                                      header.type == 13 || header.type == 15 || header.type == 18 ||
@@ -201,8 +201,9 @@ bool is_surely_other_message(const MessageHeader& header, std::span<const std::b
            header.segments <= 100 && header.size_halfwords >= 40;
 }
 
-// A clutter map or adaptation data as some radars of 2006 sent them: whole frames without a date.
-// Nothing in a radial looks like that: zeros but for size, type and the numbers of the segments.
+// Recognizes a clutter map or adaptation data as some radars of 2006 sent them: whole frames
+// without a date. No radial looks like this: zeros except for size, type and the numbers of the
+// segments.
 bool is_undated_frame(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool mapped = header.type == 13 || header.type == 15 || header.type == 18;
     return mapped && header.date == 0 && header.ms == 0 && header.segments >= 2 &&

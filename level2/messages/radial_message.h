@@ -1,9 +1,11 @@
-// level2/messages/radial_message.h -- one radial as a message gives it: message 31, or message 1 of
-// old.
+// level2/messages/radial_message.h -- one radial as a message gives it: message 31, or the old
+// message 1.
 //
-// The codes are views into the message; a RadialMessage lives no longer than the message's bytes.
-// Every length, pointer and count has been checked against the message and against the blocks
-// beside it, every angle is finite.
+// The codes are views into the message, so a RadialMessage must not outlive the message's bytes.
+// Every length, pointer and count has been checked against the message and against the neighboring
+// blocks, and every angle is finite.
+//
+// Threads   Plain values and pure functions.
 #pragma once
 
 #include <array>
@@ -41,26 +43,26 @@ struct RadialMessage {
     int message_type = 31;
     int elevation_number = 0;
     float azimuth_spacing_deg = 0;
-    std::string_view icao;                    // message 31; as it came
-    std::optional<std::uint16_t> vcp;         // none where the message does not say
-    std::span<const std::byte> volume_block;  // "RVOL" and what follows; empty where absent
-    int unknown_blocks = 0;                   // blocks of a name that is not known, skipped
+    std::string_view icao;                    // from message 31, unchanged
+    std::optional<std::uint16_t> vcp;         // none if the message does not say
+    std::span<const std::byte> volume_block;  // "RVOL" and what follows; empty if absent
+    int unknown_blocks = 0;                   // blocks with an unknown name, which were skipped
 
-    // A moment that the radial names and whose gates cannot be read.
+    // A moment that the radial names, but whose gates cannot be read.
     struct LostMoment {
         std::string_view reason;
         std::size_t bytes = 0;
     };
-    // Both are empty in a radial as the ICD has it.
+    // Both are empty in a radial that follows the ICD.
     std::vector<LostMoment> lost_moments;
-    std::vector<std::string_view> oddities;  // that cost no gate, each in a few words
+    std::vector<std::string_view> oddities;  // these cost no gate; each is a few words
 
     [[nodiscard]] std::span<const MomentBlock> moments() const {
         return {moment_store.data(), moment_count};
     }
-    // Its gates cannot be read, of no moment.
+    // Returns true if the gates of none of its moments can be read.
     [[nodiscard]] bool has_lost_all() const { return moment_count == 0 && !lost_moments.empty(); }
-    // False, and nothing done, when there is no room or the moment is there already.
+    // Returns false and does nothing if there is no room or the moment is there already.
     bool add(const MomentBlock& block);
 
     std::array<MomentBlock, max_moments> moment_store;
@@ -70,21 +72,22 @@ struct RadialMessage {
 // The reason, in a few words, why a message holds no usable radial.
 using RadialResult = tl::expected<RadialMessage, std::string_view>;
 
-// Whether what stands around a message shows where it begins and where it ends. If not, a fault in
+// Whether the surroundings of a message show where it begins and ends. If they do not, a fault in
 // any of its blocks may mean that bytes are lost inside it.
 enum class Framing : std::uint8_t { unproven, proven };
 
-// `body` is the message after its 28 bytes of header. With unproven framing no moment is lost by
-// itself: the first fault refuses the radial.
+// `body` is the message after its 28 bytes of header. With unproven framing, no moment is lost by
+// itself: the first fault refuses the whole radial.
 [[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body,
                                           Framing framing = Framing::unproven);
 [[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body,
                                            Framing framing = Framing::unproven);
 
-// The volume data block, from its "RVOL" on; none when it is too short.
+// Reads the volume data block, from its "RVOL" on. Returns none if it is too short.
 [[nodiscard]] std::optional<VolumeBlock> read_volume_block(std::span<const std::byte> block);
 
-// Angles in units of 180/32768 degree, as in message 1 and 5; above 180 they are negative.
+// Converts angles in units of 180/32768 degree, as in messages 1 and 5; those above 180 are
+// negative.
 [[nodiscard]] float elevation_from_code(std::uint16_t code);
 [[nodiscard]] float azimuth_from_code(std::uint16_t code);
 

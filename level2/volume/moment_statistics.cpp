@@ -56,7 +56,7 @@ void note_kind(MomentStatistics& statistics, const SweepMoment& kind) {
     }
 }
 
-// Adds the counts of one kind, whose scale and offset turn its codes into values. Gives the sum.
+// Adds the counts of one kind, whose scale and offset turn its codes into values. Returns the sum.
 double add_histogram(MomentStatistics& statistics, const SweepMoment& kind,
                      const Histogram& histogram) {
     const std::size_t first_valid = facts_of(kind.moment).first_valid_code;

@@ -12,13 +12,13 @@
 namespace stormcellar::level2 {
 namespace {
 
-// They differ by up to 10 s in sound volumes, and by more where the first records are lost.
+// The two differ by up to 10 s in sound volumes, and by more if the first records are lost.
 constexpr std::chrono::hours header_tolerance{1};
 
 constexpr double altitude_tolerance_m = 30;
 constexpr double position_tolerance_deg = 0.01;
-// Sites have been moved by some kilometres, so the radar is believed within this; a radar that
-// claims to be farther from its site than this is mistaken.
+// Sites have been moved by some kilometers, so the radar is believed within this distance. A radar
+// that claims to be farther from its site is mistaken.
 constexpr double position_limit_deg = 1;
 
 std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {
@@ -55,7 +55,7 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
     if (step_deg > position_limit_deg) {
         position = position_of_station(station);
     } else if (altitude_differs && step_deg <= position_tolerance_deg) {
-        // Where the site has moved, its height is another one, too.
+        // If the site has moved, its height differs, too.
         position.altitude_m = station.antenna_altitude_m;
         position.from_table = true;
     }
@@ -68,7 +68,7 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
     return position;
 }
 
-// The time in the middle of those of the sweep's radials that are possible.
+// Returns the middle one of the possible times of the sweep's radials.
 std::optional<UtcTime> middle_of(const Sweep& sweep) {
     std::vector<UtcTime> times;
     for (const Radial& radial : sweep.radials) {
@@ -80,7 +80,8 @@ std::optional<UtcTime> middle_of(const Sweep& sweep) {
     return *middle;
 }
 
-// Of the first radial that others of its sweep bear out: a single one may have any time.
+// Returns the time of the first radial that others of its sweep confirm, because a single radial
+// may have any time.
 std::optional<UtcTime> first_of(const std::vector<Sweep>& sweeps) {
     for (const Sweep& sweep : sweeps) {
         const auto middle = middle_of(sweep);

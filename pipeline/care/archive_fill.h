@@ -1,19 +1,18 @@
-// pipeline/care/archive_fill.h -- raw files of an archive -> grids in a cache, as the daemon makes
-// them.
+// pipeline/care/archive_fill.h -- grids the raw files of an archive into a cache, as the daemon
+// does.
 //
 // The volumes are read, gridded and committed by the daemon's own chain (pipeline/ingest/ingest.h),
-// some at a time; of a domain the sites' partials first and then each frame once
-// (pipeline/mosaic/mosaic_maker.h). What stands in the cache already is taken as it is: a grid
-// made of this file as it now is, on this grid; a frame made of these partials by these rules. So a
-// second call goes on where the first one was ended, however that happened, for grids appear whole.
-// A file that is gone, or holds nothing that can be gridded, is named and left out. So is one that
-// is not the file that was cataloged (stormcellar/catalog/read_cataloged.h): another that took its
-// place, or a link in its path.
+// several at a time. For a domain, the sites' partials are made first and then each frame once
+// (pipeline/mosaic/mosaic_maker.h). Grids that the cache already has are kept: a grid made of the
+// present file on this grid, and a frame made of these partials by these rules. So a second call
+// continues where the first one ended, however it ended, because grids appear whole. A file that is
+// gone, or contains nothing that can be gridded, is named and left out. So is a file that is no
+// longer the one that was cataloged (stormcellar/catalog/read_cataloged.h): another one in its
+// place, or a path with a link. The store should be opened so that nobody else writes to it.
 //
-// The store should have been opened so that nobody else writes to it (RollingStore::open()).
-// Memory: as many decoded volumes as there are workers (at most most_workers), and their grids.
-// Thread contract: an ArchiveFill is for one thread; `progress` is called from its workers, one at
-// a time. `stop` may be set by any thread.
+// Memory    As many decoded volumes as there are workers (at most most_workers), and their grids.
+// Threads   An ArchiveFill is for one thread at a time. `progress` is called from its workers, one
+//           at a time. Any thread may set `stop`.
 #pragma once
 
 #include <atomic>
@@ -34,7 +33,7 @@ inline constexpr int most_workers = 8;
 
 struct ArchiveOptions {
     level2::Moment moment = level2::Moment::ref;
-    std::optional<Domain> domain;  // none: each station's own grid, of the shape that follows
+    std::optional<Domain> domain;  // none: each station's own grid, of the following shape
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
@@ -47,44 +46,44 @@ struct LeftOut {
 };
 
 struct FillReport {
-    std::size_t volumes = 0;                        // asked for
+    std::size_t volumes = 0;                        // requested
     std::size_t grids_made = 0;                     // of volumes
-    std::size_t grids_found = 0;                    // stood in the cache
+    std::size_t grids_found = 0;                    // were already in the cache
     std::size_t frames_made = 0, frames_found = 0;  // of a domain
     std::vector<LeftOut> left_out;                  // by path
-    std::vector<LeftOut> notes;   // gridded, but something is worth saying, as that it is in part
-    std::vector<UtcTime> frames;  // of a domain: those that stand within the range, rising
+    std::vector<LeftOut> notes;   // gridded, with a remark, for example that only a part was there
+    std::vector<UtcTime> frames;  // of a domain: those that exist within the range, ascending
 };
 
 using FillProgress = std::function<void(std::size_t done)>;
 
 class ArchiveFill {
   public:
-    // `catalog`: where the volumes were found. `scratch`: a directory for the chain's own catalog,
-    // which is made there. All must outlive it.
+    // `catalog`: where the volumes were found. `scratch`: a directory in which the chain's own
+    // catalog is made. All must outlive the object.
     ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 std::filesystem::path scratch, ArchiveOptions options);
 
-    // The volumes of which no grid stands, to be made by fill().
+    // Returns the volumes without a grid, which fill() makes.
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
         const std::vector<ArchiveVolume>& volumes) const;
-    // Those of the instants that a volume is near enough to, and how many of them have no frame.
+    // The instants that a volume is close enough to, and how many of them have no frame.
     struct DueFrames {
         std::vector<UtcTime> instants;
         std::size_t missing = 0;
     };
     [[nodiscard]] Result<DueFrames> due(const std::vector<UtcTime>& instants,
                                         const std::vector<ArchiveVolume>& volumes) const;
-    // What their grids, and with a domain `frames` frames, take on disk: a guess on the safe side,
-    // two to four times what grids with little echo take.
+    // Returns an estimate of the bytes on disk of these grids and, with a domain, frames. It is on
+    // the safe side: two to four times the size of grids with little echo.
     [[nodiscard]] std::uint64_t bytes_of(std::size_t volumes, std::size_t frames) const;
 
-    // Grids them. Errors: those that are not of the data (the cache or the scratch directory cannot
-    // be written, the disk is full). When `stop` is set no volume begins any more.
+    // Grids the volumes. When `stop` is set, no further volume begins. Errors: those that do not
+    // concern the data (the cache or the scratch directory cannot be written, the disk is full).
     [[nodiscard]] Status fill(const std::vector<ArchiveVolume>& missing,
                               const FillProgress& progress, const std::atomic<bool>& stop,
                               FillReport& report);
-    // The frames of the domain at these instants, as far as volumes stand about them.
+    // Makes the frames of the domain at these instants, as far as there are volumes around them.
     [[nodiscard]] Status make_frames(const std::vector<UtcTime>& instants,
                                      const FillProgress& progress, const std::atomic<bool>& stop,
                                      FillReport& report);

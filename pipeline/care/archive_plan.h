@@ -23,7 +23,7 @@ struct ArchivePlan {
     std::optional<Domain> mosaic;  // none: the station's own grid
     ArchiveOptions fill;
     std::filesystem::path cache;
-    std::vector<LeftOut> left_out;  // stations that nobody places
+    std::vector<LeftOut> left_out;  // stations without a known position
 };
 
 // Where the stations stand, by their files or the station table. A station of which neither says so

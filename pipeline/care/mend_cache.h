@@ -1,15 +1,16 @@
-// pipeline/care/mend_cache.h -- grids that are damaged or missing are made again.
+// pipeline/care/mend_cache.h -- makes grids again that are damaged or missing.
 //
-// A grid that another program cut or altered, or that the disk cannot give, is dropped and made
-// again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, where that is
-// still there as the catalog has it; a frame of a mosaic from its partials, as far as they stand.
+// A grid that another program cut or altered, or that the disk cannot return, is removed and made
+// again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, if it still
+// exists as the catalog has it; a frame of a mosaic from its partials, as far as they exist.
 //
-// Which missing grids are made again: those of the newest volumes (`newest` before the station's
-// latest, stamps of more than 10 minutes in the future not counted) that are newer than the oldest
-// grid which stands in their domain, or any of these when the domain holds none. So what was
-// evicted, oldest first, is never filled in again, and a cache that was wiped is. What could not be
-// made is not tried again while the object lives.
-// Thread contract: as the catalog, the store and the ingestor; one thread.
+// Only those missing grids are made again that are of the newest volumes (within `newest` of the
+// station's latest; times more than 10 minutes in the future do not count) and newer than the
+// oldest grid in their domain, or of any of these volumes if the domain has no grid. So grids that
+// were evicted, which are the oldest, are never made again, but a cache that was wiped is filled. A
+// grid that could not be made is not tried again while the object exists.
+//
+// Threads   One thread at a time, within the rules of the catalog, the store and the ingestor.
 #pragma once
 
 #include <chrono>
@@ -28,19 +29,19 @@
 
 namespace stormcellar::pipeline {
 
-// A volume of which a grid is missing: the site's own, or partials of mosaics.
+// A volume with missing grids: the site's own, or partials of mosaics.
 struct MissingGrid {
     std::string station;
     UtcTime time;
     std::filesystem::path raw;  // the best file of this volume: a whole one, then the newest
-    std::vector<cache::GridName> names;  // what is missing
+    std::vector<cache::GridName> names;  // the missing grids
 };
 
 enum class GridCondition {
     sound,
-    made_again,  // was damaged; stands again
+    made_again,  // was damaged, and exists again
     dropped,     // was damaged, and cannot be made again
-    left_alone,  // cannot be judged: no permission, no descriptors, of a later version
+    left_alone,  // cannot be judged: no permission, no descriptors, or a later version
 };
 struct MendedGrid {
     GridCondition condition = GridCondition::sound;
@@ -50,36 +51,37 @@ struct MendedGrid {
 };
 
 enum class MendDepth {
-    header,  // magic, sizes, and the checksum of all but the codes: fast
+    header,  // magic, sizes, and the checksum of everything but the codes: fast
     all,     // every byte
 };
 
 class CacheMender {
   public:
-    // All must outlive it. `moment` is what the ingestor grids.
+    // All must outlive the object. `moment` is the one that the ingestor grids.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 Ingestor& ingestor, level2::Moment moment);
 
     // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
-    // Newest first. Errors: the catalog or the cache cannot be read. A station whose own database
-    // or grids cannot be read is left out; that stands among the catalog's troubles. `step` is
-    // called after each station, for whoever watches that it moves on.
+    // Returns missing grids, newest first. A station whose database or grids cannot be read is left
+    // out and is among the catalog's troubles. `step` is called after each station, so that the
+    // caller can see progress. Errors: the catalog or the cache cannot be read.
     Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
                                              const std::function<void()>& step = {});
-    // Errors: corrupt where the raw file is not the one that was cataloged; those of
+    // Makes the grids. Errors: corrupt if the raw file is not the one that was cataloged; those of
     // Ingestor::ingest_again().
     Result<IngestOutcome> make(const MissingGrid& grid);
 
-    // Frames of mosaics, newest first; after the partials. Errors: the cache cannot be read.
+    // Returns missing frames of mosaics, newest first. Call it after the partials were made.
+    // Errors: the cache cannot be read.
     Result<std::vector<cache::GridName>> missing_frames(std::chrono::milliseconds newest);
-    // What they were made from, as MendedGrid has it; none: no partials are near it, or the budgets
-    // do not keep it.
+    // Makes a frame and returns its source, as in MendedGrid. None: no partials are near it, or the
+    // budgets do not keep it.
     Result<std::optional<std::string>> make(const cache::GridName& frame);
 
   private:
-    // Of one kind of grid that a station's volumes have.
+    // One kind of grid that a station's volumes have.
     struct Series {
         std::string domain;
         level2::Moment moment;

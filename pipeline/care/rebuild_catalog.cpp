@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As deep as the daemon looks.
+// the same depth as the daemon
 constexpr int max_depth = 16;
 
-// Whether a file may hold volumes of the station: all but those whose name, or whose directory's
-// name, is another one's.
+// Returns true if a file may hold volumes of the station, which is so unless its name, or that of
+// its directory, is another station's.
 bool may_be_of(const fs::path& path, const std::string& station) {
     if (station.empty()) return true;
     const std::string by_name = station_of_file_name(path);
@@ -28,7 +28,8 @@ bool may_be_of(const fs::path& path, const std::string& station) {
     return !is_icao(directory) || directory == station;
 }
 
-// The regular files below a directory, sorted; directories that cannot be read become problems.
+// Returns the regular files below a directory, sorted. Directories that cannot be read become
+// problems.
 Result<std::vector<fs::path>> files_below(const fs::path& directory, RebuildReport& report) {
     std::vector<fs::path> files;
     std::vector<std::pair<fs::path, int>> left = {{directory, 0}};
@@ -64,7 +65,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
             ++report.rejected;
             break;
         case IngestResult::vanished:
-        case IngestResult::incomplete:  // written this moment: the daemon will take it in
+        case IngestResult::incomplete:  // written at this moment: the daemon will ingest it
             break;
         default:
             ++report.registered;
@@ -75,7 +76,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
 
 Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     RebuildReport report;
-    // The daemon writes absolute paths without links; rows are found by them.
+    // The daemon writes absolute paths without links, by which rows are found.
     std::error_code error;
     const fs::path drop = fs::canonical(options.drop, error);
     if (error) {
@@ -87,7 +88,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     auto catalog = catalog::CatalogWriter::open(options.catalog, writing);
     if (!catalog) return pass_on(catalog);
     if (options.station.empty()) {
-        // One that cannot be used is no reason to leave the others as they are.
+        // A database that cannot be used must not keep the others from being examined.
         (void)catalog->examine_all();
     } else if (Status examined = catalog->examine(options.station); !examined) {
         return pass_on(examined);
@@ -106,7 +107,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
         if (outcome) {
             count(*outcome, report);
         } else if (outcome.error().code == ErrorCode::no_space) {
-            return pass_on(outcome);  // it would be the same for the next one
+            return pass_on(outcome);  // it would also fail for the next one
         } else if (!outcome.error().message.starts_with(options.catalog.native())) {
             report.problems.push_back(outcome.error());
         }

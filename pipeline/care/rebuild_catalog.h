@@ -1,11 +1,13 @@
-// pipeline/care/rebuild_catalog.h -- the catalog made again from what there is.
+// pipeline/care/rebuild_catalog.h -- makes the catalog again from the files that exist.
 //
-// Damaged databases are set aside and mended (stormcellar/catalog/repair.h: rows of files that are
-// gone stay); then every file below the drop directory that the catalog does not have as it now
-// stands is decoded and registered, and rows of files that are not there become gone. Sound
-// databases keep their rows, so a rebuild of a sound catalog changes nothing. Nothing is gridded.
-// Nothing else may write the catalog meanwhile: hold the state directory's lock (instance_lock.h).
-// Thread contract: a function; `progress` is called from the calling thread.
+// Damaged databases are set aside and repaired (stormcellar/catalog/repair.h; rows of files that
+// are gone stay). Then every file below the drop directory that the catalog does not have in its
+// present state is decoded and registered, and rows of files that do not exist become gone. Sound
+// databases keep their rows, so rebuilding a sound catalog changes nothing. Nothing is gridded.
+// Nothing else may write the catalog meanwhile: hold the lock of the state directory
+// (instance_lock.h).
+//
+// Threads   A function without state. `progress` is called from the calling thread.
 #pragma once
 
 #include <cstddef>
@@ -24,26 +26,27 @@ namespace stormcellar::pipeline {
 struct RebuildOptions {
     std::filesystem::path catalog;
     std::filesystem::path drop;  // symbolic links below it are not followed
-    std::string station;         // only this one's database, and files that may be its; empty: all
-    std::shared_ptr<StationRule> stations;  // which have a database; none: every ICAO
-    int threads = 1;                        // that decode
+    // only this station's database, and files that may belong to it; empty: all
+    std::string station;
+    std::shared_ptr<StationRule> stations;  // stations that have a database; null: every ICAO
+    int threads = 1;                        // for decoding
     std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
 struct RebuildReport {
     std::vector<catalog::Repair> repairs;
-    std::size_t files = 0;       // looked at
-    std::size_t unchanged = 0;   // of these: stood in the catalog as they are
+    std::size_t files = 0;       // files examined
+    std::size_t unchanged = 0;   // files that the catalog has in their present state
     std::size_t registered = 0;  // decoded, whole or in part
-    std::size_t rejected = 0;    // not decodable, registered as such
-    int gone = 0;                // rows of files that are not there any more
+    std::size_t rejected = 0;    // not decodable, and registered as such
+    int gone = 0;                // rows of files that no longer exist
     // Files and directories that could not be read, and databases that could not be used.
     std::vector<Error> problems;
 };
 
-// An error where the catalog's directory cannot be used, the disk is full or the drop directory
-// cannot be read; what was done until then stays, and a second call goes on from there. The catalog
-// is told the drop directory.
+// Returns an error if the catalog's directory cannot be used, the disk is full, or the drop
+// directory cannot be read. What was done until then stays, and a second call continues from there.
+// The catalog records the drop directory.
 [[nodiscard]] Result<RebuildReport> rebuild_catalog(const RebuildOptions& options);
 
 }  // namespace stormcellar::pipeline

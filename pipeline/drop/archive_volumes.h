@@ -1,9 +1,11 @@
-// pipeline/drop/archive_volumes.h -- which raw files of a catalog a time range takes.
+// pipeline/drop/archive_volumes.h -- which raw files of a catalog belong to a time range.
 //
-// Of each station the volumes that overlap the range, and where frames are made between volumes
-// also the last one before it and the first one after it, as far as they are near enough to count.
-// A volume that was sent more than once is taken once: whole before in part, then the latest.
-// Thread contract: functions; the catalog is only read.
+// For each station these are the volumes that overlap the range and, if frames are made between
+// volumes, also the last one before it and the first one after it, if they are close enough to
+// count. A volume that was sent more than once is taken once: a whole one rather than a part, then
+// the latest.
+//
+// Threads   Functions without state; the catalog is only read.
 #pragma once
 
 #include <chrono>
@@ -23,7 +25,7 @@ struct ArchiveVolume {
     std::filesystem::path path;
     UtcTime start, end;
     std::uint64_t size_bytes = 0;  // of its file
-    bool gone = false;             // its owner deleted the raw file, by what the catalog knows
+    bool gone = false;             // its owner deleted the raw file, according to the catalog
 };
 
 struct ArchiveRange {
@@ -31,14 +33,14 @@ struct ArchiveRange {
     bool with_neighbours = false;  // also the volumes next to the range
 };
 
-// No volume is longer; so far before the range volumes are looked for.
+// No volume is longer. Volumes are looked for this far before the range.
 inline constexpr std::chrono::minutes longest_volume{20};
-// So far outside of the range a neighbour may lie.
+// The largest distance of a neighbor from the range.
 inline constexpr std::chrono::minutes farthest_neighbour{25};
 
-// By station, then start. Stations that the catalog does not know have none. Where several are
-// asked for, neither has one whose database cannot be read: the catalog's troubles() name it.
-// Errors: those of the catalog.
+// Returns volumes by station, then start. Stations that the catalog does not know have none. If
+// several are requested, one whose database cannot be read has none, either, and the catalog's
+// troubles() names it. Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
     const ArchiveRange& range);

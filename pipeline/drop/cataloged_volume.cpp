@@ -12,7 +12,7 @@ namespace {
 using catalog::CatalogEntry;
 using catalog::CatalogReader;
 
-// Puts the bytes of a file behind those that were read before.
+// Appends the bytes of a file to those read before.
 Status append(const CatalogReader& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
     auto read = catalog::read_cataloged(catalog, entry);
     if (!read) return pass_on(read);
@@ -39,7 +39,7 @@ Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogE
     CatalogedVolume volume;
     int due = 1;
     for (const ChunkPath& chunk : *chunks) {
-        if (chunk.name.number < due) continue;  // a second one of its number
+        if (chunk.name.number < due) continue;  // a second chunk of this number
         const auto row = catalog.find_file(entry.station, chunk.path);
         if (!row) return pass_on(row);
         if (!row->has_value()) {

@@ -1,9 +1,10 @@
-// pipeline/drop/cataloged_volume.h -- the raw bytes of a cataloged volume, in one piece.
+// pipeline/drop/cataloged_volume.h -- reads the raw bytes of a cataloged volume in one piece.
 //
-// They come from one file, or from the chunks of the volume where it came as one file a chunk: then
-// the row found is that of the first, and what is joined is a volume's file. Each file must be the
-// one that was cataloged, by its own row (stormcellar/catalog/read_cataloged.h).
-// Thread contract: a function without state; the catalog is only read.
+// They come from one file, or from the chunks of a volume that came as one file for each chunk.
+// Then the row found is that of the first chunk, and the joined bytes are a volume's file. Each
+// file must be the one that was cataloged, by its own row (stormcellar/catalog/read_cataloged.h).
+//
+// Threads   A function without state; the catalog is only read.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +18,15 @@ namespace stormcellar::pipeline {
 
 struct CatalogedVolume {
     std::vector<std::byte> bytes;
-    std::vector<std::string> notes;  // what is worth saying: chunks that are missing or left out,
-                                     // files that were growing and so were not compared
+    std::vector<std::string> notes;  // remarks: chunks that are missing or left out, and files that
+                                     // were growing and so were not compared
 };
 
-// Whether a volume came as one file a chunk.
+// Returns true if a volume came as one file for each chunk.
 [[nodiscard]] bool is_of_chunks(const catalog::CatalogEntry& entry);
 
-// Of chunks: in the order of their numbers, of each number one, as far as they lie there. Those
-// without a row are left out. Errors: those of read_cataloged().
+// Chunks are joined in the order of their numbers, one for each number, as far as they exist.
+// Chunks without a row are left out. Errors: those of read_cataloged().
 [[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);
 

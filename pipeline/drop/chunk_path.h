@@ -1,7 +1,9 @@
-// pipeline/drop/chunk_path.h -- which files are the chunks of one volume.
+// pipeline/drop/chunk_path.h -- finds the files that are the chunks of one volume.
 //
-// The files of a directory whose names differ in the chunk's number and kind alone
-// (stormcellar/level2/chunk_name.h). Thread contract: functions read the directory, no state.
+// These are the files of a directory whose names differ only in the number and the kind of the
+// chunk (stormcellar/level2/chunk_name.h).
+//
+// Threads   Functions without state, which read the directory.
 #pragma once
 
 #include <filesystem>
@@ -14,18 +16,18 @@
 
 namespace stormcellar::pipeline {
 
-// A path that is named as a chunk.
+// A path with the name of a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string prefix;  // of the names of all chunks of its volume
+    std::string prefix;  // the same in the names of all chunks of its volume
     std::string key;     // the same for all chunks of its volume, and for no others
     level2::ChunkName name;
 
     [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);
 };
 
-// All other chunks of its volume in its directory, in the order of their numbers; at most 2,000.
-// `beneath`: see base/beneath.h. Errors: those of names_beneath().
+// Returns all other chunks of its volume in its directory, at most 2,000, in the order of their
+// numbers. `beneath` is the root in base/beneath.h. Errors: those of names_beneath().
 [[nodiscard]] Result<std::vector<ChunkPath>> chunks_beside(
     const ChunkPath& chunk, const std::filesystem::path& beneath = {});
 

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t read_stretch_bytes = std::size_t{256} << 10;
 
-// As many bytes as there are, up to the buffer's size.
+// Reads as many bytes as there are, up to the size of the buffer.
 Result<std::size_t> read_stretch(int descriptor, const std::filesystem::path& path,
                                  std::span<std::byte> buffer) {
     std::size_t done = 0;
@@ -61,7 +61,8 @@ WholeFile read_by_stretches(const std::filesystem::path& beneath, const std::fil
             file.was_read = pass_on(got);
             return file;
         }
-        if (*got == 0) break;  // shorter than it was: whoever asked sees that it has changed
+        // the file is shorter than it was; the caller sees that it has changed
+        if (*got == 0) break;
         done += *got;
         const auto stretch = std::span{buffer}.first(*got);
         hash.append(stretch);

@@ -1,9 +1,11 @@
-// pipeline/drop/read_whole.h -- reads and decodes a raw file that does not grow.
+// pipeline/drop/read_whole.h -- reads and decodes a raw file that does not grow. Used only inside
+// the pipeline room.
 //
 // An ordinary file is read as a whole and decoded by several threads. A large one is decoded
-// stretch by stretch as it is read, so that its size costs no memory: the same volume, bit for bit
-// (stormcellar/level2/growing_volume.h), but for what that refuses.
-// Inside the pipeline room only. Thread contract: a function without state.
+// stretch by stretch as it is read, so that its size costs no memory. Both give the same volume,
+// bit for bit, except for files that stormcellar/level2/growing_volume.h refuses.
+//
+// Threads   A function without state.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +16,14 @@
 
 namespace stormcellar::pipeline {
 
-// The largest volume known has 12 MB, uncompressed 75.
+// The largest known volume has 12 MB; uncompressed it has 75.
 inline constexpr std::uint64_t large_file_bytes = std::uint64_t{32} << 20;
 
 struct WholeFile {
-    // Of reading; errors: those of base/beneath.h, io where fewer bytes come than `size_bytes`.
+    // For the reading. Errors: those of base/beneath.h; io if fewer bytes come than `size_bytes`.
     Status was_read;
     std::uint64_t content_hash = 0;
-    // Of decoding what was read; errors: those of level2::decode().
+    // For the decoding of what was read. Errors: those of level2::decode().
     Result<level2::Decoded> decoded = fail(ErrorCode::empty, "nothing was read");
     double read_s = 0, decode_s = 0;
 };

@@ -1,6 +1,6 @@
-// pipeline/drop/station_place.h -- where a station of a catalog stands.
+// pipeline/drop/station_place.h -- the position of a station of a catalog.
 //
-// Thread contract: a function without state; the catalog is only read.
+// Threads   A function without state; the catalog is only read.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace stormcellar::pipeline {
 
-// By the station table, else by what its newest raw files say that can still be read. None where
-// neither says it.
+// Returns the position of the station table, else that in its newest raw files that can still be
+// read. None if neither has it.
 [[nodiscard]] std::optional<grid::SitePosition> place_of_station(
     const catalog::CatalogReader& catalog, const std::string& icao);
 

@@ -26,7 +26,7 @@
 
 namespace stormcellar::pipeline {
 
-// The sweeps of a volume, put aside; const once the volume has ended.
+// The sweeps of a volume on the shelf; const once the volume has ended.
 struct ShelvedVolume {
     level2::Volume facts;  // without sweeps
     std::string source_file;
@@ -42,7 +42,7 @@ struct ShelvedVolume {
     };
     std::map<SweepKey, Kept> sweeps;
 
-    // Whether no sweep that has come is lower: the lowest cut and its repetitions.
+    // Returns true if no sweep that has come is lower: the lowest cut and its repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;
 };
 
@@ -58,24 +58,24 @@ class FollowedFile {
         level2::Moment moment = level2::Moment::ref;  // of living grids
         std::string fallback_station;
         std::filesystem::path scratch;
-        std::filesystem::path beneath = {};  // where all files must lie (IngestOptions)
+        std::filesystem::path beneath = {};  // all files must be below it (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
         // Of the sweep that is open, within one stretch that is read; 0: see
         // stormcellar/level2/decode.h.
         std::uint64_t open_sweep_limit_bytes = 0;
     };
 
-    // The start of a file that grows.
+    // The start of a growing file.
     struct Growing {
-        std::string station;            // of its header; empty where that names none
-        std::uint64_t last_record = 0;  // where that begins, if it ends with the file; else 0
+        std::string station;            // from its header; empty if it names none
+        std::uint64_t last_record = 0;  // where it begins, if it ends with the file; else 0
     };
-    // Whether the file grows: LDM records, of which the last is not there yet. Reads the lengths
-    // of its records. None: it does not, or cannot be read.
+    // Returns the facts of a growing file: LDM records, of which the last is not there yet. Reads
+    // the lengths of its records. None: it does not grow, or cannot be read.
     [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
                                                         const std::filesystem::path& beneath = {});
-    // Whether the last record of a file that grows holds the last radial of a volume, whatever its
-    // control word says.
+    // Returns true if the last record of a growing file holds the last radial of a volume, whatever
+    // its control word says.
     [[nodiscard]] static bool has_ended(const std::filesystem::path& path, const Growing& growing,
                                         const std::filesystem::path& beneath = {});
     static Result<std::unique_ptr<FollowedFile>> begin(const std::filesystem::path& path,
@@ -85,13 +85,14 @@ class FollowedFile {
     // after each stretch, and ends the reading where it says no: that is over_budget.
     [[nodiscard]] Status read_to(std::uint64_t size_bytes,
                                  const std::function<bool()>& may_read_on = {});
-    // No read has failed.
+    // no read has failed
     [[nodiscard]] bool is_whole() const { return is_whole_; }
-    // Its last radial has come.
+    // its last radial has come
     [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
     [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
-    // Station, pattern and position, and the sweeps that have closed; radials counts all theirs.
+    // Returns station, pattern, position and the sweeps that have closed; radials are counted over
+    // all of them.
     [[nodiscard]] const ShelvedVolume& kept() const { return *kept_; }
     [[nodiscard]] std::size_t radials() const { return radials_; }
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
@@ -103,7 +104,7 @@ class FollowedFile {
     }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    // After finish(), for the next volume of the site.
+    // Call it after finish(): keeps the sweeps for the next volume of the site.
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
@@ -117,7 +118,7 @@ class FollowedFile {
     level2::Moment moment_;
     level2::GrowingVolume growing_;
     std::unique_ptr<ShelvedVolume> kept_;
-    std::size_t dropped_ = 0;  // sweeps below are on the shelf alone
+    std::size_t dropped_ = 0;  // sweeps below this index are only on the shelf
     Xxh3Stream hash_;
     std::uint64_t inode_ = 0, read_bytes_ = 0;
     std::size_t radials_ = 0;

@@ -26,7 +26,7 @@ class FollowedFiles {
     explicit FollowedFiles(FollowedFile::Options options, GrowingLimits limits = {})
         : options_(std::move(options)), limits_(limits), files_(limits) {}
 
-    // Null where the file is not followed.
+    // Returns null if the file is not followed.
     [[nodiscard]] std::shared_ptr<FollowedFile> find(const std::filesystem::path& path) const;
     // `station`: whose the file says that it is. Null where it cannot be followed: there is no
     // place for it, no descriptor, no room, or it was given up before.
@@ -38,7 +38,7 @@ class FollowedFiles {
     [[nodiscard]] bool grew(const std::filesystem::path& path, const FollowedFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
-    // It holds more than its share, and is not to be followed again.
+    // It holds more than its share, and must not be followed again.
     void give_up(const std::filesystem::path& path);
 
     // The volume has ended.
@@ -46,7 +46,7 @@ class FollowedFiles {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;
     [[nodiscard]] std::uint64_t held_bytes() const;
-    // How many files were given up since the last call.
+    // Returns how many files were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
@@ -54,7 +54,7 @@ class FollowedFiles {
 
     FollowedFile::Options options_;
     GrowingLimits limits_;
-    mutable std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards the members below
     Followed<std::filesystem::path, FollowedFile> files_;
     std::map<std::string, std::shared_ptr<const ShelvedVolume>> last_;
 };

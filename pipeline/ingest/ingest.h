@@ -24,27 +24,27 @@ namespace stormcellar::pipeline {
 
 class MosaicMaker;
 
-// Whether a file that cannot be taken in is tried again after this.
+// Whether a file that cannot be ingested is tried again after this.
 enum class Tries { more_follow, last };
 
 class Ingestor {
   public:
     Ingestor(catalog::CatalogWriter& catalog, cache::StoreWriter& store, IngestOptions options);
-    // Without a cache: files are decoded and registered, and not gridded.
+    // Without a cache: files are decoded and registered, but not gridded.
     Ingestor(catalog::CatalogWriter& catalog, IngestOptions options);
     ~Ingestor();
     Ingestor(const Ingestor&) = delete;
     Ingestor& operator=(const Ingestor&) = delete;
 
-    // finish_as_is: grid a volume that has not ended (the file was quiet long enough).
+    // finish_as_is: grids a volume that has not ended (the file was quiet for long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_as_is,
                                  Tries tries = Tries::more_follow);
     // Writes a file into the catalog as seen, unread, unless it stands there (stands), or marks
     // its rows when it is gone (gone; stands where a volume of chunks waits in its name).
     Result<Noted> note(const std::filesystem::path& path);
-    // The same as ingest() for a file that was settled before: its volumes are gridded again, as
-    // they are. Where `is_the_same` fails for what was read nothing is done, and its error is
-    // given.
+    // Does the same as ingest() for a file that was settled before: its volumes are gridded again
+    // as they are. If `is_the_same` fails for the bytes read, nothing is done and its error is
+    // returned.
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path,
                                        const ReadCheck& is_the_same = {});
 

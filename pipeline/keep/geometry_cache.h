@@ -1,8 +1,9 @@
-// pipeline/keep/geometry_cache.h -- what volumes of one site on one grid share, made once and kept.
+// pipeline/keep/geometry_cache.h -- keeps what volumes of one site on one grid share.
 //
-// Making it takes longer than using it. The least recently used go first.
-// Thread contract: may be used by many threads; what two threads want at once may be made twice,
-// and one of the two is kept.
+// Making it takes longer than using it. The least recently used entries are dropped first.
+//
+// Threads   Many threads may use it. If two threads want an entry at the same time, it may be made
+//           twice, and one of the two is kept.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,8 @@ namespace stormcellar::pipeline {
 
 class GeometryCache {
   public:
-    // Of column geometries, which are large; of the rest some 0.1 MiB each, so many more.
+    // The capacity for column geometries, which are large. The rest takes some 0.1 MiB each, so
+    // there may be more.
     explicit GeometryCache(std::size_t capacity)
         : geometries_(capacity),
           windows_(small_ones),
@@ -30,10 +32,10 @@ class GeometryCache {
     Result<std::shared_ptr<const grid::ColumnGeometry>> get(
         const grid::SitePosition& site, const grid::GridSpec& spec,
         grid::FrameKind frame = grid::FrameKind::table);
-    // grid::site_window().
+    // Returns grid::site_window().
     std::optional<grid::GridWindow> window(const grid::GridSpec& domain,
                                            const grid::SitePosition& site, double reach_m);
-    // For merging: of a window of the domain.
+    // For merging: for a window of the domain.
     std::shared_ptr<const grid::SiteDistance> distance(const grid::GridSpec& domain,
                                                        const grid::GridWindow& window,
                                                        const grid::SitePosition& site);
@@ -44,7 +46,7 @@ class GeometryCache {
   private:
     static constexpr std::size_t small_ones = 512;
 
-    // A site's place on a grid, whatever the site is called.
+    // The place of a site on a grid, whatever the name of the site.
     struct Place {
         grid::SitePosition site;
         grid::GridSpec spec;

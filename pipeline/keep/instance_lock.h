@@ -1,4 +1,6 @@
-// pipeline/keep/instance_lock.h -- one daemon a state directory.
+// pipeline/keep/instance_lock.h -- allows one daemon for each state directory.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +11,13 @@
 
 namespace stormcellar::pipeline {
 
-// Holds state/stormcellard.lock (flock; the kernel lets go of it when the process ends, however
-// that happens) with the process id in it.
+// Holds state/stormcellard.lock with the process id in it (flock: the kernel releases it when the
+// process ends, however that happens).
 class InstanceLock {
   public:
     static constexpr const char* file_name = "stormcellard.lock";
 
-    // busy, with the process id, when another daemon holds it; io, permission.
+    // Errors: bad_argument, with the process id, if another daemon holds it; io, permission.
     static Result<InstanceLock> acquire(const std::filesystem::path& state);
 
   private:

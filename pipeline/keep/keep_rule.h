@@ -1,6 +1,7 @@
-// pipeline/keep/keep_rule.h -- which grids of a volume that stand in the cache give way to another.
+// pipeline/keep/keep_rule.h -- which existing grids in the cache are replaced by another grid. Used
+// only inside the pipeline room.
 //
-// Inside the pipeline room only.
+// Threads   Functions without state.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +16,29 @@
 
 namespace stormcellar::pipeline {
 
-// How the note of a grid of a volume that still grows begins.
+// The start of the note in a grid of a volume that is still growing.
 inline constexpr std::string_view living_note = "living: ";
 
-// Why the grid at the path must stay: it is whole and the new one is not, its file is newer, or its
-// volume has ended and that of the new one still grows. A living grid always gives way to one of a
-// volume that has ended. None when it is to be replaced, as one that is damaged, missing or was
-// made otherwise always is.
+// Returns why the grid at the path must stay: it is whole and the new one is not, its file is
+// newer, or its volume has ended and that of the new one is still growing. A living grid is always
+// replaced by one of a volume that has ended. None: it is to be replaced. That is always so if it
+// is damaged, missing or made in another way.
 [[nodiscard]] std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
                                                         const cache::GridDescription& made);
 
-// A radar begins no more volumes than that within an hour: the fastest pattern takes three minutes.
+// A radar begins at most this many volumes within an hour: the fastest pattern takes three minutes.
 inline constexpr std::size_t most_volumes_an_hour = 120;
-// Where more stand within half an hour of this grid, the one that was written longest ago goes, so
-// that files which claim to be of one station push out little of the others' history. Pinned grids
-// and this one stay.
+// If there are more grids within half an hour of this one, the one that was written longest ago is
+// removed, so that files which claim one station displace little of the history of others. Pinned
+// grids and this one stay.
 void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time);
 
-// Takes away what stands under another time of the same volume: a volume of chunks is named by its
-// first radial until the chunk with its header comes. A volume without its header takes nothing
-// away, as its beginning may have been deleted since. The source must be named as a chunk
-// (stormcellar/level2/chunk_name.h), as that of the grid that goes; pinned grids stay. A grid that
-// cannot be read or removed stays too.
+// Removes grids of the same volume under another time: a volume of chunks is named by its first
+// radial until the chunk with its header comes. A volume without its header removes nothing, since
+// its beginning may have been deleted. The source must have the name of a chunk
+// (stormcellar/level2/chunk_name.h), like that of the grid that is removed. Pinned grids, and grids
+// that cannot be read or removed, stay.
 void remove_other_times(cache::StoreWriter& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file);
 

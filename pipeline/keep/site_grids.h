@@ -1,6 +1,7 @@
-// pipeline/keep/site_grids.h -- volumes of one site -> grids about it in the cache.
+// pipeline/keep/site_grids.h -- grids the volumes of one site about it into the cache. Used only
+// inside the pipeline room.
 //
-// Inside the pipeline room only. Thread contract: may be used by many threads at once.
+// Threads   Many threads may use it.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 
 namespace stormcellar::pipeline {
 
-// What the grid's provenance is to say of the raw file.
+// What the provenance of the grid says about the raw file.
 struct GridSource {
     std::string file;  // without directories
     std::int64_t modified_ns = 0;
@@ -33,15 +34,16 @@ class SiteGrids {
     SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
         : store_(store), options_(options) {}
 
-    // Whether somebody knows where the radar stands; if not the outcome says so.
+    // Returns true if the position of the radar is known; if not, the outcome says so.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids a volume, audits it and commits the grid, unless a better one stands or the budgets do
-    // not keep it: then the outcome says so. Adds to its grids and times.
+    // Grids a volume, audits the grid and commits it, unless a better one exists or the budgets do
+    // not keep it, which the outcome then says. Adds to its grids and times.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
-    // The same of a volume that still grows, in a hurry: not audited, and not synced, for it will
-    // be replaced in seconds and made again after a crash. Adds to the outcome's `living`.
+    // Does the same fast for a volume that is still growing: the grid is neither audited nor
+    // synced, because it will be replaced in seconds and made again after a crash. Adds to the
+    // outcome's `living`.
     Status keep_living(const level2::Volume& volume, const GridSource& source, int threads,
                        IngestOutcome& outcome);
 
@@ -59,19 +61,19 @@ class SiteGrids {
     // A geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
-    // One commit at a time for each grid file, by the hash of its path.
+    // one commit at a time for each grid file, by the hash of its path
     std::array<std::mutex, 16> commits_;
 };
 
-// An error of gridding a volume that was decoded: whatever it is called, it lies in what the file
-// says, unless the system refused something.
+// Classifies an error of gridding a decoded volume: whatever its code, the cause is in the file,
+// unless the system refused something.
 [[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
-// An error of writing into the cache: whatever it is called, it does not lie in what was decoded.
+// Classifies an error of writing into the cache: whatever its code, the cause is not in the file.
 [[nodiscard]] tl::unexpected<Error> of_storing(Error error);
-// The cache's budgets leave no room for a grid, and somebody would have to change them: the file is
-// not tried again until a restart looks for missing grids.
+// The cache's budgets leave no room for a grid, and somebody must change them. The file is not
+// tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);
-// The cache keeps no grid of this station that is so old, or none at all where nobody knows it.
+// The cache keeps no grid of this station that is so old, or no grid at all of an unknown station.
 void note_not_kept(const std::string& station, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

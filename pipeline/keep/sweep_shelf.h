@@ -1,9 +1,10 @@
-// pipeline/keep/sweep_shelf.h -- sweeps that are put aside until they are wanted again.
+// pipeline/keep/sweep_shelf.h -- stores sweeps until they are wanted again.
 //
-// They lie, packed with LZ4, in a file without a name, which goes with the process however that
-// ends: what 160 volumes hold while they grow is more than a service should take in memory, and
-// the page cache gives it up when memory is short. A sweep comes back bit for bit.
-// Thread contract: put() by one thread at a time; get() by many, also beside put().
+// The sweeps are packed with LZ4 in a file without a name, which disappears with the process
+// however that ends. 160 growing volumes hold more than a service should take in memory, and the
+// page cache can drop it when memory is short. A sweep comes back bit for bit.
+//
+// Threads   put() by one thread at a time; get() by many, also during put().
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,13 @@ class SweepShelf {
         std::uint64_t offset = 0, packed_bytes = 0, bytes = 0;
     };
 
-    // The directory is one on a local file system with some room. Errors: io, no_space, permission.
+    // The directory must be on a local file system with some room. Errors: io, no_space,
+    // permission.
     static Result<std::unique_ptr<SweepShelf>> make_in(const std::filesystem::path& directory);
 
     [[nodiscard]] Result<Place> put(const level2::Sweep& sweep);
     [[nodiscard]] Result<level2::Sweep> get(const Place& place) const;
-    // On disk.
+    // on disk
     [[nodiscard]] std::uint64_t bytes() const { return end_; }
 
   private:

@@ -33,7 +33,7 @@ BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment momen
       geometries_(std::make_unique<GeometryCache>(kept_geometries)),
       instants_(std::make_unique<InstantCache>(kept_instants_bytes)) {}
 
-// A frame names its overlap; of the rest of its rules it has a digest.
+// A frame names its overlap and has a digest of its other rules.
 Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
     Domain rules;
     rules.spec = newest.spec;
@@ -92,7 +92,7 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
     return all;
 }
 
-// The last grid that is not after the instant.
+// Returns the last grid that is not after the instant.
 std::optional<std::size_t> BetweenGrids::before(UtcTime instant) const {
     const auto after =
         std::upper_bound(grids_.begin(), grids_.end(), instant,
@@ -131,7 +131,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
         if (!file) return pass_on(file);
         files.push_back(std::move(*file));
     }
-    // Of grids of different shapes the nearer one stands.
+    // If the grids have different shapes, the nearer one is used.
     if (has_next && grids_[*first].spec != grids_[*first + 1].spec) {
         const bool later = grids_[*first + 1].middle - instant < instant - grids_[*first].middle;
         files.erase(later ? files.begin() : files.begin() + 1);
@@ -163,7 +163,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
 }
 
 Result<std::optional<MosaicFrame>> BetweenGrids::of_partials(UtcTime instant) {
-    std::vector<std::string> damaged;  // left out, as the domain's own frames do
+    std::vector<std::string> damaged;  // left out, as in the domain's own frames
     auto partials = MappedPartials::open(store_, *mosaic_, moment_, instant, instant, damaged);
     if (!partials) return pass_on(partials);
     const FrameOptions options = frame_options(*mosaic_, moment_, options_.threads);

@@ -1,10 +1,11 @@
-// pipeline/mosaic/instant_cache.h -- sites' grids for instants that were made before, in memory.
+// pipeline/mosaic/instant_cache.h -- keeps the grids of sites for instants, in memory.
 //
 // A frame is made again for each volume of any of its sites, and making a site's grid for the
-// instant costs more than all merging. The grids of the sites whose volumes stayed the same are had
-// from here. The least recently used go first, within a budget of bytes.
-// Thread contract: may be used by many threads; a grid that two threads want at once may be made
-// twice, and one of the two is kept.
+// instant costs more than all merging. The grids of the sites whose volumes did not change come
+// from here. The least recently used grids are dropped first, within a budget of bytes.
+//
+// Threads   Many threads may use it. If two threads want a grid at the same time, it may be made
+//           twice, and one of the two is kept.
 #pragma once
 
 #include <compare>
@@ -33,7 +34,7 @@ class InstantCache {
 
     explicit InstantCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-    // Null where it is not there.
+    // Returns null if it is not there.
     [[nodiscard]] std::shared_ptr<const grid::BrickGrid> find(const Key& key);
     void keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made);
     [[nodiscard]] std::size_t bytes() const;
@@ -48,7 +49,7 @@ class InstantCache {
     std::size_t most_bytes_;
     mutable std::mutex mutex_;  // guards what follows
     std::size_t bytes_ = 0;
-    std::list<Entry> entries_;  // most recently used first
+    std::list<Entry> entries_;  // the most recently used first
     std::map<Key, std::list<Entry>::iterator> by_key_;
 };
 

@@ -1,4 +1,4 @@
-// Frames that are damaged, dropped or missing, made again from the partials in the store.
+// Makes frames again that are damaged, removed or missing, from the partials in the store.
 #include <algorithm>
 #include <set>
 
@@ -19,7 +19,7 @@ auto no_domain(const cache::GridName& frame) {
                 level2::moment_name(frame.moment));
 }
 
-// When the volumes began whose partials stand.
+// Returns when the volumes began whose partials exist.
 Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domain& domain,
                                     level2::Moment moment) {
     std::set<UtcTime> starts;
@@ -34,7 +34,8 @@ Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domai
     return starts;
 }
 
-// Whether the instant lies between two partials of which one counts for it, as take_in() has it.
+// Returns true if the instant is between two partials of which one counts for it, by the rule of
+// take_in().
 bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
     bool any_before = false, any_after = false;
     for (const PartialView& partial : partials) {

@@ -1,14 +1,15 @@
 // pipeline/mosaic/mosaic_effects.h -- the steps, rungs and effects of a frame of several sites:
-// those of gridding (grid/plan/grid_effects.h), for all volumes alike, and then
+// those of gridding (grid/plan/grid_effects.h), the same for all volumes, and then
 //
 //   step      rungs, from cheap to exact                     effects that reach them
 //   time      nearest, blend, advected                       time_blend, echo_motion
 //   sweeps    as one, each at its own time                   sweep_times
 //   overlap   the nearest site, the rule asked for           site_overlap
 //   codes     default steps, fine steps                      fine_codes
-// Which rule sites overlap by is a definition, as the averaging is; where it is the nearest site,
-// the step has no effect. The exact form's motion is that which the default grids show.
-// Threads: pure functions.
+// The rule by which sites overlap is a definition, like the averaging; if it is the nearest site,
+// the step has no effect. The motion of the exact form is the one that the default grids show.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include "grid/mosaic/time_interpolation.h"
@@ -28,7 +29,7 @@ inline constexpr std::string_view codes = "codes";
 }  // namespace step
 [[nodiscard]] bool is_of_merging(const accuracy::Step& step);
 
-// One rung of every step.
+// One rung for every step.
 struct MosaicChoice {
     grid::SceneChoice gridding;
     grid::TimeMethod time = grid::TimeMethod::advected;
@@ -38,24 +39,24 @@ struct MosaicChoice {
     bool operator==(const MosaicChoice&) const = default;
 };
 
-// Names, rungs and sentences; the steps of gridding come first, in their order.
+// Returns the chain with names, rungs and sentences; the steps of gridding come first, in order.
 [[nodiscard]] accuracy::Chain mosaic_effects_of(level2::Moment moment, grid::Averaging averaging,
                                                 grid::Overlap overlap);
 
 [[nodiscard]] MosaicChoice mosaic_choice(const accuracy::Chain& chain,
                                          const accuracy::Choice& choice);
 
-// What is done when no budget is given: the default of gridding, advected, each sweep at its own
-// time, the rule asked for, the default codes. The effects' settings change it.
+// Returns the default without a budget: the default of gridding, advected, each sweep at its own
+// time, the rule asked for, the default codes. The settings of the effects change it.
 [[nodiscard]] accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain,
                                                      const grid::GridSpec& domain,
                                                      double beam_width_deg);
 
-// How values are kept: the default; or in two bytes and steps of a 64th of it, of a 16th where the
-// default has two bytes.
+// Returns how values are stored: the default; or two bytes with steps of a 64th of the default's,
+// or of a 16th if the default has two bytes.
 [[nodiscard]] grid::Quantization quantization_of(level2::Moment moment, bool fine);
 
-// The choice's rungs among options that hold all else.
+// Returns the options with the rungs of the choice.
 [[nodiscard]] PartialOptions with_choice(PartialOptions options, const MosaicChoice& choice);
 [[nodiscard]] FrameOptions with_choice(FrameOptions options, const MosaicChoice& choice);
 

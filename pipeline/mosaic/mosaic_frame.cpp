@@ -20,13 +20,14 @@ grid::TimedView timed(const PartialView& partial) {
     return {partial.view, partial.middle(), partial.description->provenance.sweeps};
 }
 
-// What one site gives to a frame: a partial as it stands, or a grid made of two for the instant.
+// What one site gives to a frame: a partial unchanged, or a grid made of two partials for the
+// instant.
 struct SiteShare {
     const PartialView* nearest = nullptr;
     const PartialView* before = nullptr;  // both, or none
     const PartialView* after = nullptr;
     bool nothing_after = false;  // its site has no volume after the instant yet
-    InstantCache::Key key;       // of that grid
+    InstantCache::Key key;       // the key of that grid
     std::shared_ptr<const grid::BrickGrid> made;
 
     [[nodiscard]] grid::BrickView view() const { return made ? made->view() : nearest->view; }
@@ -36,13 +37,14 @@ struct SiteShare {
     }
 };
 
-// Two windows of one site differ where it moved, codes where the configuration was changed.
+// Two windows of one site differ if the site moved, and codes differ if the configuration was
+// changed.
 bool is_pair(const PartialView& before, const PartialView& after) {
     return *before.view.spec == *after.view.spec &&
            before.view.quantization == after.view.quantization;
 }
 
-// Where the method takes the nearer one untouched, or only one can be had, that stands.
+// If the method takes the nearer partial unchanged, or only one exists, that one is used.
 SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
                    grid::TimeMethod method) {
     SiteShare share;
@@ -58,7 +60,7 @@ SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime 
     return share;
 }
 
-// One a site that has a partial near the instant; not_found where none has.
+// Returns a share for each site that has a partial near the instant. Errors: not_found if none has.
 Result<std::vector<SiteShare>> shares_of(std::span<const PartialView> partials, UtcTime instant,
                                          const FrameOptions& options) {
     const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
@@ -170,7 +172,8 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
-// On which columns the new frame differs from the previous one; none where that is of no use.
+// Returns the columns in which the new frame differs from the previous one; none if that is of no
+// use.
 std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
                                                            const cache::GridDescription& now,
                                                            const FrameOptions& options,
@@ -188,7 +191,7 @@ std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* 
     return changed_windows(was.provenance.parts, now.provenance.parts);
 }
 
-// Sites of which no brick that changed asks anything.
+// Drops the sites that no changed brick needs.
 void drop_untouched(const grid::GridSpec& domain, const std::vector<grid::GridWindow>& changed,
                     std::vector<SiteShare>& shares) {
     std::erase_if(shares, [&](const SiteShare& share) {
@@ -214,7 +217,7 @@ Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameO
     return {};
 }
 
-// All but its cells; also notes by what each share can be known again.
+// Describes everything but the cells, including the notes by which each share can be recognized.
 Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
                                               std::vector<SiteShare>& shares, UtcTime instant,
                                               const FrameOptions& options) {
@@ -249,13 +252,13 @@ Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
 grid::Partial placed(const grid::GridSpec& domain, const SiteShare& share,
                      GeometryCache& geometries) {
     grid::Partial partial{share.view(), share.nearest->site()};
-    // Of a grid that is no window of the domain merge() says what is wrong.
+    // If a grid is not a window of the domain, merge() says what is wrong.
     const auto window = grid::window_of(domain, *partial.view.spec);
     if (window) partial.distance = geometries.distance(domain, *window, partial.site);
     return partial;
 }
 
-// Four gates to a cell are enough where cells are wide.
+// Four gates for each cell are enough if cells are wide.
 grid::AuditOptions audit_options(const grid::GridSpec& domain) {
     grid::AuditOptions options;
     const double cell_m = std::min(domain.cell_width_m(), domain.cell_height_m());

@@ -1,10 +1,13 @@
-// pipeline/mosaic/mosaic_scene.h -- volumes of several sites over one domain, made into the frame
-// of one instant in any way, whole: what the accuracy planner measures mosaics on (mosaic_plan.h).
+// pipeline/mosaic/mosaic_scene.h -- makes volumes of several sites over one domain into the frame
+// of one instant, by any choice, whole: the accuracy planner measures mosaics on it
+// (mosaic_plan.h).
 //
-// The instant brackets some of the volumes; only those are gridded again, each way of gridding
-// once: the two that were used last are kept. The motion of echo is estimated once, from the
-// default grids, and is that of every frame: a rung errs by what it does, not by another motion.
-// Threads: use a scene from one thread; it starts up to `threads` of its own.
+// The instant brackets some of the volumes. Only those are gridded again, once for each choice of
+// gridding; the two that were used last are kept. The motion of echo is estimated once, from the
+// default grids, and used for every frame, so that the error of a rung is its own and not that of
+// another motion.
+//
+// Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
 
 #include <list>
@@ -19,7 +22,7 @@
 
 namespace stormcellar::pipeline {
 
-// One volume of a site and what its partials say of where they come from.
+// One volume of a site, and what its partials say about their source.
 struct SceneVolume {
     const level2::Volume* volume = nullptr;
     grid::SitePosition site;
@@ -28,8 +31,8 @@ struct SceneVolume {
     std::vector<std::string> notes;
 };
 
-// Each on its site's window of the domain, in their order. Errors name the file: those of
-// make_partial(); bad_argument for a site that sees nothing of the domain.
+// Makes the partials, each on its site's window of the domain, in order. Errors name the file:
+// those of make_partial(); bad_argument for a site that sees nothing of the domain.
 [[nodiscard]] Result<std::vector<MadePartial>> make_partials(std::span<const SceneVolume> volumes,
                                                              const grid::GridSpec& domain,
                                                              const PartialOptions& options,
@@ -37,50 +40,51 @@ struct SceneVolume {
 
 [[nodiscard]] std::vector<PartialView> views_of(const std::vector<MadePartial>& partials);
 
-// The instant that a mosaic of these is of: the middle between the earliest and the latest of the
-// sites' newest partials, by their middles. Where these do not all lie within `greatest_gap` of it,
-// the newest one's middle: what is far apart in time does not blend.
+// Returns the instant of a mosaic of these partials: the middle between the earliest and the latest
+// of the sites' newest partials, by their middles. If these do not all lie within `greatest_gap` of
+// it, the middle of the newest, because what is far apart in time cannot be blended.
 [[nodiscard]] UtcTime instant_of_newest(
     std::span<const PartialView> partials,
     std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap);
 
 struct MosaicSceneOptions {
-    FrameOptions frame;      // time, sweeps and motions are the choice's and the scene's own
-    PartialOptions partial;  // likewise method, frame and quantisation
+    FrameOptions frame;      // time, sweeps and motions are set by the choice and the scene
+    PartialOptions partial;  // likewise method, frame and quantization
     // None: instant_of_newest().
     std::optional<UtcTime> instant = std::nullopt;
 };
 
 class MosaicScene {
   public:
-    // Of a volume's first radial and of its last.
+    // The times of a volume's first and last radial.
     struct Times {
         UtcTime start, end;
     };
 
-    // Grids all volumes the default way. The volumes must outlive the scene.
-    // Errors: those of make_partials(), not_found when no volume is near the instant.
+    // Grids all volumes by the default method. The volumes must outlive the scene. Errors: those of
+    // make_partials(); not_found if no volume is near the instant.
     [[nodiscard]] static Result<MosaicScene> make(std::vector<SceneVolume> volumes,
                                                   const grid::GridSpec& domain,
                                                   const accuracy::Chain& chain,
                                                   const MosaicSceneOptions& options);
 
-    // The same bits whenever it is asked for.
+    // Returns the frame of a choice, with the same bits each time.
     [[nodiscard]] Result<MosaicFrame> frame(const MosaicChoice& choice);
-    // Partials of the volumes in use, gridded and kept as the choice has it.
+    // Returns the partials of the volumes in use, gridded and quantized by the choice.
     [[nodiscard]] Result<const std::vector<MadePartial>*> partials(const MosaicChoice& choice);
 
-    // What was kept of this choice's gridding, so that it is made anew.
+    // Forgets what was kept for this choice's gridding, so that it is made anew.
     void forget(const MosaicChoice& choice);
 
-    // Those that the instant brackets.
+    // Returns the volumes that the instant brackets.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
     [[nodiscard]] const std::vector<Times>& times() const { return times_; }
-    // Of them, by place; pairs are what time is interpolated between.
+    // Returns their brackets, by place. Time is interpolated between the two of a pair.
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
     [[nodiscard]] const Motions& motions() const { return motions_; }
-    // That estimating them took: of one thread by the processor's time, of several by the clock.
+    // Returns the seconds that estimating the motions took: processor time for one thread, time by
+    // the clock for several.
     [[nodiscard]] double motion_seconds() const { return motion_s_; }
     [[nodiscard]] double now_s() const;
     [[nodiscard]] const grid::GridSpec& domain() const { return domain_; }
@@ -108,7 +112,7 @@ class MosaicScene {
     std::vector<Bracket> brackets_;
     Motions motions_;
     double motion_s_ = 0;
-    std::list<Kept> kept_;  // used last first
+    std::list<Kept> kept_;  // the last used first
     std::shared_ptr<GeometryCache> geometries_;
 };
 

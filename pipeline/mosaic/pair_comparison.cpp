@@ -22,7 +22,7 @@ struct Cut {
     grid::CellDetails ages;
 };
 
-// What both sites may look at, and `margin` bricks about it; none: nothing.
+// Returns what both sites may see, with `margin` bricks around it; none: nothing.
 std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::SitePosition& a,
                                         const grid::SitePosition& b, int margin) {
     const auto about_a = grid::site_window(spec, a, greatest_range_m);
@@ -60,7 +60,8 @@ grid::BrickGrid bricks_of(const grid::BrickView& view, const grid::GridSpec& spe
     return cut;
 }
 
-// Seconds after the instant. Of a partial without sweeps all is of its volume's middle.
+// Returns the ages in seconds after the instant. Without sweeps, the whole partial has the middle
+// of its volume.
 Result<grid::CellDetails> ages_of(const PartialView& partial, const grid::GridSpec& spec,
                                   UtcTime instant) {
     const grid::SitePosition& site = partial.site();

@@ -1,10 +1,12 @@
-// pipeline/mosaic/pair_comparison.h -- two sites of a mosaic, compared where they overlap.
+// pipeline/mosaic/pair_comparison.h -- compares two sites of a mosaic where they overlap.
 //
-// What each saw is its partial, as it stands: the age of each cell is had back from the partial's
-// sweeps (grid/sweep/sweep_clock.h), and the motion of the weather from two volumes of a site,
-// where there are two. So grid/judge/site_comparison.h compares what both saw at one instant; what
-// that takes and how exact it is stands there. Reflectivity alone. Cost     0.1 to 0.3 s a pair of
-// 1 km grids, and some 30 MiB. Threads  pure functions.
+// What each site saw is its partial, unchanged. The age of each cell follows from the partial's
+// sweeps (grid/sweep/sweep_clock.h), and the motion of the weather from two volumes of a site, if
+// there are two. So grid/judge/site_comparison.h compares what both saw at one instant; that header
+// says what this requires and how exact it is. Reflectivity only.
+//
+// Cost      0.1 to 0.3 s for a pair of 1 km grids, and some 30 MiB.
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -17,34 +19,34 @@
 
 namespace stormcellar::pipeline {
 
-// Of one site: the partial whose middle is nearest to an instant, and the next nearest on the same
-// columns; null where there is no other.
+// For one site: the partial whose middle is nearest to an instant, and the next nearest on the same
+// columns; null if there is no other.
 struct SiteLook {
     const PartialView* nearest = nullptr;
     const PartialView* other = nullptr;
 
     [[nodiscard]] const grid::SitePosition& site() const { return nearest->site(); }
 };
-// By ICAO. The partials must outlive what comes back.
+// Returns the looks by ICAO. The partials must outlive the result.
 [[nodiscard]] std::vector<SiteLook> looks_about(std::span<const PartialView> partials,
                                                 UtcTime instant);
 
-// Whether any place lies within the range of comparison of both.
+// Returns true if any place lies within the range of comparison of both.
 [[nodiscard]] bool may_overlap(const grid::SitePosition& a, const grid::SitePosition& b);
 
-// None where a site was seen once, or too little echo stands in both volumes.
+// Returns none if a site was seen once, or both volumes have too little echo.
 [[nodiscard]] std::optional<grid::UniformMotion> motion_between(const SiteLook& look);
 
-// The motion is that about A and B together, as far as it is known.
-// Errors: bad_argument for sites that cannot overlap, for grids of other moments than REF, and
-// those of compare_sites().
+// Compares two looks. The motion is that around A and B together, as far as it is known. Errors:
+// bad_argument for sites that cannot overlap and for grids of other moments than REF; those of
+// compare_sites().
 [[nodiscard]] Result<grid::SiteComparison> compare_looks(const SiteLook& a, const SiteLook& b,
                                                          UtcTime instant);
 
-// "KB against KA: bias +0.12 +- 0.05 dB, azimuth ..., time not told (1234 cells, correlation 0.93,
-// looks 40 s apart)". One line.
+// Returns one line: "KB against KA: bias +0.12 +- 0.05 dB, azimuth ..., time not told (1234 cells,
+// correlation 0.93, looks 40 s apart)".
 [[nodiscard]] std::string describe(const grid::SiteComparison& comparison);
-// Whether any of the four could be told.
+// Returns true if any of the four faults could be estimated.
 [[nodiscard]] bool tells_anything(const grid::SiteComparison& comparison);
 
 }  // namespace stormcellar::pipeline

@@ -1,8 +1,9 @@
 // pipeline/options/domain.h -- a named region with a grid spec that the daemon keeps gridded.
 //
-// Read from [[domain]] tables (daemon/stormcellard.toml explains every key). Distances are
-// kilometres in the file and metres here.
-// Thread contract: plain data.
+// Domains are read from [[domain]] tables (daemon/stormcellard.toml explains every key).
+//
+// Units     Distances are kilometers in the file and meters here.
+// Threads   Plain data.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ struct Domain {
     std::string name;
     grid::GridSpec spec;
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    std::vector<std::string> stations;     // empty: each one that reaches it
+    std::vector<std::string> stations;     // empty: each station that reaches it
     std::chrono::seconds interval{300};    // from frame to frame, counted from midnight UTC
     std::optional<grid::Overlap> overlap;  // none: the moment's default
     double overlap_length_m = 250'000;
@@ -36,24 +37,24 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
-// West, south, east, north in degrees; east of the antimeridian west is the greater one.
+// West, south, east and north in degrees. East of the antimeridian, west is greater than east.
 using Bounds = std::array<double, 4>;
-[[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and holding something
+[[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and not empty
 [[nodiscard]] double width_deg(const Bounds& bounds);
 [[nodiscard]] grid::GeoPoint middle_of(const Bounds& bounds);
-// How many columns of the spec, whose size does not count, the boundary reaches from its centre at
-// most. Errors: those of grid::validate().
+// Returns how many columns of the spec, whose size does not matter, the boundary reaches at most
+// from its center. Errors: those of grid::validate().
 [[nodiscard]] Result<grid::ColumnPoint> half_columns_of(const grid::GridSpec& spec,
                                                         const Bounds& bounds);
 
-// Heights above mean sea level of the key levels_km: "BOTTOM:TOP:STEP" or a list; none when the key
-// is absent or, with a complaint noted, makes no sense.
+// Reads heights above mean sea level from the key levels_km: "BOTTOM:TOP:STEP" or a list. Returns
+// none if the key is absent or makes no sense, which is recorded as a complaint.
 [[nodiscard]] std::optional<std::vector<double>> read_levels_m(TomlTable& table);
-// One moment's name; none with a complaint noted.
+// Reads the name of one moment; none with a complaint.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,
                                                         const std::string& name);
 
-// All [[domain]] tables; what makes no sense is complained of and left out.
+// Reads all [[domain]] tables. Those that make no sense are recorded as complaints and left out.
 [[nodiscard]] std::vector<Domain> read_domains(TomlTable& root);
 
 }  // namespace stormcellar::pipeline

@@ -1,6 +1,6 @@
-// pipeline/options/ingest_options.h -- how files are taken in (pipeline/ingest/ingest.h).
+// pipeline/options/ingest_options.h -- how files are ingested (pipeline/ingest/ingest.h).
 //
-// Thread contract: plain data.
+// Threads   Plain data.
 #pragma once
 
 #include <chrono>
@@ -20,76 +20,77 @@
 
 namespace stormcellar::pipeline {
 
-// What growing volumes may have put aside on disk, packed, so that little is held in memory: of
-// files that are followed, with what stands of the sites' last volumes, and of chunks each. Of a
-// feed of 160 sites either takes 1 to 3 GB.
+// Limit of the sweeps of growing volumes on disk, packed, so that little is held in memory: for
+// followed files with the sites' last volumes, and the same for chunks. A feed of 160 sites takes 1
+// to 3 GB of either.
 inline constexpr std::uint64_t most_shelf_bytes = std::uint64_t{4} << 30;
 
-// What a file, or the chunks of a volume, may unpack to: three times a large volume.
+// Limit of the unpacked bytes of a file, or of the chunks of a volume: three times a large volume.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
 
-// What the arrays of a volume may take of which these moments are asked for: twice what any known
-// volume takes, whose largest moment has 14 MiB.
+// Returns the limit of the arrays of a volume of which these moments are decoded: twice those of
+// any known volume, whose largest moment has 14 MiB.
 [[nodiscard]] inline std::uint64_t most_array_bytes(const level2::Selection& selection) {
     const std::uint64_t moments =
         selection.moments.empty() ? std::size(level2::all_moments) : selection.moments.size();
     return (16 + 28 * moments) << 20;
 }
 
-// Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
-// theirs has come.
+// Volumes that are gridded while they grow: each sweep as it closes, with the last volume's sweeps
+// until their successors come.
 struct LivingGrids {
-    // A directory for what is put aside, in files without names; empty: none are made, and of
-    // volumes that come as one file a chunk all that lies there is a volume when it is finished.
+    // The directory for sweeps on disk, in files without names. Empty: no living grids are made,
+    // and the chunks that exist when a volume is finished are the volume.
     std::filesystem::path scratch;
-    bool make = true;  // false: none are made, and chunks are put together all the same
-    // Asked before each: false while there is more urgent work. The sweeps are in the next one.
-    // Not asked for what shows a new low sweep. Empty: there is always time.
+    bool make = true;  // false: none are made, but chunks are still put together
+    // Called before each living grid: false while there is more urgent work; the next one then
+    // shows the sweeps. Not called for a new low sweep. Empty: there is always time.
     std::function<bool()> has_time;
-    // Of volumes that come as one file a chunk (stormcellar/level2/live_volume.h).
+    // for volumes in chunks (stormcellar/level2/live_volume.h)
     std::chrono::seconds chunk_timeout{600};
     std::chrono::seconds chunk_grace{30};
-    // See above. Beyond it what has not grown for longest is given up, and read again from its
-    // files.
+    // See above. Beyond it, the volume that has not grown for longest is given up, and read again
+    // from its files.
     std::uint64_t shelf_bytes = most_shelf_bytes;
-    // So many files, volumes of chunks, and sites' last volumes, each with a descriptor.
+    // This many files, volumes of chunks, and last volumes of sites, each with a descriptor.
     std::size_t count = 320;
 };
 
-// Says of a file that was read, by its size and hash, whether something is to be made of it; its
-// error says why not. Called by the threads that ingest.
+// Decides from the size and hash of a file that was read whether anything is made of it; the error
+// says why not. Called by the threads that ingest.
 using ReadCheck = std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
                                        std::uint64_t content_hash)>;
 
 struct IngestOptions {
-    // Of which stations data are taken in; null: of every one that has a name. Data of all others
-    // are cataloged among those of no known station, and neither followed nor gridded.
+    // The stations whose data are accepted; null: all that have a name. Data of all other stations
+    // are cataloged with those of no known station, and neither followed nor gridded.
     std::shared_ptr<StationRule> stations;
     level2::Moment moment = level2::Moment::ref;
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
-    std::vector<Domain> domains;   // mosaics to keep, beside each site's own grid
-    bool own_grids = true;         // false: the sites' grids for the domains alone
+    std::vector<Domain> domains;   // mosaics to keep in addition to each site's own grid
+    bool own_grids = true;         // false: grids of the sites are only made for the domains
     FramesWhen frames = FramesWhen::volume_comes;
-    // In all: files that are ingested at the same time share them, so that each has its part and
-    // one alone has all.
+    // The number in total: files that are ingested at the same time share the threads, and a single
+    // file has all of them.
     int decode_threads = 1;
     int grid_threads = 1;
     LivingGrids living;
-    // Nothing outside of this directory is opened, wherever links lead (base/beneath.h); empty: a
-    // file may lie anywhere.
+    // Nothing outside of this directory is opened, wherever links lead (base/beneath.h). Empty: a
+    // file may be anywhere.
     std::filesystem::path beneath;
-    // A larger file is rejected unread. No volume is known that takes half of it.
+    // A larger file is rejected unread. No known volume has half this size.
     std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
-    // Likewise one that unpacks to more.
+    // Likewise a file that unpacks to more.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
-    // For so long the members of an archive are taken in at a time; then the archive is incomplete,
-    // and goes on with the next one when it is offered again (ended::Incomplete). None: all at
-    // once.
+    // The members of an archive are ingested for this long at a time. Then the archive is
+    // incomplete and continues with its next member when it is offered again (has_next_turn). None:
+    // all at once.
     std::optional<std::chrono::milliseconds> archive_turn;
-    // Asked of each file that was read, before anything is made of it: its error rejects the file,
-    // as where it is no longer the one that was cataloged. Empty: every file is taken.
+    // Called for each file that was read, before anything is made of it. Its error rejects the
+    // file, for example if it is no longer the one that was cataloged. Empty: every file is
+    // accepted.
     ReadCheck check_read;
 };
 

@@ -1,7 +1,6 @@
-// pipeline/options/ingest_outcome.h -- what became of a file that was taken in
-// (pipeline/ingest/ingest.h).
+// pipeline/options/ingest_outcome.h -- the result of ingesting a file (pipeline/ingest/ingest.h).
 //
-// Thread contract: plain data.
+// Threads   Plain data.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +18,17 @@ namespace stormcellar::pipeline {
 // The ways in which taking in a file can end, as they are counted and named; ended::X below holds
 // what belongs to one of them alone.
 enum class IngestResult {
-    gridded,
-    no_moment,
-    no_position,
-    other_station,
-    incomplete,
-    rejected,
-    unchanged,
-    vanished,
-    registered,
+    gridded,      // registered, and every volume with the moment is in the cache, or too old for it
+    no_moment,    // registered; has no sweep of the moment, so there is nothing to grid
+    no_position,  // registered; neither the file nor the table gives the position of the radar
+    other_station,  // registered; its station's data are not accepted, so nothing is gridded
+    incomplete,     // not settled: the volume has not ended and finish_as_is is false, or the file
+                    // changed while it was read; try again when it was closed or quiet
+    rejected,       // registered as rejected: no volume, or none that can be gridded
+    unchanged,      // settled before; nothing was done
+    vanished,  // the file is gone, and its rows, if any, are marked so. If a volume of chunks waits
+               // in its name, the result is incomplete instead, and the file is tried again
+    registered,  // registered; the Ingestor has no cache
 };
 
 namespace ended {
@@ -90,9 +91,9 @@ struct IngestOutcome {
     // What the file says.
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
-    std::optional<UtcTime> newest_radial;  // by the radar's clock; plausible times alone
-    std::string reason;  // why rejected, or what is wrong or worth saying; one line
-    // It looks like one chunk of a volume, and its name is none that chunks are put together by.
+    std::optional<UtcTime> newest_radial;  // by the radar's clock; only plausible times
+    std::string reason;                    // why it was rejected, or a fault or remark; one line
+    // It looks like one chunk of a volume, but its name is not that of a chunk.
     bool lone_chunk = false;
 
     // What was made of it.
@@ -106,10 +107,10 @@ struct IngestOutcome {
     // Where its volume grows, or grew.
     bool goes_on = false;  // the volume is followed, and a sweep of it has closed
     std::vector<std::filesystem::path> living;  // grids of volumes that have not ended
-    bool living_left_out = false;               // for want of time
+    bool living_left_out = false;               // for lack of time
     std::vector<int> missing_chunks;            // of a volume of chunks that was finished
-    // Growing volumes that made room for this one: what was put aside of them is gone, and they are
-    // read again from their files.
+    // Growing volumes that made room for this one: their sweeps on disk are gone, and they are read
+    // again from their files.
     std::uint64_t given_up = 0;
     // The chunk that was to be offered again until this one came.
     std::filesystem::path former_representative;

@@ -10,12 +10,12 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A row, what its errors are of, and what is timed for it.
+// A row, the frame with which its errors are compared, and what is timed for it.
 struct Rung {
     accuracy::LadderRow row;
     MosaicChoice with_errors;
     MosaicChoice with_times;
-    bool grids = false;  // its time is that of gridding too
+    bool grids = false;  // its time includes gridding
 };
 
 std::vector<Rung> rungs_of_steps(const MosaicScene& scene, const accuracy::Chain& chain) {
@@ -73,7 +73,7 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
     return rungs;
 }
 
-// The times of all in rounds, one behind the other.
+// Times all rungs in rounds, one after the other.
 Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
     Status status;
     std::vector<std::function<void()>> works;
@@ -89,7 +89,7 @@ Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
         accuracy::time_in_rounds(works, rounds, [&scene] { return scene.now_s(); });
     if (!status) return status;
     for (std::size_t at = 0; at < rungs.size(); ++at) {
-        // The scene's frames find their motion made.
+        // The frames of the scene use a motion that was estimated before.
         const bool moves = rungs[at].with_times.time == grid::TimeMethod::advected;
         const double motion_s = moves ? scene.motion_seconds() : 0;
         rungs[at].row.time_s = timings[at].first_s + motion_s;
@@ -116,7 +116,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
         rung.row.value = found->summary();
         rung.row.status = found->status;
     }
-    // Steps alone first, so that the partials they share are kept.
+    // Single steps come first, so that the partials that they share are kept.
     const auto chains = std::stable_partition(rungs.begin(), rungs.end(),
                                               [](const Rung& rung) { return !rung.grids; });
     std::vector<Rung> whole(std::make_move_iterator(chains), std::make_move_iterator(rungs.end()));

@@ -1,14 +1,17 @@
 // pipeline/plan/mosaic_ladder.h -- what accuracy costs in time when volumes become one frame, rung
-// by rung: the steps of pipeline/mosaic/mosaic_effects.h that grid/plan/grid_ladder.h does not
+// by rung: for the steps of pipeline/mosaic/mosaic_effects.h that grid/plan/grid_ladder.h does not
 // have.
 //
-// For each of them a row a rung: its error with every other step exact, against the frame by the
-// exact chain, over all cells valued in both; its time as a frame from partials of the default
-// chain that are kept, with the other steps at their default. Rows of the step "chain" are whole
-// chains, whose time is that of gridding every volume too. Of one thread it is time of the
-// processor, of several by the clock.
-// Position errors are how far the fastest echo moves (pipeline/plan/mosaic_plan.h); whole chains
-// have none: that of beams is another one.
+// For each of these steps there is a row for each rung. It has the error of the rung with every
+// other step exact, against the frame of the exact chain, over all cells with a value in both; and
+// the time of a frame from kept partials of the default chain, with the other steps at their
+// default. Rows of the step "chain" are whole chains, whose time includes gridding every volume.
+// For one thread it is processor time, for several time by the clock.
+//
+// Position errors are how far the fastest echo moves (pipeline/plan/mosaic_plan.h). Whole chains
+// have none, because the error of beams is of another kind.
+//
+// Threads   Those of the scene.
 #pragma once
 
 #include <vector>
@@ -19,8 +22,8 @@
 
 namespace stormcellar::pipeline {
 
-// `chain` is of mosaic_effects_of(); `rounds` of timing, the least counts.
-// Errors: those of the scene.
+// `chain` must come from mosaic_effects_of(). The least of `rounds` timings counts. Errors: those
+// of the scene.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
                                                                   const accuracy::Chain& chain,
                                                                   int rounds);

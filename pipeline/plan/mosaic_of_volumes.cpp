@@ -20,7 +20,7 @@ MosaicChoice default_choice_at(const MosaicRequest& request, const grid::SitePos
                                                               grid::beam_width_of(site.icao)));
 }
 
-// The time in the middle of what a volume shows.
+// Returns the middle of the time that a volume covers.
 std::optional<UtcTime> middle_time(const level2::Volume& volume) {
     const std::optional<UtcTime> start = volume.start_time();
     if (!start) return std::nullopt;
@@ -58,7 +58,7 @@ grid::Grid dense_grid_of(const MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
-    // Where no site sees a cell both are 0, as to_dense() leaves what has no value.
+    // If no site sees a cell, both are 0, which is how to_dense() leaves cells without a value.
     if (frame.mosaic.counts) {
         const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
         grid.site_counts.assign(counts.values.begin(), counts.values.end());
@@ -85,7 +85,7 @@ Result<MosaicFrame> frame_plainly(const std::vector<SceneVolume>& volumes,
     return frame;
 }
 
-// None where the budget cannot be met.
+// Returns none if the budget cannot be met.
 Result<std::optional<MosaicFrame>> frame_by_plan(const std::vector<SceneVolume>& volumes,
                                                  const MosaicRequest& request,
                                                  MosaicOfVolumes& made) {

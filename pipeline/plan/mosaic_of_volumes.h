@@ -29,8 +29,8 @@ struct MosaicRequest {
 };
 
 struct MosaicOfVolumes {
-    grid::Grid grid;                     // empty where the plan does not meet its budget
-    std::optional<accuracy::Plan> plan;  // where one was asked for
+    grid::Grid grid;                     // empty if the plan does not meet its budget
+    std::optional<accuracy::Plan> plan;  // if one was requested
     double plan_s = 0, grid_s = 0, merge_s = 0;
 };
 

@@ -1,21 +1,22 @@
-// pipeline/plan/mosaic_plan.h -- the cheapest frame of several sites that holds a budget, and how
-// large each effect is in it: what grid/plan/grid_effects.h does for one volume's grid.
+// pipeline/plan/mosaic_plan.h -- finds the cheapest frame of several sites within a budget, and the
+// size of each effect in it, as grid/plan/grid_effects.h does for the grid of one volume.
 //
-// Sizes   gridding      the largest of all volumes', each predicted by itself (grid::predict()):
-//                       a frame's cell is a mean of its volumes' cells, or one of them
-//         time, sweeps, overlap
-//                       values: whole frames of the default grids in fine codes, with the step at
-//                       one rung against the next, every other step of these three exact; sampled
-//                       they are not, for a moved cell comes from anywhere
-//                       positions: how far the fastest echo moves between a volume's middle and
-//                       the instant (echo_motion), between a sweep and its volume's middle
-//                       (sweep_times); by the motion that the grids show
-//         codes         proven: half a step for each time that a value is rounded: in its partial,
-//                       between two volumes, where sites mix
-// Measured is the whole frame against the exact chain's, over all cells valued in both, so that the
-// 99th percentile is no estimate; its price is gridding every volume by the exact chain. Cells
-// are moments of one number line: VEL and PHI are not planned.
-// Threads: as the scene.
+// Sizes are found as follows:
+//   gridding  The largest of all volumes', each predicted by itself (grid::predict()), because a
+//             cell of a frame is a mean of its volumes' cells or one of them.
+//   time, sweeps, overlap
+//             Values: whole frames of the default grids in fine codes, with the step at one rung
+//             against the next, and every other of these three steps exact. They are not sampled,
+//             because a moved cell may come from anywhere. Positions: how far the fastest echo
+//             moves between a volume's middle and the instant (echo_motion), or between a sweep and
+//             its volume's middle (sweep_times), by the motion that the grids show.
+//   codes     Proven: half a step for each time that a value is rounded: in its partial, between
+//             two volumes, and where sites mix.
+// The whole frame is measured against that of the exact chain, over all cells with a value in both,
+// so that the 99th percentile is no estimate. The price is gridding every volume by the exact
+// chain. Values must be plain numbers: VEL and PHI cannot be planned.
+//
+// Threads   Those of the scene.
 #pragma once
 
 #include <optional>
@@ -27,8 +28,8 @@
 
 namespace stormcellar::pipeline {
 
-// Each effect's size and cost for this scene; settings stay. `chain` is of mosaic_effects_of().
-// Errors: bad_argument for VEL and PHI; those of gridding and merging.
+// Predicts the size and cost of each effect for this scene; settings stay. `chain` must come from
+// mosaic_effects_of(). Errors: bad_argument for VEL and PHI; those of gridding and merging.
 [[nodiscard]] Status predict(MosaicScene& scene, const grid::PlanOptions& options,
                              accuracy::Chain& chain);
 
@@ -44,8 +45,8 @@ struct MosaicPlan {
     MosaicChoice choice;
 };
 
-// Predicts, chooses and measures (accuracy/governor.h). Without a budget: the default, with each
-// effect's size. Errors: those of predict() and accuracy::govern().
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds the
+// default, with the size of each effect. Errors: those of predict() and of accuracy::govern().
 [[nodiscard]] Result<MosaicPlan> plan_mosaic(MosaicScene& scene, accuracy::Chain chain,
                                              const std::optional<accuracy::Budget>& budget,
                                              const grid::PlanOptions& options = {});

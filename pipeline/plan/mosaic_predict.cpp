@@ -31,7 +31,7 @@ Result<double> p99_between(const MosaicFrame& a, const MosaicFrame& b, int threa
     return summary ? summary->p99 : 0;
 }
 
-// The steps of gridding, predicted for each volume by itself.
+// The steps of gridding, predicted for each volume separately.
 class GriddingSizes {
   public:
     GriddingSizes(MosaicScene& scene, const grid::PlanOptions& options,
@@ -82,7 +82,7 @@ class GriddingSizes {
         return chain;
     }
 
-    // Sizes are those of the worst volume, times add up.
+    // Sizes are those of the worst volume; times are added up.
     static void add(const accuracy::Chain& one, bool first, accuracy::Chain& all) {
         for (std::size_t i = 0; i < one.steps.size(); ++i) {
             for (std::size_t k = 0; k < one.steps[i].effects.size(); ++k) {
@@ -104,7 +104,7 @@ class GriddingSizes {
             all.joint_costs[pair].cost_s += one.joint_costs[pair].cost_s;
     }
 
-    // Each was predicted on one thread.
+    // Each was predicted for one thread.
     void share_costs(accuracy::Chain& chain) const {
         const double threads = std::max(1, scene_.options().partial.gridder.threads);
         for (accuracy::Step& step : chain.steps) {
@@ -162,7 +162,7 @@ Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::Sce
     return {};
 }
 
-// Each rounding moves a value by at most half a step, and means of such by no more.
+// Each rounding moves a value by at most half a step, and a mean of values by no more.
 void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFrame& coarse,
                accuracy::Chain& chain) {
     const level2::Moment moment = scene.options().partial.gridder.moment;
@@ -208,7 +208,7 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::sweeps).effects[0].predicted.position_m = moved.within_volume_m;
     step_named(chain, step::time).effects[1].cost_s += scene.motion_seconds();
     set_efforts(scene, chain);
-    // What the cheapest frame takes beside its gridding.
+    // The time of the cheapest frame, besides its gridding.
     MosaicChoice cheapest = coarse;
     cheapest.time = grid::TimeMethod::nearest;
     cheapest.sweep_times = false;

@@ -42,7 +42,7 @@ constexpr std::array formats{
     Format{".webm", make_video<VideoContainer::webm>()},
 };
 
-// Puts the output's name in front of an error that does not begin with it.
+// Puts the name of the output before an error that does not begin with it.
 Error named(const std::string& output, Error error) {
     if (!error.message.starts_with(output)) {
         error.message = fmt::format("{}: {}", output, error.message);
@@ -50,7 +50,7 @@ Error named(const std::string& output, Error error) {
     return error;
 }
 
-// One file: collects what an encoder makes and writes it when all is there.
+// Writes one file: collects the encoder's bytes and writes them when they are complete.
 class FileWriter final : public AnimationWriter {
   public:
     FileWriter(std::string output, std::unique_ptr<FrameEncoder> encoder, FileSystem& file_system)
@@ -124,7 +124,7 @@ Status check(const AnimationOptions& options) {
     return {};
 }
 
-// Whether a file could stand there: a temporary one is made and taken away.
+// Checks whether a file could be made there, by making a temporary one and removing it.
 Status probe(const std::string& output, FileSystem& file_system) {
     std::error_code ignored;
     if (std::filesystem::is_directory(output, ignored)) {

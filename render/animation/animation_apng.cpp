@@ -1,6 +1,7 @@
-// APNG: a PNG whose further frames are private chunks. Each frame is encoded by
-// stormcellar/render/png_file.h as a picture of its own and taken apart again. Source: W3C PNG
-// specification, third edition, sections 5.6 and 11.3.6 (acTL, fcTL, fdAT).
+// APNG is a PNG whose further frames are private chunks. Each frame is encoded by
+// stormcellar/render/png_file.h as a picture of its own and taken apart again.
+//
+// Source: W3C PNG specification, third edition, sections 5.6 and 11.3.6 (acTL, fcTL, fdAT).
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -15,7 +16,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double ticks_per_second = 500;  // a delay has 16 bits: 131 s
+constexpr double ticks_per_second = 500;  // a delay has 16 bits, which is 131 s
 constexpr std::uint8_t dispose_none = 0, blend_source = 0, blend_over = 1;
 
 using Bytes = std::vector<std::byte>;
@@ -34,7 +35,7 @@ class Writer {
     void append(std::span<const std::byte> more) {
         bytes_.insert(bytes_.end(), more.begin(), more.end());
     }
-    // Length, type, data, and the CRC of type and data.
+    // Writes a chunk: length, type, data, and the CRC of type and data.
     void chunk(std::string_view type, std::span<const std::byte> data) {
         u32(static_cast<std::uint32_t>(data.size()));
         const auto name = std::as_bytes(std::span(type.data(), type.size()));
@@ -48,7 +49,7 @@ class Writer {
     Bytes bytes_;
 };
 
-// The part of a picture inside a rectangle.
+// Returns the part of a picture inside a rectangle.
 Image cut(const Image& frame, const Rectangle& part) {
     Image image(part.width, part.height, {});
     for (int y = 0; y < part.height; ++y) {
@@ -70,7 +71,7 @@ bool opaque(const Image& image) {
     return true;
 }
 
-// Makes the pixels that are the same as before transparent: they compress to nothing.
+// Makes the pixels that did not change transparent, because these compress to almost nothing.
 void clear_unchanged(Image& part, const Image& before) {
     for (std::size_t i = 0; i < part.rgba.size(); i += 4) {
         const auto pixel = std::span(part.rgba).subspan(i, 4);
@@ -83,7 +84,7 @@ void clear_unchanged(Image& part, const Image& before) {
 struct Frame {
     Rectangle part;
     std::uint8_t blend = blend_source;
-    Bytes data;  // what IDAT or fdAT hold
+    Bytes data;  // the content of IDAT or fdAT
 };
 
 class ApngEncoder final : public FrameEncoder {
@@ -104,7 +105,7 @@ class ApngEncoder final : public FrameEncoder {
                 frame.blend = blend_over;
             }
         }
-        // All frames share one header, so none may leave its alpha out.
+        // All frames share one header, so no frame may leave out its alpha.
         const auto png = encode_png(picture, frames_.empty() ? options_.metadata : no_metadata_,
                                     PngAlpha::always);
         if (!png) return pass_on(png);
@@ -119,7 +120,7 @@ class ApngEncoder final : public FrameEncoder {
         file.append(head_);
         Writer control;
         control.u32(static_cast<std::uint32_t>(frames_.size()));
-        control.u32(0);  // plays: for ever
+        control.u32(0);  // number of plays; 0 is without end
         file.chunk("acTL", control.take());
         file.append(before_data_);
         std::uint32_t sequence = 0;
@@ -139,8 +140,8 @@ class ApngEncoder final : public FrameEncoder {
     }
 
   private:
-    // The image data of a PNG file in one piece. Of the first one the rest is kept too: signature
-    // and header before acTL, and what else stands before the data after it.
+    // Returns the image data of a PNG file in one piece. For the first frame it also keeps the
+    // rest: signature and header, which come before acTL, and whatever else comes before the data.
     Bytes take_apart(std::span<const std::byte> png) {
         constexpr std::size_t signature_size = 8;
         Bytes data;

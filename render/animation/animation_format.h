@@ -1,8 +1,8 @@
 // render/animation/animation_format.h -- what the formats of stormcellar/render/animation.h share;
 // internal.
 //
-// A FrameEncoder turns frames into the bytes of one file, in memory. The checks, the errors' file
-// name and the writing are the same for all and stand in animation.cpp.
+// A FrameEncoder turns frames into the bytes of one file, in memory. The checks, the writing and
+// the name of the file in errors are the same for all formats; they are in animation.cpp.
 #pragma once
 
 #include <cstddef>
@@ -23,11 +23,11 @@ class FrameEncoder {
     FrameEncoder& operator=(const FrameEncoder&) = delete;
     virtual ~FrameEncoder() = default;
 
-    // Called with frames of one size only; errors carry a reason and no file name.
+    // Adds a frame. All frames have one size. Errors have a reason and no name of a file.
     virtual Status add(const Image& frame) = 0;
-    // Called once, after at least one frame: the whole file.
+    // Returns the whole file. Called once, after at least one frame.
     virtual Result<std::vector<std::byte>> finish() = 0;
-    // How many pixels a side may have.
+    // Returns the largest number of pixels along a side.
     [[nodiscard]] virtual int largest_side() const = 0;
 };
 
@@ -35,31 +35,33 @@ class FrameEncoder {
 [[nodiscard]] std::unique_ptr<FrameEncoder> make_gif_encoder(const AnimationOptions& options);
 [[nodiscard]] std::unique_ptr<FrameEncoder> make_apng_encoder(const AnimationOptions& options);
 enum class VideoContainer { mp4, webm };
-// From the module of videos (render/animation/video_module.cpp), in a build with STORMCELLAR_VIDEO.
-// unsupported: the module or a library that it needs is not there.
+// Makes an encoder from the module for videos (render/animation/video_module.cpp), in a build with
+// STORMCELLAR_VIDEO. Errors: unsupported if the module, or a library that it needs, is missing.
 [[nodiscard]] Result<std::unique_ptr<FrameEncoder>> make_video_encoder(
     VideoContainer container, const AnimationOptions& options);
-// What the module exports, by that name and in C's manner; the caller owns it.
+// The function that the module exports under that name, with C linkage. The caller owns the result.
 using MakeVideoEncoder = FrameEncoder* (*)(VideoContainer, const AnimationOptions&);
 inline constexpr const char* video_module_file = "stormcellar_video.so";
 inline constexpr const char* video_module_entry = "stormcellar_make_video_encoder";
 
-// The output is the directory's name, with its '/'.
+// `output` is the name of the directory, with its '/'.
 [[nodiscard]] Result<std::unique_ptr<AnimationWriter>> make_png_directory_writer(
     const std::string& output, const AnimationOptions& options, FileSystem& file_system);
 
-// Bytes that fit the size, at least one pixel, no side above the limit, the size of the first.
+// Checks that the bytes fit the size, that there is a pixel, that no side exceeds the limit, and
+// that the size is that of the first frame.
 [[nodiscard]] Status check_frame(const Image& frame, int first_width, int first_height,
                                  int largest_side);
 
-// When frame `index` begins, in ticks; rounded from the exact time, so that nothing adds up.
+// Returns when frame `index` begins, in ticks. It is rounded from the exact time, so that errors do
+// not add up.
 [[nodiscard]] std::int64_t frame_start(const AnimationOptions& options, std::size_t index,
                                        double ticks_per_second);
-// How long it stays, the dwell of the last one included.
+// Returns how long the frame stays, including the dwell of the last one.
 [[nodiscard]] std::int64_t frame_duration(const AnimationOptions& options, std::size_t index,
                                           bool last, double ticks_per_second);
 
-// "Title: KTLX\nSource: ...": all metadata as one text.
+// Returns all metadata as one text: "Title: KTLX\nSource: ...".
 [[nodiscard]] std::string metadata_text(const AnimationOptions& options);
 [[nodiscard]] std::string metadata_title(const AnimationOptions& options);  // may be empty
 

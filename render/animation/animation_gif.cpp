@@ -1,7 +1,6 @@
-// GIF through giflib: FFmpeg's writer has no comments and would bring a palette a frame.
-// The loop count is Netscape's application block.
-//
-// The palette is known when the last frame is, so until then frames are held, deflated.
+// GIF through giflib, because FFmpeg's writer has no comments and would add a palette to each
+// frame. The loop count is Netscape's application block. The palette is known only after the last
+// frame, so frames are held until then, deflated.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,9 +17,10 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr std::size_t most_colours = 255;  // one entry is left for "as before"
+constexpr std::size_t most_colours = 255;  // one entry is left for "unchanged"
 constexpr double ticks_per_second = 100;
-constexpr std::int64_t shortest_ticks = 2;  // viewers take less for "unset" and show it slowly
+// viewers take smaller numbers for "unset" and show the frame slowly
+constexpr std::int64_t shortest_ticks = 2;
 
 using Bytes = std::vector<std::byte>;
 
@@ -44,7 +44,8 @@ Status inflate_into(const std::vector<std::uint8_t>& packed, std::vector<std::ui
     return {};
 }
 
-// giflib's writer into memory. The first failure of a call stays; later ones do nothing.
+// giflib's writer into memory. After the first failure later calls do nothing, and the failure is
+// kept.
 class GifFile {
   public:
     GifFile() {
@@ -111,7 +112,7 @@ class GifEncoder final : public FrameEncoder {
 
     Result<Bytes> finish() override {
         PaletteMap map(histogram_.palette(most_colours));
-        // The entry after the colours stands for "as before".
+        // The entry after the colors stands for "unchanged".
         const int as_before = static_cast<int>(map.palette().size());
         GifFile file;
         write_head(file, map.palette());
@@ -128,7 +129,7 @@ class GifEncoder final : public FrameEncoder {
 
   private:
     void write_head(GifFile& file, const std::vector<Rgb8>& palette) const {
-        // A table's size is a power of two; there must be room for "as before".
+        // The size of a table is a power of two, and there must be room for "unchanged".
         const int bits = std::max(2, static_cast<int>(std::bit_width(palette.size())));
         const std::unique_ptr<ColorMapObject, FreeColourMap> table(
             GifMakeMapObject(1 << bits, nullptr));
@@ -138,14 +139,14 @@ class GifEncoder final : public FrameEncoder {
         file.put(EGifPutScreenDesc, width_, height_, 8, 0, table.get());
         file.put(EGifPutExtensionLeader, APPLICATION_EXT_FUNC_CODE);
         file.put(EGifPutExtensionBlock, 11, "NETSCAPE2.0");
-        file.put(EGifPutExtensionBlock, 3, "\x01\x00\x00");  // for ever
+        file.put(EGifPutExtensionBlock, 3, "\x01\x00\x00");  // loop without end
         file.put(EGifPutExtensionTrailer);
         if (!options_.metadata.empty()) {
             file.put(EGifPutComment, metadata_text(options_).c_str());
         }
     }
 
-    // The changed rectangle, with what did not change in it left out.
+    // Writes the rectangle that changed, without the unchanged pixels in it.
     void write_frame(GifFile& file, std::size_t index, const std::vector<std::uint8_t>& before,
                      const std::vector<std::uint8_t>& indices, int as_before) const {
         const bool first = before.empty();

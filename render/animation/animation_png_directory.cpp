@@ -1,5 +1,5 @@
-// A directory of PNG files. They are written into a temporary directory beside it, which then takes
-// its name.
+// A directory of PNG files. They are written into a temporary directory beside it, which is then
+// renamed.
 #include <atomic>
 #include <optional>
 
@@ -28,7 +28,7 @@ bool is_frame_name(std::string_view name) {
     return name.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// A directory with a name that nobody else has, removed with all its files unless it was kept.
+// A directory with a unique name, which is removed with all its files unless it is kept.
 class TemporaryTree {
   public:
     explicit TemporaryTree(const fs::path& beside) {
@@ -55,7 +55,7 @@ class TemporaryTree {
                                    : ErrorCode::io;
         return fail(code, "{}", error.message());
     }
-    void own() { made_ = true; }    // somebody else put a directory there
+    void own() { made_ = true; }    // something else put a directory there
     void keep() { made_ = false; }  // it has another name now
     [[nodiscard]] const fs::path& path() const { return path_; }
 
@@ -66,7 +66,7 @@ class TemporaryTree {
 
 enum class Target { absent, replaceable };
 
-// Whether the name is free, or taken by a directory that holds nothing but frames.
+// Finds out whether the name is free, or a directory has it that holds nothing but frames.
 Result<Target> look_at(const fs::path& directory) {
     std::error_code error;
     const auto status = fs::symlink_status(directory, error);
@@ -137,7 +137,7 @@ class PngDirectoryWriter final : public AnimationWriter {
         return tl::unexpected(*error_);
     }
 
-    // The old directory steps aside first, and comes back when the new one cannot take its place.
+    // Moves the old directory aside first, and back if the new one cannot take its place.
     Status place() {
         const auto target = look_at(directory_);
         if (!target) return pass_on(target);

@@ -1,4 +1,4 @@
-// MP4 and WebM through FFmpeg's libavcodec and libavformat: the module of videos.
+// MP4 and WebM through FFmpeg's libavcodec and libavformat: the module for videos.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,16 +13,16 @@ namespace {
 using ffmpeg::failure;
 using ffmpeg::Handle;
 
-// A fixed number: encoders divide the work, and so the result, by the number of threads.
+// The number is fixed, because encoders divide the work by it, and the result depends on that.
 constexpr int encoder_threads = 2;
 
 struct Codec {
     VideoContainer container;
     const char* name;
-    std::array<std::pair<const char*, const char*>, 6> settings;  // unused ones are null
+    std::array<std::pair<const char*, const char*>, 6> settings;  // unused entries are null
 };
 
-// In order of preference. Why these settings: docs/decisions/animation-formats.md.
+// The codecs in order of preference. docs/decisions.md explains the settings.
 constexpr std::array codecs{
     Codec{VideoContainer::mp4,
           "libx264",
@@ -42,7 +42,7 @@ constexpr std::array codecs{
           {{{"b", "4M"}, {"crf", "8"}, {"deadline", "good"}, {"cpu-used", "2"}}}},
 };
 
-// The first codec of the list that this FFmpeg has.
+// Returns the first codec of the list that this FFmpeg has.
 const Codec* choose_codec(VideoContainer container) {
     const auto chosen = std::ranges::find_if(codecs, [container](const Codec& codec) {
         return codec.container == container && avcodec_find_encoder_by_name(codec.name) != nullptr;
@@ -67,7 +67,7 @@ class VideoEncoder final : public FrameEncoder {
         return encode_last();
     }
 
-    // Video players do not hold the last picture: it is shown again and again instead.
+    // Video players do not hold the last picture, so it is repeated instead.
     Result<std::vector<std::byte>> finish() override {
         const auto repeats =
             static_cast<int>(std::lround(options_.last_frame_dwell_s * options_.frames_per_second));
@@ -113,11 +113,12 @@ class VideoEncoder final : public FrameEncoder {
         encoder.time_base = av_inv_q(encoder.framerate);
         encoder.thread_count = encoder_threads;
         encoder.flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
-        // A loop is short: one whole picture in ten seconds is enough to seek by.
+        // A loop is short, so one key picture in ten seconds is enough for seeking.
         encoder.gop_size = std::max(12, static_cast<int>(10 * options_.frames_per_second));
     }
 
-    // RGB of the full range -> BT.709 of the limited range; the same bits on every machine.
+    // Converts RGB of the full range to BT.709 of the limited range, with the same bits on every
+    // machine.
     Status start_conversion() {
         const int even_width = encoder_->width, even_height = encoder_->height;
         even_ = Image(even_width, even_height, {});
@@ -135,7 +136,7 @@ class VideoEncoder final : public FrameEncoder {
         return {};
     }
 
-    // Into a frame of its own, because the encoder may still be reading the one before.
+    // Converts into a new frame, because the encoder may still be reading the last one.
     Status convert(const Image& image) {
         fill_even(image);
         Handle<AVFrame> frame(av_frame_alloc());
@@ -160,7 +161,7 @@ class VideoEncoder final : public FrameEncoder {
         return {};
     }
 
-    // An odd picture has its last column or row twice.
+    // Fills a picture with an odd size by repeating its last column or row.
     void fill_even(const Image& image) {
         const auto pixel_bytes = [](int count) { return static_cast<std::size_t>(count) * 4; };
         for (int y = 0; y < even_.height; ++y) {
@@ -180,7 +181,7 @@ class VideoEncoder final : public FrameEncoder {
         return send(last_.get());
     }
 
-    // Gives the encoder a frame, or the end when there is none, and takes what it has ready.
+    // Gives the encoder a frame, or null at the end, and takes the packets that it has ready.
     Status send(const AVFrame* frame) {
         if (const int sent = avcodec_send_frame(encoder_.get(), frame); sent < 0) {
             return failure("video encoder", sent);

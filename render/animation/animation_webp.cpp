@@ -1,6 +1,6 @@
-// WebP through libwebp's animation encoder. Lossless: the colours are data, and lossy WebP halves
-// their resolution. Method 1 and effort 50 were measured to be the knee
-// (docs/decisions/animation-formats.md).
+// WebP through libwebp's animation encoder. It is lossless because colors are data, and lossy WebP
+// halves their resolution. Method 1 and effort 50 give most of the compression for little time
+// (docs/decisions.md).
 #include <climits>
 #include <cmath>
 #include <span>
@@ -23,7 +23,7 @@ struct MuxDeleter {
     void operator()(WebPMux* mux) const { WebPMuxDelete(mux); }
 };
 
-// libwebp's own memory, freed at the end of a scope.
+// Memory of libwebp, freed at the end of a scope.
 struct Data {
     WebPData data{};
     Data() { WebPDataInit(&data); }
@@ -53,14 +53,15 @@ std::string xml_escaped(const std::string& text) {
                 escaped += "&gt;";
                 break;
             default:
-                // XML 1.0 has no other control characters.
+                // XML 1.0 allows no other control characters.
                 escaped += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
         }
     }
     return escaped;
 }
 
-// Source: ISO 16684-1 (XMP), Dublin Core properties as language alternatives.
+// Makes an XMP packet. Source: ISO 16684-1 (XMP), with Dublin Core properties as language
+// alternatives.
 std::string xmp_packet(const AnimationOptions& options) {
     const auto property = [](const char* name, const std::string& text) {
         return fmt::format(
@@ -128,8 +129,8 @@ class WebpEncoder final : public FrameEncoder {
         if (WebPAnimEncoderOptionsInit(&options) == 0 || WebPConfigInit(&config_) == 0) {
             return version_mismatch();
         }
-        options.anim_params.loop_count = 0;  // for ever
-        // A key frame is needed for seeking alone; between them only what changed is stored.
+        options.anim_params.loop_count = 0;  // without end
+        // Only seeking needs key frames; without them, only what changed is stored.
         options.kmax = INT_MAX;
         options.kmin = INT_MAX - 1;
         config_.lossless = 1;

@@ -1,4 +1,4 @@
-// render/animation/ffmpeg_handles.h -- FFmpeg's objects as owners, and its errors as ours;
+// render/animation/ffmpeg_handles.h -- owners for FFmpeg's objects, and its errors as ours;
 // internal.
 #pragma once
 
@@ -28,7 +28,7 @@ struct Deleter {
 template <class T>
 using Handle = std::unique_ptr<T, Deleter>;
 
-// Names and values for a codec or a container; those that were not understood remain.
+// Names and values for a codec or a container. Those that it did not understand remain.
 class Options {
   public:
     Options() = default;
@@ -44,7 +44,7 @@ class Options {
     AVDictionary* dictionary_ = nullptr;
 };
 
-// "what: reason", with FFmpeg's own words for its error number.
+// Returns "what: reason", with FFmpeg's own words for its error number.
 [[nodiscard]] inline tl::unexpected<Error> failure(const char* what, int number) {
     std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
     av_strerror(number, reason.data(), reason.size());

@@ -1,4 +1,6 @@
-// render/animation/frame_change.h -- which part of a frame differs from the one before.
+// render/animation/frame_change.h -- finds the part of a frame that differs from the frame before.
+//
+// Threads   A pure function.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +14,9 @@ struct Rectangle {
     bool operator==(const Rectangle&) const = default;
 };
 
-// The smallest rectangle that holds every pixel that differs; one pixel at the top left when none
-// does, because no format has an empty frame. Both spans hold width * height * pixel_bytes bytes.
+// Returns the smallest rectangle that holds every pixel that differs, or the pixel at the top left
+// if none does, because no format has an empty frame. Both spans hold width * height * pixel_bytes
+// bytes.
 [[nodiscard]] Rectangle changed_rectangle(std::span<const std::uint8_t> before,
                                           std::span<const std::uint8_t> after, int width,
                                           int height, std::size_t pixel_bytes);

@@ -10,17 +10,18 @@ namespace {
 constexpr std::size_t most_exact = 256;
 constexpr int refinement_rounds = 2;
 
-// The eye is keener on green than on red than on blue.
+// The eye distinguishes green better than red, and red better than blue.
 constexpr std::array<double, 3> channel_weight = {2, 4, 3};
 
-using Point = std::array<double, 3>;  // a colour, channels scaled so that distances are weighted
+// a color, with channels scaled so that distances are weighted
+using Point = std::array<double, 3>;
 
-// What is to be grouped: the colour of a cell of the histogram and how many pixels have it.
+// What is grouped: the color of a cell of the histogram, and the number of its pixels.
 struct Sample {
     Point point{};
     double count = 0;
     Rgb8 colour{};
-    bool exact = false;  // half of the pixels or more have just this colour
+    bool exact = false;  // at least half of the pixels have exactly this color
 };
 
 std::uint32_t packed(Rgb8 colour) {
@@ -56,7 +57,7 @@ double distance_squared(const Point& a, const Point& b) {
     return sum;
 }
 
-// Sums over a range of samples, from which mean and spread follow.
+// Sums over a range of samples, which give the mean and the spread.
 struct Moments {
     double count = 0;
     Point sum{};
@@ -69,7 +70,7 @@ struct Moments {
             squares += sample.count * sample.point[c] * sample.point[c];
         }
     }
-    // |sum|^2 / count: how much of the squares a single mean explains.
+    // Returns |sum|^2 / count, the part of the squares that a single mean explains.
     [[nodiscard]] double explained() const {
         if (count <= 0) return 0;
         return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count;
@@ -93,17 +94,17 @@ struct Box {
 struct Split {
     double gain = 0;
     std::size_t channel = 0;
-    std::size_t position = 0;  // samples before it go to the one side
+    std::size_t position = 0;  // samples before this one go to one side
 };
 
 void sort_by_channel(std::span<Sample> samples, std::size_t channel) {
     std::ranges::sort(samples, [channel](const Sample& a, const Sample& b) {
         if (a.point[channel] != b.point[channel]) return a.point[channel] < b.point[channel];
-        return packed(a.colour) < packed(b.colour);  // one order only, whatever came before
+        return packed(a.colour) < packed(b.colour);  // a unique order, whatever the order before
     });
 }
 
-// The cut across one channel that lessens the spread most.
+// Returns the cut across one channel that reduces the spread most.
 Split best_split(const Box& box) {
     Split best;
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -122,14 +123,14 @@ Split best_split(const Box& box) {
     return best;
 }
 
-// Splits the box of greatest spread again and again; gives the means.
+// Splits the box with the greatest spread repeatedly, and returns the means.
 std::vector<Point> split_into(std::vector<Sample>& samples, std::size_t size) {
     std::vector<Box> boxes{{samples, moments_of(samples)}};
     while (boxes.size() < size) {
         const auto widest = std::ranges::max_element(
             boxes, {}, [](const Box& box) { return box.moments.spread(); });
         const Split split = best_split(*widest);
-        if (split.position == 0) break;  // nothing differs any more
+        if (split.position == 0) break;  // all samples are equal
         sort_by_channel(widest->samples, split.channel);
         const auto left = widest->samples.first(split.position);
         const auto right = widest->samples.subspan(split.position);
@@ -156,7 +157,7 @@ std::size_t nearest_point(const std::vector<Point>& points, const Point& point) 
     return best;
 }
 
-// Each group's mean, or the one colour that makes up half of it.
+// Returns the mean of each group, or the one color that makes up half of it.
 std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> points) {
     std::vector<Moments> groups;
     std::vector<const Sample*> largest;
@@ -184,7 +185,7 @@ std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> 
     return palette;
 }
 
-// Runs of equal pixels, which a drawn picture is full of.
+// Visits runs of equal pixels, of which a drawn picture has many.
 template <class Visit>
 void for_each_run(const Image& frame, Visit visit) {
     const auto& rgba = frame.rgba;
@@ -245,7 +246,7 @@ std::vector<Rgb8> ColourHistogram::palette(std::size_t size) const {
         if (cell.count == 0) continue;
         Sample sample;
         sample.count = static_cast<double>(cell.count);
-        // A leader that far ahead has half of the pixels or more.
+        // A leader this far ahead has at least half of the pixels.
         sample.exact = cell.lead * 2 >= cell.count;
         sample.colour = cell.leader;
         if (!sample.exact) {

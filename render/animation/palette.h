@@ -1,12 +1,14 @@
 // render/animation/palette.h -- one palette for all frames of a loop.
 //
-// A histogram is fed every frame, a palette is made from it, and a map turns pixels into entries.
-// A loop with no more colours than the palette gets them exactly. Otherwise colours are grouped by
-// variance-based splitting (Wan, Wong and Prusinkiewicz 1988) over cells of 4x4x4 colours,
-// improved by two rounds of k-means (Lloyd 1982). A group of which one colour makes up half is
-// shown as that colour, so background, text and legend stay exact. No dithering: it would crawl
-// from frame to frame. Alpha is ignored. Same input, same palette. Thread contract: none of these
-// may be shared while it is changed.
+// A histogram is fed with every frame, a palette is made from it, and a map turns pixels into
+// entries. If a loop has no more colors than the palette, it gets exactly these. Otherwise colors
+// are grouped by variance-based splitting (Wan, Wong and Prusinkiewicz 1988) over cells of 4x4x4
+// colors, improved by two rounds of k-means (Lloyd 1982). If one color makes up half of a group,
+// the group is shown in that color, so that background, text and legend stay exact. There is no
+// dithering, because it would crawl from frame to frame. Alpha is ignored. The same input gives the
+// same palette.
+//
+// Threads   One thread at a time for each object.
 #pragma once
 
 #include <array>
@@ -26,12 +28,13 @@ class ColourHistogram {
     ColourHistogram();
     void add(const Image& frame);
 
-    // At most `size` (2 to 256) colours; each pixel that was added lies near one of them.
+    // Returns at most `size` (2 to 256) colors. Each pixel that was added lies near one of them.
     [[nodiscard]] std::vector<Rgb8> palette(std::size_t size) const;
 
   private:
-    // 4x4x4 neighbouring colours, and the one that may be most of them (a majority vote after
-    // Boyer and Moore 1981: a colour with more than half the pixels always ends as leader).
+    // 4x4x4 neighboring colors, and the one that may have most of the pixels. It is found by a
+    // majority vote (Boyer and Moore 1981): a color with more than half of the pixels always ends
+    // as the leader.
     struct Cell {
         std::uint64_t count = 0;
         std::array<std::uint64_t, 3> sum{};
@@ -41,27 +44,27 @@ class ColourHistogram {
     void add_run(Rgb8 colour, std::uint64_t length);
 
     std::vector<Cell> cells_;                  // 64^3
-    std::unordered_set<std::uint32_t> exact_;  // as long as there are at most 256
+    std::unordered_set<std::uint32_t> exact_;  // while there are at most 256
     bool too_many_ = false;
 };
 
 class PaletteMap {
   public:
-    explicit PaletteMap(std::vector<Rgb8> palette);  // 1 to 256 colours
+    explicit PaletteMap(std::vector<Rgb8> palette);  // 1 to 256 colors
 
-    // The nearest entry; the first of equals.
+    // Returns the nearest entry; the first of equals.
     [[nodiscard]] std::uint8_t nearest(Rgb8 colour);
-    // One index a pixel.
+    // Returns one index for each pixel.
     [[nodiscard]] std::vector<std::uint8_t> indices(const Image& frame);
     [[nodiscard]] const std::vector<Rgb8>& palette() const { return palette_; }
 
   private:
     struct Known {
-        std::uint32_t colour = 0xFFFFFFFF;  // no colour
+        std::uint32_t colour = 0xFFFFFFFF;  // not a color
         std::uint8_t index = 0;
     };
     std::vector<Rgb8> palette_;
-    std::vector<Known> known_;  // what was looked up lately, by a hash of the colour
+    std::vector<Known> known_;  // recent lookups, by a hash of the color
 };
 
 }  // namespace stormcellar::render

@@ -10,7 +10,7 @@ namespace {
 using ffmpeg::failure;
 using ffmpeg::Handle;
 
-// A file in memory, for a library that wants to seek while it writes.
+// A file in memory, for a library that seeks while it writes.
 class MemoryFile {
   public:
     static constexpr std::size_t limit = std::size_t{1} << 31;
@@ -95,8 +95,9 @@ Status write_packets(AVFormatContext& format, const AVCodecContext& encoder,
     return {};
 }
 
-// Room for the index of an MP4 file: at most 40 bytes a picture in its tables (ISO 14496-12, 8.6
-// and 8.7), and the rest, which is metadata and the decoder's configuration.
+// Returns the size of the index of an MP4 file: at most 40 bytes for each picture in its tables
+// (ISO 14496-12, 8.6 and 8.7), and the rest, which is metadata and the configuration of the
+// decoder.
 std::size_t index_size(const AVCodecContext& encoder, std::size_t packets,
                        const AnimationOptions& options) {
     return 8192 + 64 * packets + 4 * metadata_text(options).size() +

@@ -1,4 +1,5 @@
-// render/animation/video_muxer.h -- encoded pictures -> the bytes of an MP4 or WebM file; internal.
+// render/animation/video_muxer.h -- makes the bytes of an MP4 or WebM file from encoded pictures;
+// internal.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +10,9 @@
 
 namespace stormcellar::render {
 
-// Puts packets, whose times are in the encoder's time base, into a container in memory. MP4 has
-// its index in front, so that a browser can begin before it has the whole. No date, no name of the
-// library: the same packets give the same bytes.
+// Puts packets, whose times are in the time base of the encoder, into a container in memory. MP4
+// has its index at the front, so that a browser can begin before it has the whole file. No date and
+// no name of the library is written, so the same packets give the same bytes.
 [[nodiscard]] Result<std::vector<std::byte>> mux_video(
     VideoContainer container, const AVCodecContext& encoder,
     const std::vector<ffmpeg::Handle<AVPacket>>& packets, const AnimationOptions& options);

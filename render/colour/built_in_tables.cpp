@@ -10,8 +10,8 @@ namespace {
 
 using level2::Moment;
 
-// Where open classes begin: below every value that a radar sends. Not lower, for a volume's table
-// sorts values into 256 bins from there on.
+// Open classes begin here, below every value that a radar sends. They do not begin lower, because a
+// volume sorts the values from here on into 256 bins.
 constexpr float least_velocity = -64;
 constexpr float least_zdr = -13;
 constexpr float least_height = -10;
@@ -27,7 +27,7 @@ Rgba8 rgba_of(std::uint32_t rgb) {
             static_cast<std::uint8_t>(rgb & 0xFFU), 255};
 }
 
-// Classes without blending; `end` is where the last one ends in a colour bar.
+// Makes classes without blending. `end` is where the last class ends in a color bar.
 ColourTable stepped(std::string_view name, Moment moment, std::string unit,
                     std::span<const ColourClass> classes, float end) {
     ColourTable table;
@@ -50,7 +50,7 @@ ColourTable of_moment(std::string_view name, Moment moment, std::span<const Colo
     return table;
 }
 
-// Of products that are no moments: nothing draws them as volumes.
+// Makes the table of a product that is not a moment. Nothing draws it as a volume.
 ColourTable of_product(std::string_view name, std::string unit,
                        std::span<const ColourClass> classes, float end) {
     ColourTable table = stepped(name, Moment::ref, std::move(unit), classes, end);
@@ -153,7 +153,7 @@ ColourTable cfp_table() {
     return of_moment("cfp", Moment::cfp, classes, 55);
 }
 
-// From dark blue to light yellow: what every kind of sight keeps apart is light from dark and blue
+// From dark blue to light yellow: every kind of color vision distinguishes light from dark and blue
 // from yellow. The steps are about equal along a path through Lab.
 ColourTable height_table() {
     constexpr ColourClass classes[] = {
@@ -186,7 +186,7 @@ ColourTable safe_reflectivity_table() {
     return of_moment("safe-reflectivity", Moment::ref, classes, 80);
 }
 
-// Blue towards the radar, orange away from it, grey at rest; lighter with speed.
+// Blue toward the radar, orange away from it, gray at rest; lighter with speed.
 ColourTable safe_velocity_table() {
     constexpr ColourClass classes[] = {
         {least_velocity, 0xC4EFFF},
@@ -229,7 +229,7 @@ ColourTable safe_rho_table() {
     return of_moment("safe-rho", Moment::rho, classes, 1.05F);
 }
 
-// Places in built_in_tables().
+// The indices in built_in_tables().
 enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height };
 
 std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {

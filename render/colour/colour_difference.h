@@ -1,14 +1,16 @@
-// render/colour/colour_difference.h -- how different two colours look: CIEDE2000.
+// render/colour/colour_difference.h -- how different two colors look: CIEDE2000.
 //
-// Units    Lab of CIE 1976 for the white D65; a difference of 1 is about what can just be seen side
-//          by side, 100 is black against white.
-// Source   Sharma, Wu, Dalal (2005), The CIEDE2000 color-difference formula, Color Research and
-//          Application 30, 21-30; sRGB by IEC 61966-2-1, whose white is taken as the sum of its
-//          primaries, so that greys have a = b = 0. Weights kL = kC = kH = 1.
-//          The formula jumps where two hues are opposite: hues within 1e-9 degrees of that count as
-//          opposite, so that the order of the colours never matters.
-// Accuracy 5e-5, half the last digit of the 34 published pairs.
-// Alpha is not looked at. Thread contract: pure functions.
+// Alpha is ignored.
+//
+// Units     Lab of CIE 1976 for the white D65. A difference of 1 can just be seen side by side; 100
+//           is black against white.
+// Source    Sharma, Wu, Dalal (2005), The CIEDE2000 color-difference formula, Color Research and
+//           Application 30, 21-30; sRGB by IEC 61966-2-1, whose white is taken as the sum of its
+//           primaries, so that grays have a = b = 0. The weights kL, kC and kH are 1. The formula
+//           jumps where two hues are opposite; hues within 1e-9 degrees of that count as opposite,
+//           so that the order of the colors never matters.
+// Accuracy  5e-5, half the last digit of the 34 published pairs.
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -26,23 +28,23 @@ struct Lab {
 };
 
 [[nodiscard]] Lab lab_of(const Rgba8& colour);
-// Of linear sRGB, 0..1.
+// Converts linear sRGB, 0..1.
 [[nodiscard]] Lab lab_of_linear(double red, double green, double blue);
-// 0..255 as stored to 0..1 in proportion to light.
+// Converts 0..255 as stored to 0..1 in proportion to light.
 [[nodiscard]] double linear_of(std::uint8_t channel);
 
 [[nodiscard]] double ciede2000(const Lab& one, const Lab& other);
 [[nodiscard]] double colour_difference(const Rgba8& one, const Rgba8& other);
 
-// Over all pixels of two pictures.
+// Figures over all pixels of two pictures.
 struct ImageDifference {
     double mean = 0;
     double percentile_99 = 0;  // the smallest difference that 99 % of the pixels do not exceed
     double max = 0;
-    std::size_t pixels = 0;   // compared
-    std::size_t unequal = 0;  // of them, those that are not the same bytes of R, G and B
+    std::size_t pixels = 0;   // pixels compared
+    std::size_t unequal = 0;  // pixels whose bytes of R, G and B differ
 };
-// bad_argument when the sizes differ or there are no pixels.
+// Compares two pictures. Errors: bad_argument if the sizes differ or there are no pixels.
 [[nodiscard]] Result<ImageDifference> image_difference(const Image& one, const Image& other);
 
 }  // namespace stormcellar::render

@@ -1,32 +1,34 @@
-// render/colour/colour_file.h -- colour tables of the user's own: TOML and GRLevelX .pal files.
+// render/colour/colour_file.h -- reads a user's own color tables: TOML and GRLevelX .pal files.
 //
 // TOML (docs/rendering.md has an example):
-//   name, unit, moment = "REF"   all optional; the moment brings its unit and its opacity
-//   stepped = true|false         classes, or (the default) colours that blend to the next point's
-//   end                          where the colour bar ends; range_folded: that state's colour
-//   [[point]]                    2 at least (1 if stepped), value rising
+//   name, unit, moment = "REF"   All optional. The moment brings its unit and its opacity.
+//   stepped = true|false         Classes, or (the default) colors that blend to the next point's.
+//   end                          Where the color bar ends. range_folded: the color of that state.
+//   [[point]]                    At least 2 (1 if stepped), with rising values:
 //     value, colour = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
-//     opacity_per_km             of a volume: optical depth; of all points, or of none (then the
-//                                moment's, times the colour's alpha)
-//
-// .pal: one "Key: values" a line, keys in any case, ';' begins a comment (as '#' does at the
-// beginning of a line).
-//   Product: BR BV SRV SW ZDR CC PHI ET VIL ... tells the moment; others are taken as they are
-//   Units:   without a Scale, KT KTS MPH KMH KFT FT M % are converted to ours
+//     opacity_per_km             For volumes: the optical depth, in all points or in none. If in
+//                                none, it is that of the moment times the alpha of the color.
+// .pal: one "Key: values" in a line, keys in any case; ';' begins a comment, as '#' does at the
+// beginning of a line.
+//   Product: BR BV SRV SW ZDR CC PHI ET VIL ...   Tells the moment; other products are accepted.
+//   Units:   Without a Scale, KT KTS MPH KMH KFT FT M % are converted to our units.
 //   Scale: s, Offset: o   value in the file = s * value in our unit + o
-//   Step:    between ticks: how long the last class is in the colour bar
-//   Color: value r g b [r g b]       from the value up to the next one: blends from the first
-//   Color4: value r g b a [r g b a]  colour to the second, or to the next entry's
-//   SolidColor: value r g b, SolidColor4: value r g b a   does not blend (a second colour is
-//                                                         without meaning)
-//   RF: r g b [a]  range folded      ND: r g b [a]  read and not used: what holds no value is drawn
-//                                                   as what it is
-// Entries may rise or fall; two at one value make an edge. Source: the colour table specification
-// of the GRLevelX programs (grlevelx.com, "Color Table File Specification").
+//   Step:    The spacing of ticks; it is the length of the last class in the color bar.
+//   Color: value r g b [r g b], Color4: value r g b a [r g b a]   From this value up to the next
+//                                                                 one the color blends from the
+//                                                                 first to the second color, or to
+//                                                                 that of the next entry.
+//   SolidColor: value r g b, SolidColor4: value r g b a   Does not blend; a second color has no
+//                                                         meaning.
+//   RF: r g b [a]   Range folded.
+//   ND: r g b [a]   Read and not used: cells without a value are drawn by their state.
+// Entries may rise or fall; two entries at one value make an edge.
 //
-// Errors: not_found, io ... of the file; bad_argument, "FILE:LINE: why", for what is in it, and for
-// more than 1 MiB or most_stops entries.
-// Thread contract: pure functions.
+// Source    The color table specification of the GRLevelX programs (grlevelx.com, "Color Table File
+//           Specification").
+// Threads   Pure functions.
+// Errors    not_found, io and others for the file; bad_argument, as "FILE:LINE: why", for its
+//           content, and for more than 1 MiB or most_stops entries.
 #pragma once
 
 #include <filesystem>
@@ -42,13 +44,14 @@ namespace stormcellar::render {
 [[nodiscard]] Result<ColourTable> parse_pal(std::string_view text, const std::string& name);
 [[nodiscard]] Result<ColourTable> parse_toml_colours(std::string_view text,
                                                      const std::string& name);
-// By the ending, .pal or .toml in any case; bad_argument for another.
+// Reads a file by its ending, .pal or .toml in any case. Errors: bad_argument for another ending.
 [[nodiscard]] Result<ColourTable> read_colour_file(const std::filesystem::path& file);
-// The name of a built-in table, or a file. What ends in .pal or .toml is a file.
+// Returns a built-in table by its name, or reads a file. A text that ends in .pal or .toml is a
+// file.
 [[nodiscard]] Result<ColourTable> colours_from(const std::string& name_or_file);
 
-// The moment's extinction (default_extinction) times the alpha of the table's colours, for a table
-// whose stops are there. A table of no moment: rises evenly from 0.02 to 0.5 per km.
+// Returns the extinction of the moment (default_extinction()) times the alpha of the table's
+// colors, for a table that has its stops. Without a moment it rises evenly from 0.02 to 0.5 per km.
 [[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table,
                                                                  bool of_moment);
 

@@ -1,4 +1,4 @@
-// GRLevelX colour tables.
+// GRLevelX color tables.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -26,7 +26,7 @@ struct Entry {
     bool solid = false;
 };
 
-// What a product's name says about the values, beside the names of our own moments.
+// What the name of a product or a unit says about the values.
 struct Meaning {
     std::string_view word;
     std::optional<Moment> moment;
@@ -38,7 +38,7 @@ constexpr Meaning products[] = {
     {"EET", {}, "km"},        {"VIL", {}, "kg/m2"},    {"DVL", {}, "kg/m2"},
 };
 
-// How many of the file's units one of ours is.
+// How many of the file's units make one of ours.
 struct Unit {
     std::string_view word;
     double per_ours;
@@ -81,7 +81,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     return words;
 }
 
-// Fit to stand in a message.
+// Returns the word in a form that is safe in a message.
 std::string shown(std::string_view word) {
     return printable(word.substr(0, longest_word));
 }
@@ -233,7 +233,7 @@ class PalReader {
         table.unit = unit_of(moment);
     }
 
-    // Moment and unit of the table; gives how many of the file's units one of ours is.
+    // Sets moment and unit of the table, and returns how many of the file's units make one of ours.
     double settle_meaning(ColourTable& table) {
         const std::string product = upper(product_);
         if (const auto moment = level2::moment_from_name(product)) {
@@ -266,7 +266,8 @@ class PalReader {
         return per_ours;
     }
 
-    // Rising, whichever way the file goes; entries at one value stay in order.
+    // Sorts the entries by rising value, whichever way the file goes. Entries at one value stay in
+    // order.
     void settle_order() {
         if (entries_.front().value > entries_.back().value) {
             std::reverse(entries_.begin(), entries_.end());

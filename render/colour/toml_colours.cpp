@@ -1,4 +1,4 @@
-// Colour tables in TOML.
+// Color tables in TOML.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr TomlRange values{-1e6, 1e6};
 constexpr TomlRange opacities_per_km{0, 1e6};
 
-// "#rrggbb" or "#rrggbbaa".
+// Parses "#rrggbb" or "#rrggbbaa".
 std::optional<Rgba8> colour_of_text(std::string_view text) {
     if ((text.size() != 7 && text.size() != 9) || text.front() != '#') return std::nullopt;
     Rgba8 colour = {0, 0, 0, 255};
@@ -54,7 +54,7 @@ std::optional<Rgba8> read_colour(TomlTable& table, std::string_view key) {
     return colour;
 }
 
-// Whether the table is one of a moment's.
+// Reads moment and unit. Returns true if the table is for a moment.
 bool read_meaning(TomlTable& root, ColourTable& table) {
     table.name = root.text("name").value_or("");
     const auto unit = root.text("unit");

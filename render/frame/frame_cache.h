@@ -1,6 +1,8 @@
-// render/frame/frame_cache.h -- what the frames of a loop need once.
+// render/frame/frame_cache.h -- what the frames of a loop share, so that it is made only once.
 //
-// The pixels are the same with it or without. Thread contract: one thread at a time.
+// The pixels are the same with and without it.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include "render/map/map_layer.h"

@@ -1,5 +1,7 @@
-// render/frame/picture_layout.h -- where the picture of the grid lies in the whole one, with its
-// labels.
+// render/frame/picture_layout.h -- where the picture of the grid lies within the whole picture with
+// its labels.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include "render/map/labels.h"
@@ -10,8 +12,9 @@
 
 namespace stormcellar::render {
 
-// Without labels the picture is all. Errors: those of lay_out_labels() and of Fonts::load().
-// `coverage` only fills a line of text: it moves nothing.
+// Returns the layout. Without labels, the picture of the grid is the whole picture. `coverage` only
+// fills in a line of text and moves nothing. Errors: those of lay_out_labels() and of
+// Fonts::load().
 [[nodiscard]] Result<LabelLayout> layout_of(const grid::BrickView& view, const FrameFacts& facts,
                                             const Scene& scene,
                                             const std::optional<Coverage>& coverage = {});

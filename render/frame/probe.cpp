@@ -26,7 +26,7 @@ void note_heights(const grid::BrickView& view, int ix, int iy, Probe& probe) {
     }
 }
 
-// The lowest cell that holds the column's largest value.
+// Returns the height of the lowest cell that holds the largest value of the column.
 std::optional<double> height_of_maximum(const grid::BrickView& view, int ix, int iy) {
     ColumnCells cells;
     read_column(view, ix, iy, cells);
@@ -41,7 +41,7 @@ std::optional<double> height_of_maximum(const grid::BrickView& view, int ix, int
 Result<Probe> probe_column(const grid::BrickView& view, const Scene& scene, std::size_t column,
                            grid::GeoPoint place, int threads) {
     Scene map = scene;
-    // A volume's ground shows the column under the pixel.
+    // The ground of a volume shows the column under the pixel.
     if (view_of(scene.product) == View::volume) map.product = Product::composite;
     const auto field = map_field(view, map, summarize_columns(view, threads), threads);
     if (!field) return pass_on(field);

@@ -1,10 +1,11 @@
-// render/frame/probe.h -- what is at one place of a picture.
+// render/frame/probe.h -- reads what is at one place of a picture.
 //
-// Of a map: the value or the state of the column whose cell is drawn there. Of a volume: the column
-// maximum over the ground there, not what a ray through the volume passes. Of a section: what is
-// drawn at the pixel. With it the column's lowest and highest seen heights, the nearest column's in
-// a section.
-// Thread contract: pure functions.
+// In a map this is the value or the state of the column whose cell is drawn there. In a volume it
+// is the column maximum over the ground there, and not what a ray through the volume passes. In a
+// section it is what is drawn at the pixel. The probe also gives the lowest and the highest seen
+// height of the column; in a section, those of the nearest column.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <optional>
@@ -19,25 +20,27 @@
 namespace stormcellar::render {
 
 struct Probe {
-    grid::GeoPoint place;  // of the point asked for
+    grid::GeoPoint place;  // the point that was asked for
     grid::CellStatus status = grid::CellStatus::not_seen;
-    float value = 0;        // where the status is value
+    float value = 0;        // if the status is value
     bool at_least = false;  // the true value may be larger
     std::string unit;
-    std::optional<double> height_m;    // of the value: a maximum's, a CAPPI's, a section's point
-    std::optional<double> distance_m;  // along a section
-    std::optional<double> lowest_seen_m, highest_seen_m;  // none: the column was not seen
+    // height of the value: of a maximum, a CAPPI, or a point of a section
+    std::optional<double> height_m;
+    std::optional<double> distance_m;                     // along a section
+    std::optional<double> lowest_seen_m, highest_seen_m;  // none if the column was not seen
 };
 
-// A pixel of the whole picture, (0, 0) at its top left. bad_argument when it lies outside the
-// picture, the grid or the section, or in the sky; and as render_frame().
+// Reads a pixel of the whole picture; (0, 0) is its top left. Errors: bad_argument if the pixel
+// lies outside the picture, the grid or the section, or in the sky; those of render_frame().
 [[nodiscard]] Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, int x, int y, int threads);
-// Of maps and volumes; bad_argument for a section and for places outside the grid.
+// Reads a place in a map or a volume. Errors: bad_argument for a section, and for places outside
+// the grid.
 [[nodiscard]] Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, grid::GeoPoint place, int threads);
 
-// "52.5 dBZ", "at least 12 km", "no echo".
+// Returns "52.5 dBZ", "at least 12 km" or "no echo".
 [[nodiscard]] std::string probe_text(const Probe& probe);
 
 }  // namespace stormcellar::render

@@ -24,7 +24,7 @@ struct Frame {
     MapMarks marks;
 };
 
-// The picture with its lines, without the labels round it.
+// Draws the picture with its lines, but without the labels around it.
 Result<Image> draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
                            const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
                            int threads, FrameCache& cache) {

@@ -15,7 +15,7 @@ constexpr std::array<const char*, 4> font_directories = {
     "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
     "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF"};
 
-// Cairo may keep a face in its caches after we let go of it: it frees what the face stands on.
+// Cairo may keep a face in its caches after we release it, so Cairo frees what the face depends on.
 struct FreeTypeFace {
     FT_Library library = nullptr;
     FT_Face face = nullptr;
@@ -43,7 +43,7 @@ std::shared_ptr<cairo_font_face_t> load_face(const char* name) {
         cairo_font_face_t* face = cairo_ft_font_face_create_for_ft_face(font->face, 0);
         if (cairo_font_face_set_user_data(face, &key, font.get(), free_face) ==
             CAIRO_STATUS_SUCCESS) {
-            static_cast<void>(font.release());  // now the face's
+            static_cast<void>(font.release());  // it belongs to the face now
             return {face, cairo_font_face_destroy};
         }
         cairo_font_face_destroy(face);
@@ -73,7 +73,7 @@ void use_colour(cairo_t* context, Rgba8 colour) {
                           colour[3] / 255.0);
 }
 
-// Cairo's pixels are native 32-bit numbers, alpha highest.
+// Cairo's pixels are native 32-bit numbers with alpha in the highest byte.
 std::uint32_t packed(const std::uint8_t* rgba) {
     return 0xFF000000U | (std::uint32_t{rgba[0]} << 16) | (std::uint32_t{rgba[1]} << 8) | rgba[2];
 }
@@ -166,7 +166,7 @@ void Canvas::draw_path(double line_width, Rgba8 colour) {
     use_colour(context_.get(), colour);
     cairo_set_line_width(context_.get(), line_width);
     cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_BEVEL);
-    // Half the time, and no difference to the eye.
+    // This takes half the time and looks the same.
     cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_FAST);
     cairo_stroke(context_.get());
     cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_DEFAULT);

@@ -1,8 +1,9 @@
-// render/image/canvas.h -- lines, areas and text on an Image, by Cairo.
+// render/image/canvas.h -- draws lines, areas and text on an Image, with Cairo.
 //
 // The font is DejaVu Sans, regular and bold, read from its files, so that a picture is the same
 // wherever it is drawn.
-// Thread contract: one Canvas, one thread; Fonts may be used by one thread at a time.
+//
+// Threads   A Canvas, and a Fonts, may be used by one thread at a time.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
 
-// Cairo's own names, so that its headers stay out of ours.
+// These are Cairo's own names, so that its headers stay out of ours.
 // NOLINTBEGIN(bugprone-reserved-identifier)
 struct _cairo;
 struct _cairo_surface;
@@ -35,10 +36,12 @@ struct Point {
 
 class Fonts {
   public:
-    // not_found, naming the package, when the font's files are in none of the usual directories.
+    // Loads the fonts. Errors: not_found, naming the package, if the font's files are in none of
+    // the usual directories.
     static Result<Fonts> load();
 
-    // How far text of this size (pixels) moves the pen; ASCII and Latin-1 in UTF-8.
+    // Returns how far text of this size (pixels) moves the pen. The text is ASCII or Latin-1, in
+    // UTF-8.
     [[nodiscard]] double width(std::string_view text, double size, bool bold) const;
 
   private:
@@ -49,23 +52,23 @@ class Fonts {
 
 class Canvas {
   public:
-    // An opaque picture of one colour.
+    // Makes an opaque picture of one color.
     Canvas(int width, int height, Rgba8 fill);
     explicit Canvas(const Image& opaque);
 
-    // Colours may be translucent.
+    // Colors may be translucent.
     void fill(const Rect& rect, Rgba8 colour);
     void fill(const std::vector<Point>& polygon, Rgba8 colour);
     void line(const std::vector<Point>& points, double line_width, Rgba8 colour, bool closed);
-    // Many lines drawn as one: where they cross, a translucent colour does not show twice.
+    // Draws many lines as one, so that a translucent color does not add up where they cross.
     void add_to_path(const std::vector<Point>& points, Point offset = {});
-    void draw_path(double line_width, Rgba8 colour);  // and begins a new one
-    // Until the next clip or unclip, only what lies inside is drawn.
+    void draw_path(double line_width, Rgba8 colour);  // draws the path and begins a new one
+    // Until the next clip() or unclip(), only what lies inside is drawn.
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);
     void unclip();
-    // `left` is where the text starts, `baseline` its line. With a halo colour of alpha > 0 the
-    // text gets an outline, to stand on anything.
+    // The text starts at `left`, on its `baseline`. With a halo color of alpha > 0 it gets an
+    // outline, so that it is readable on anything.
     void text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
               bool bold, Rgba8 colour, Rgba8 halo = {0, 0, 0, 0});
 

@@ -1,6 +1,8 @@
-// render/image/layer.h -- a picture that one sees through, and how it is laid over another.
+// render/image/layer.h -- a translucent picture, and how it is composited over another.
 //
-// SIMD by Highway; the same bits on every target and for any number of threads.
+// It uses SIMD by Highway, with the same bits on every target and for any number of threads.
+//
+// Threads   Pure; composite_over() uses `threads` threads of its own.
 #pragma once
 
 #include <vector>
@@ -9,13 +11,13 @@
 
 namespace stormcellar::render {
 
-// Colour and opacity in front of whatever is behind; colours 0..1, premultiplied by alpha.
+// The color and opacity in front of a background. Colors are 0..1, premultiplied by alpha.
 struct Layer {
     int width = 0, height = 0;
     std::vector<float> rgba;
 };
 
-// layer over background, which is opaque and has the same size at (left, top) of the image.
+// Draws the layer over the background, which must be opaque, at (left, top) of the image.
 void composite_over(const Layer& layer, Image& background, int left, int top, int threads = 1);
 
 }  // namespace stormcellar::render

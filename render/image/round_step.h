@@ -1,9 +1,12 @@
-// render/image/round_step.h -- how far apart the numbers of an axis are.
+// render/image/round_step.h -- the distance between the numbers of an axis.
+//
+// Threads   A pure function.
 #pragma once
 
 namespace stormcellar::render {
 
-// 1, 2 or 5 times a power of ten: so that a range (above 0) has at most so many steps.
+// Returns 1, 2 or 5 times a power of ten, such that the range (above 0) has at most `most_steps`
+// steps.
 [[nodiscard]] double round_step(double range, int most_steps);
 
 }  // namespace stormcellar::render

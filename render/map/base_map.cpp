@@ -22,7 +22,7 @@ Number little_endian(std::span<const std::byte> bytes, std::size_t offset) {
     return number;
 }
 
-// Reads past the end fail, give zero, and everything after does.
+// A read past the end fails and gives zero, and so do all later reads.
 class Reader {
   public:
     explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -55,7 +55,7 @@ class Reader {
         const std::int64_t folded = number();
         return (folded & 1) != 0 ? -(folded / 2) - 1 : folded / 2;
     }
-    // How many things of at least `least_bytes` each are to come.
+    // Reads the number of the following items, each of at least `least_bytes`.
     std::size_t count(std::size_t least_bytes) {
         const std::size_t value = number();
         if (value > remaining() / least_bytes) fail_now();
@@ -88,7 +88,7 @@ bool read_line(Reader& reader, double unit, MapLine& line) {
     line.south_deg = static_cast<double>(south) * unit;
     line.east_deg = static_cast<double>(west + width) * unit;
     line.north_deg = static_cast<double>(south + height) * unit;
-    // A point takes two bytes at least.
+    // A point takes at least two bytes.
     return !reader.failed() && line.point_count >= 2 &&
            line.point_count <= line.points.size() / 2 &&
            lies_on_earth(line.west_deg, line.south_deg) &&

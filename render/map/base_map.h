@@ -1,7 +1,8 @@
 // render/map/base_map.h -- the map that is built into the library: coasts, borders, cities.
 //
-// Made by scripts/make-map-data of public-domain data (docs/data-sources.md), for what the weather
-// radars of the United States can see. Lines come in three details, of which a picture takes one.
+// scripts/make-map-data makes it from public-domain data (docs/data-sources.md), for the area that
+// the weather radars of the United States can see. Lines come in three levels of detail; a picture
+// uses one of them.
 //
 // Format, version 1. Little-endian; `v` is an unsigned LEB128 number of at most 32 bits, `z` a
 // zigzag one (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U degrees on WGS84.
@@ -10,20 +11,20 @@
 //        0    8  magic "SCBASMAP"
 //        8    4  version, 1
 //       12    4  CRC-32 of all bytes from 24 on
-//       16    8  size of all, these bytes included
+//       16    8  size of the whole file, including this header
 //       24       v U, v number of sets, the sets, v number of cities, the cities
-//   set          1 byte layer (MapKind), 1 byte detail, v tolerance in metres,
-//                v number of lines, v bytes of all its lines, the lines
-//   line         v number of points (at least 2), z west, z south, v width, v height,
-//                v bytes of its points; the first as v east of west, v north of south, each other
-//                as z, z beyond the one before it
-//   city         v bytes of the name, the name in UTF-8, v population, z latitude, z longitude;
-//                the largest first
+//   set          1 byte layer (MapKind), 1 byte detail, v tolerance in meters, v number of lines, v
+//                bytes of all its lines, the lines
+//   line         v number of points (at least 2), z west, z south, v width, v height, v bytes of
+//                its points; the first as v east of west, v north of south, each other as z, z
+//                relative to the one before it
+//   city         v bytes of the name, the name in UTF-8, v population, z latitude, z longitude; the
+//                largest first
 //
-// Thread contract: immutable once made. A BaseMap refers to the bytes it was made of.
-// Errors: truncated, corrupt (also by its checksum), unsupported (a later version). Bytes that pass
-// the checksum and lie are refused too, at the latest by points_of().
-// Accuracy: of the sources, see docs/data-sources.md; of the format 1/(2 U) degrees, 6 m.
+// Threads   Immutable once made. A BaseMap refers to the bytes that it was made from.
+// Errors    truncated, corrupt (also by its checksum), unsupported (a later version). Wrong bytes
+//           with a correct checksum are refused too, at the latest by points_of().
+// Accuracy  That of the sources, see docs/data-sources.md; the format adds 1/(2 U) degrees, 6 m.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +38,7 @@
 
 namespace stormcellar::render {
 
-// Numbers of the format: they do not change. In the order in which they are drawn.
+// These are numbers of the format, so they do not change. The kinds are in the order of drawing.
 enum class MapKind : std::uint8_t { county = 1, state = 2, lake = 3, country = 4, coast = 5 };
 inline constexpr int map_detail_count = 3;
 
@@ -63,9 +64,9 @@ struct MapSet {
 
 class BaseMap {
   public:
-    // The map in these bytes, which must outlive it.
+    // Reads the map in these bytes, which must outlive it.
     static Result<BaseMap> read(std::span<const std::byte> bytes);
-    // The map that is built in.
+    // Returns the built-in map.
     static Result<BaseMap> built_in();
 
     [[nodiscard]] const std::vector<MapSet>& sets() const { return sets_; }
@@ -78,10 +79,10 @@ class BaseMap {
     std::vector<MapCity> cities_;
 };
 
-// The bytes of the map that is built in.
+// Returns the bytes of the built-in map.
 [[nodiscard]] std::span<const std::byte> built_in_map_bytes();
 
-// In small print under a picture that shows it.
+// The small print under a picture that shows the map.
 inline constexpr const char* map_credit = "Map: US Census Bureau, Natural Earth";
 
 }  // namespace stormcellar::render

@@ -1,4 +1,5 @@
-// The built-in map's bytes, taken up by the assembler: no path is needed when the program runs.
+// The bytes of the built-in map. The assembler includes them, so the program needs no path to a
+// file.
 #include "render/map/base_map.h"
 
 // clang-format off

@@ -32,7 +32,7 @@ ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_ti
         const double low = std::round(box.bottom() - static_cast<double>(i) * height);
         const double high = std::round(box.bottom() - static_cast<double>(i + 1) * height);
         if (low > high) {
-            // Neighbours of one colour stay apart: each class is there.
+            // Neighboring classes of one color stay separate, so that each class is shown.
             bar.blocks.push_back(
                 {{box.x, high, box.width, low - high}, over(table.stops[i].colour, shades::seen)});
         }

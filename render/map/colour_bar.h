@@ -1,4 +1,6 @@
-// render/map/colour_bar.h -- how a colour table is shown as an upright bar.
+// render/map/colour_bar.h -- how a color table is shown as an upright bar.
+//
+// Threads   Plain values and a pure function.
 #pragma once
 
 #include <string>
@@ -10,7 +12,7 @@
 namespace stormcellar::render {
 
 struct BarBlock {
-    Rect box;  // whole pixels, so that no seam shows
+    Rect box;  // whole pixels, so that there are no seams
     Rgba8 colour{};
 };
 
@@ -24,9 +26,10 @@ struct ColourBar {
     std::vector<BarTick> ticks;    // at least `least_tick` apart
 };
 
-// Rises with value. Stepped tables: classes of one height, ticks at lower bounds (every second,
-// third... where there is no room). Tables with blends: regular in value from the first stop to
-// `end`, ticks at round values. A box lower than a pixel a class loses classes, not its ends.
+// Makes a bar that rises with the value. For stepped tables, classes have equal heights, with ticks
+// at their lower bounds (at every second, third ... if there is no room). For tables with blends,
+// the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
+// with fewer pixels than classes loses classes, but not its ends.
 [[nodiscard]] ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick);
 
 }  // namespace stormcellar::render

@@ -1,4 +1,6 @@
-// render/map/coverage.h -- how much of a grid's columns was seen.
+// render/map/coverage.h -- the share of a grid's columns that was seen.
+//
+// Threads   Plain values and pure functions.
 #pragma once
 
 #include <span>
@@ -15,11 +17,12 @@ struct Coverage {
     double seen_low = 0;  // below low_coverage_m (render/products/ground.h)
 };
 
-// 0 and 0 for no columns. Columns count alike, also where the grid's cells differ in size.
+// Returns 0 and 0 if there are no columns. All columns count alike, even if the cells of the grid
+// differ in size.
 [[nodiscard]] Coverage coverage_of(std::span<const ColumnSummary> columns,
                                    const grid::GridSpec& spec);
 
-// "87 %"; "< 1 %" and "> 99 %" where rounding would say none or all.
+// Returns "87 %"; "< 1 %" and "> 99 %" where rounding would give none or all.
 [[nodiscard]] std::string percent_text(double share);
 
 }  // namespace stormcellar::render

@@ -1,6 +1,6 @@
-// render/map/label_places.h -- which room of a picture is taken, so that no text stands on another.
+// render/map/label_places.h -- which parts of a picture are taken, so that texts do not overlap.
 //
-// Thread contract: a value; one thread.
+// Threads   One thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace stormcellar::render {
 
 class LabelPlaces {
   public:
-    // Nothing may stand outside the frame.
+    // Nothing may lie outside the frame.
     explicit LabelPlaces(const Rect& frame) : frame_(frame) {}
 
     [[nodiscard]] bool is_free(const Rect& box) const {

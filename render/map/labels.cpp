@@ -47,7 +47,7 @@ std::string title_of(const FrameFacts& facts) {
     if (const auto station = find_station(icao)) {
         title += fmt::format("  {}, {}", station->name, station->state);
     }
-    // What one site sees of a domain is kept as NAME.ICAO.
+    // The domain with the data of one site is named NAME.ICAO.
     if (facts.domain.ends_with("." + icao)) {
         const std::string name = facts.domain.substr(0, facts.domain.size() - icao.size() - 1);
         return fmt::format("{}  ({})", title, name);
@@ -96,7 +96,8 @@ class Builder {
         Rgba8 colour = shades::text;
     };
 
-    // Text that starts at `left` (or ends there); made smaller, then cut, to fit. Gives its width.
+    // Draws text that starts (or ends) at `left`, made smaller and then cut to fit. Returns its
+    // width.
     double put(std::string text, double left, double baseline, double room, const Style& style,
                bool ends_here = false) {
         if (text.empty() || room <= 0) return 0;
@@ -122,11 +123,11 @@ class Builder {
     }
 
   private:
-    // With an ellipsis for what has no room; empty when even that has none.
+    // Returns the text with an ellipsis for what has no room; empty if even the ellipsis has none.
     [[nodiscard]] std::string shortened(std::string text, double size, bool bold,
                                         double room) const {
         if (fonts_.width(text, size, bold) <= room) return text;
-        // Whole characters of UTF-8 go, and spaces before the ellipsis.
+        // Removes whole characters of UTF-8, and spaces before the ellipsis.
         const auto cut = [&text](std::size_t bytes) {
             while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U)
                 --bytes;
@@ -154,7 +155,7 @@ std::vector<std::string> warnings_of(const FrameFacts& facts) {
     return warnings;
 }
 
-// Below the time.
+// Returns the text below the time.
 std::string beside_time(const FrameFacts& facts) {
     if (!facts.interpolated) return facts.local_time;
     return (facts.local_time.empty() ? "" : facts.local_time + "  \u00B7  ") + "interpolated";
@@ -176,7 +177,7 @@ void lay_out_header(Builder& builder, const Scene& scene, const FrameFacts& fact
                 {14, true, shades::text});
     const double local_width = builder.put(beside_time(facts), right, second, 0.4 * scene.width,
                                            {11, false, shades::quiet_text}, true);
-    // In one line with the product, so that the frames of a loop keep their place.
+    // The warnings share a line with the product, so that the frames of a loop keep their place.
     const auto warnings = warnings_of(facts);
     const double room = right - local_width - gap - left;
     const double product_width =
@@ -231,7 +232,7 @@ void lay_out_panel(Builder& builder, const Legend& legend, Rect panel) {
     const double room = panel.right() - builder.scaled(4) - x;
     const double row = builder.scaled(17);
 
-    // From the bottom up: notes, legend, its heading; the bar takes what is left.
+    // From the bottom up: notes, legend, its heading. The bar takes what is left.
     double y = panel.bottom() - builder.scaled(4);
     for (auto note = legend.notes.rbegin(); note != legend.notes.rend(); ++note) {
         builder.put(*note, x, y, room, {9.5, false, shades::quiet_text});

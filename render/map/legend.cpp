@@ -11,7 +11,8 @@
 namespace stormcellar::render {
 namespace {
 
-// "no echo and < 5 dBZ" of a table that begins there; "no echo" of one that takes all values.
+// Returns "no echo and < 5 dBZ" for a table that begins there; "no echo" for one that takes all
+// values.
 std::string clear_words(const Scene& scene, std::string_view between) {
     const ColourTable& table = colours_of(scene);
     const bool takes_all =

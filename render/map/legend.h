@@ -1,5 +1,7 @@
-// render/map/legend.h -- what a product says of itself beside the picture: its name, its colours,
-// what stands for what.
+// render/map/legend.h -- what is written about a product beside its picture: its name, its colors
+// and their meaning.
+//
+// Threads   Plain values and a pure function.
 #pragma once
 
 #include <string>
@@ -19,13 +21,13 @@ struct LegendRow {
 struct Legend {
     std::string product;                 // "Composite reflectivity (column maximum)"
     std::string heading;                 // over the rows; may be empty
-    std::vector<LegendRow> rows;         // from the top down: what is not in the colour bar
+    std::vector<LegendRow> rows;         // from the top down: what is not in the color bar
     std::vector<std::string> notes;      // in small print below
-    std::string bar_heading;             // the unit, else the moment's name
-    const ColourTable* table = nullptr;  // of the colour bar; none: no bar
+    std::string bar_heading;             // the unit, else the name of the moment
+    const ColourTable* table = nullptr;  // of the color bar; null: no bar
 };
 
-// Of a valid scene, whose table must outlive the legend.
+// Makes the legend of a valid scene, whose table must outlive it.
 [[nodiscard]] Legend legend_of(const Scene& scene);
 
 }  // namespace stormcellar::render

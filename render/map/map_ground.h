@@ -1,8 +1,11 @@
-// render/map/map_ground.h -- between places on the earth and the picture's ground, in metres.
+// render/map/map_ground.h -- converts between places on the earth and the ground of the picture, in
+// meters.
 //
-// The ground is the plane of the grid's projection about the grid's middle, as ViewGeometry has it.
-// Accuracy: that of stormcellar/grid/projection.h, 1e-7 m.
-// Thread contract: immutable.
+// The ground is the plane of the grid's projection about the middle of the grid, as in
+// ViewGeometry.
+//
+// Accuracy  That of stormcellar/grid/projection.h, 1e-7 m.
+// Threads   Immutable.
 #pragma once
 
 #include "stormcellar/grid/projection.h"
@@ -12,7 +15,7 @@ namespace stormcellar::render {
 
 class GroundMap {
   public:
-    // The spec must be valid and outlive the map.
+    // The spec must be valid and must outlive the map.
     explicit GroundMap(const grid::GridSpec& spec) : spec_(&spec), projection_(spec) {}
 
     [[nodiscard]] GroundPoint ground(grid::GeoPoint place) const {

@@ -16,14 +16,14 @@ constexpr double most_bent_px = 0.2;
 constexpr double least_step_px = 0.3;
 constexpr double county_m = 45e3;
 constexpr double least_county_px = 30;
-// Beyond it Cairo's numbers end; such a point is not visible.
+// Cairo's numbers end beyond this; such a point is not visible.
 constexpr double farthest_px = 1e6;
 
 struct Box {
     double west = 0, south = 0, east = 0, north = 0;
 };
 
-// Of the ground: what both the grid and the picture hold.
+// Returns the part of the ground that both the grid and the picture hold.
 Box visible_ground(const ViewGeometry& geometry) {
     const Box grid = {-geometry.half_x_m(), -geometry.half_y_m(), geometry.half_x_m(),
                       geometry.half_y_m()};
@@ -42,7 +42,7 @@ Box visible_ground(const ViewGeometry& geometry) {
             std::min(grid.east, seen.east), std::min(grid.north, seen.north)};
 }
 
-// Metres of ground to a pixel, across the picture, where they are fewest.
+// Returns the meters of ground for each pixel, across the picture, where they are fewest.
 double finest_metres_per_pixel(const ViewGeometry& geometry) {
     double finest = HUGE_VAL;
     for (const double share : {0.5, 0.75, 1.0}) {
@@ -57,8 +57,8 @@ double finest_metres_per_pixel(const ViewGeometry& geometry) {
     return std::isfinite(finest) && finest > 0 ? finest : geometry.metres_per_pixel();
 }
 
-// Latitudes and longitudes of a part of the ground, with some room; longitudes are continuous and
-// may leave -180..180.
+// Returns the latitudes and longitudes of a part of the ground, with a margin. Longitudes are
+// continuous and may leave -180..180.
 Box degrees_of(const GroundMap& ground, const Box& box) {
     constexpr int steps = 32;
     Box found = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -97,7 +97,7 @@ bool touches(const MapLine& line, const Box& degrees) {
     return false;
 }
 
-// The part of a segment inside a box; false when there is none (Liang and Barsky 1984).
+// Clips a segment to a box; returns false if nothing is left (Liang and Barsky 1984).
 bool clip(GroundPoint& a, GroundPoint& b, const Box& box) {
     double from = 0;
     double to = 1;
@@ -121,7 +121,7 @@ bool clip(GroundPoint& a, GroundPoint& b, const Box& box) {
     return true;
 }
 
-// Makes strokes of lines, one after the other.
+// Makes strokes from lines, one after the other.
 class Tracer {
   public:
     Tracer(const GroundMap& ground, const ViewGeometry& geometry, const Box& box, double finest_m,
@@ -153,7 +153,8 @@ class Tracer {
     void divide(const Vertex& a, const Vertex& b, int depth) {
         if (!is_finite(a.at) || !is_finite(b.at)) return break_off();
         const double length = std::hypot(b.at.x_m - a.at.x_m, b.at.y_m - a.at.y_m);
-        // Four times the sagitta of a parallel of latitude at 45 degrees, for all up to 75.
+        // Four times the sagitta of a parallel of latitude at 45 degrees, which covers all up to
+        // 75.
         const bool may_bend = length * length / (2 * earth_radius_m) > most_bent_m_;
         if (!may_bend || depth == 12) return segment(a.at, b.at);
         Vertex middle;
@@ -183,7 +184,7 @@ class Tracer {
             points_.push_back(to);
             has_waiting_ = false;
         }
-        // Cut off at the far end: what follows does not begin there.
+        // The segment was cut off at its far end, so the next one does not begin there.
         if (b.x_m != end.x_m || b.y_m != end.y_m) break_off();
     }
 
@@ -215,7 +216,7 @@ class Tracer {
     bool has_waiting_ = false;
 };
 
-// The set of a kind to draw: the coarsest that is fine enough, else the finest.
+// Returns the set of a kind to draw: the coarsest that is fine enough, else the finest.
 const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) {
     const MapSet* best = nullptr;
     for (const MapSet& set : map.sets()) {
@@ -302,7 +303,7 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
 
 Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
                                       double scale) {
-    // A view of a plane is known by four points of it, no three on a line.
+    // Four points of a plane, no three of them on a line, identify the view of it.
     std::vector<double> view = {static_cast<double>(geometry.width()),
                                 static_cast<double>(geometry.height()), scale};
     const double h = geometry.ground_m();

@@ -1,15 +1,16 @@
-// render/map/map_layer.h -- the base map as one picture shows it: projected, clipped, thinned.
+// render/map/map_layer.h -- the base map as one picture shows it: projected, clipped and thinned.
 //
-// Made once for a grid's geometry, a view and a size; the frames of a loop share it.
-// Every vertex is projected by itself; a segment, straight in degrees as its source has it, is
-// divided until it follows its curve on the picture's ground to 0.2 pixels (where the view is
-// finest). Lines end where the grid ends. Of three details the coarsest is taken that is thinned by
-// at most 0.7 pixels; points less than 0.3 pixels from the one before go. Counties are shown where
-// 45 km are 30 pixels and more (of a picture of 796 x 532). What the view does not project is not
-// shown.
-// Accuracy: 1.2 pixels against the built-in map at its finest (tests/render/map_layer_test.cpp);
-// how good that is: docs/data-sources.md.
-// Thread contract: a MapLayer is plain data; preparing is a pure function.
+// It is made once for the geometry of a grid, a view and a size; the frames of a loop share it.
+// Every vertex is projected by itself. A segment, which is straight in degrees in its source, is
+// divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
+// finest. Lines end where the grid ends. Of the three levels of detail, the coarsest is used that
+// is thinned by at most 0.7 pixels; points less than 0.3 pixels from the point before are dropped.
+// Counties are shown if 45 km are at least 30 pixels (in a picture of 796 x 532). What the view
+// does not project is not shown.
+//
+// Accuracy  1.2 pixels against the built-in map at its finest (tests/render/map_layer_test.cpp).
+//           For the accuracy of that map see docs/data-sources.md.
+// Threads   A MapLayer is plain data; preparing is a pure function.
 #pragma once
 
 #include <string>
@@ -37,23 +38,24 @@ struct MapLayer {
     std::vector<MapPlace> cities;    // inside grid and picture, the largest first
 };
 
-// `scale` is that of lines and text. corrupt when the map's lines contradict themselves.
+// Prepares the layer. `scale` is that of lines and text. Errors: corrupt if the map's lines
+// contradict themselves.
 [[nodiscard]] Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
                                            const ViewGeometry& geometry, double scale);
 
-// Keeps the map of the last picture: the frames of a loop need it made once.
-// Thread contract: one thread at a time.
+// Keeps the map of the last picture, because the frames of a loop need it only once. It may be used
+// by one thread at a time.
 class MapCache {
   public:
-    // Prepared anew where the grid's geometry, the view of the ground, the size or the scale is
-    // another one than last time. Good until the next call.
+    // Returns the layer, which is valid until the next call. It is made anew if the geometry of the
+    // grid, the view of the ground, the size or the scale differs from the last call.
     [[nodiscard]] Result<const MapLayer*> get(const grid::GridSpec& spec,
                                               const ViewGeometry& geometry, double scale);
     [[nodiscard]] int times_made() const { return times_made_; }
 
   private:
     grid::GridSpec spec_;
-    std::vector<double> view_;  // where points of the ground are: tells one view from another
+    std::vector<double> view_;  // where points of the ground are, which tells one view from another
     MapLayer layer_;
     int times_made_ = 0;
 };

@@ -13,7 +13,7 @@ constexpr double radians = std::numbers::pi / 180;
 constexpr int ring_vertices = 240;
 constexpr int most_rings = 40;
 
-// A site and what lies about it, in metres of the picture's ground.
+// A site and its surroundings, in meters of the picture's ground.
 class SiteMap {
   public:
     SiteMap(const grid::GridSpec& spec, const grid::SitePosition& site)
@@ -23,7 +23,7 @@ class SiteMap {
 
     [[nodiscard]] GroundPoint site() const { return site_; }
 
-    // An azimuthal equidistant map shows a ring as a circle, near enough; others do not.
+    // An azimuthal equidistant map shows a ring nearly as a circle; other maps do not.
     [[nodiscard]] GroundPoint about(double azimuth_rad, double arc_m) const {
         if (grid::facts_of(map_.spec().projection).is_polar) {
             return {site_.x_m + arc_m * std::sin(azimuth_rad),
@@ -53,7 +53,7 @@ bool is_finite(Point p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-// A closed line without the parts that are not visible.
+// Draws a closed line without the parts that are not visible.
 void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLines& lines,
                  double line_width, Rgba8 colour) {
     std::vector<Point> run;
@@ -74,7 +74,7 @@ void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLine
 }
 
 std::vector<Point> ground_outline(const MapLines& lines) {
-    // Many points an edge: of an edge that passes the camera a part may be visible.
+    // Each edge has many points, because a part of an edge that passes the camera may be visible.
     constexpr int parts = 32;
     std::vector<Point> outline;
     const auto corners = ground_corners(*lines.geometry);
@@ -139,7 +139,7 @@ void draw_rings(Canvas& canvas, const MapLines& lines) {
     const GroundPoint site = map.site();
     const double reach = std::hypot(lines.geometry->half_x_m(), lines.geometry->half_y_m()) +
                          std::hypot(site.x_m, site.y_m);
-    // Of a ground that goes past the camera the visible corners are its outline, near enough.
+    // If the ground extends past the camera, the visible corners are nearly its outline.
     std::vector<Point> ground;
     for (const Point& p : ground_outline(lines)) {
         if (is_finite(p)) ground.push_back({p.x + lines.left, p.y + lines.top});

@@ -1,12 +1,15 @@
-// render/map/map_lines.h -- lines that place the volume: border of the ground and range rings.
+// render/map/map_lines.h -- draws lines that place the volume: the border of the ground and range
+// rings.
 //
-// Everything is projected by the ViewGeometry of the picture; `left` and `top` say where that
-// picture lies on the canvas. Range rings stand on the ground round a single site; a grid of
-// several sites has marks and no rings.
-// Accuracy: on an azimuthal equidistant map a ring round a site that is not the grid's centre is
-// drawn as a circle of the map, off by less than 0.1 % of its radius within 500 km of the centre;
-// on the others it goes through 240 points at the ring's distance. Sites are where the map has
-// them. What the view does not project is not drawn.
+// The ViewGeometry of the picture projects everything; `left` and `top` say where that picture lies
+// on the canvas. Range rings lie on the ground around a single site; a grid of several sites has
+// marks and no rings. What the view does not project is not drawn.
+//
+// Accuracy  On an azimuthal equidistant map, a ring around a site that is not the center of the
+//           grid is drawn as a circle of the map, which is off by less than 0.1 % of its radius
+//           within 500 km of the center. On other maps it goes through 240 points at the ring's
+//           distance. Sites are where the map has them.
+// Threads   Pure functions, except that they draw on the canvas.
 #pragma once
 
 #include <vector>
@@ -22,25 +25,25 @@ struct MapLines {
     const ViewGeometry* geometry = nullptr;
     const grid::GridSpec* spec = nullptr;
     const std::vector<grid::SitePosition>* sites = nullptr;
-    const MapLayer* map = nullptr;  // its cities are marked; none: no cities
-    double ring_spacing_m = 50e3;   // as drawn: by drawn_ring_spacing()
+    const MapLayer* map = nullptr;  // its cities are marked; null: no cities
+    double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
     bool heights = false;           // a scale of heights at the left edge of the box
     double scale = 1;               // of lines and text
     double left = 0, top = 0;
 };
 
-// The spacing asked for, doubled until there are at most 20 rings.
+// Returns the spacing that is asked for, doubled until there are at most 20 rings.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m);
 
-// A thin line round the ground.
+// Draws a thin line around the ground.
 void draw_border(Canvas& canvas, const MapLines& lines);
-// Drawn before a volume, after a 2D product.
+// Draws the rings. They come before a volume and after a 2D product.
 void draw_rings(Canvas& canvas, const MapLines& lines);
 
-// For what is drawn with the lines (render/map/map_marks.h).
+// Used by whatever is drawn with the lines (render/map/map_marks.h).
 [[nodiscard]] std::vector<GroundPoint> ground_corners(const ViewGeometry& geometry);
 [[nodiscard]] GroundPoint ground_of_site(const MapLines& lines, const grid::SitePosition& site);
-// The ring of a single site, clockwise from the north, closed; points in the picture's pixels.
+// Returns the closed ring of a single site, clockwise from the north, in pixels of the picture.
 [[nodiscard]] std::vector<Point> ring_points(const MapLines& lines, double radius_m);
 // Restricts drawing to the picture.
 void clip_to_picture(Canvas& canvas, const MapLines& lines);

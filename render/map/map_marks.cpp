@@ -54,18 +54,18 @@ class Planner {
         return std::isfinite(p.x_m) && std::isfinite(p.y_m) &&
                std::abs(p.x_m) < geometry_.half_x_m() && std::abs(p.y_m) < geometry_.half_y_m();
     }
-    // Whether the grid's ground is at a pixel.
+    // Returns true if the ground of the grid is at a pixel.
     [[nodiscard]] bool over_grid(Point p) const {
         const auto ground = geometry_.ground({p.x, p.y});
         return ground && inside_grid(*ground);
     }
     static Rect about(Point p, double half) { return {p.x - half, p.y - half, 2 * half, 2 * half}; }
 
-    // The text, if its place is free.
+    // Returns the text if its place is free, and takes the place.
     std::optional<MarkText> claim(const std::string& text, Point left_baseline, double size,
                                   bool bold, Rgba8 colour) {
         const double halo = scaled(1);
-        // Where it will be drawn: on whole pixels.
+        // The text will be drawn on whole pixels.
         left_baseline = {std::nearbyint(left_baseline.x), std::nearbyint(left_baseline.y)};
         const Rect box = {left_baseline.x - halo, left_baseline.y - 0.8 * size - halo,
                           fonts_.width(text, size, bold) + 2 * halo, 1.05 * size + 2 * halo};
@@ -73,8 +73,8 @@ class Planner {
         return MarkText{box, left_baseline, size, bold, colour, text};
     }
 
-    // The arrow's and the bar's corner: the first that covers no site, else the first, and what
-    // they cover there is not drawn.
+    // Chooses the corner for the arrow and the bar: the first that covers no site, else the first.
+    // What they cover there is not drawn.
     void plan_corner() {
         const double w = scaled(2 * north_radius + 8);
         const double h = scaled(2 * north_radius + 28);
@@ -119,7 +119,7 @@ class Planner {
         return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
     }
 
-    // On WGS84, to a pixel, across the middle of the picture.
+    // Returns the meters on WGS84 for each pixel, across the middle of the picture.
     [[nodiscard]] std::optional<double> metres_per_pixel() const {
         const double x = 0.5 * geometry_.width();
         const double y = 0.5 * geometry_.height();
@@ -136,7 +136,7 @@ class Planner {
         return apart_m / (2 * reach);
     }
 
-    // Its place comes later.
+    // Makes the scale bar; its place is set later.
     [[nodiscard]] std::optional<ScaleBar> make_scale_bar() const {
         const auto metres = metres_per_pixel();
         if (!metres) return std::nullopt;
@@ -184,8 +184,9 @@ class Planner {
         }
     }
 
-    // Of the box's upright edges the leftmost in the picture; of two, the one further away, which
-    // is higher in the picture. It is an outline of the box: no echo is ever behind it.
+    // Places the scale of heights at the leftmost of the box's upright edges in the picture. Of two
+    // such edges it takes the farther one, which is higher in the picture. It is an outline of the
+    // box, so no echo is ever behind it.
     void plan_heights() {
         std::optional<GroundPoint> edge;
         Point edge_at;
@@ -226,7 +227,8 @@ class Planner {
         marks_.heights = std::move(heights);
     }
 
-    // Distances stand on the rings where they come nearest to the viewer: lowest in the picture.
+    // Places the distances on the rings where these come nearest to the viewer, which is lowest in
+    // the picture.
     void plan_distances() {
         const double size = scaled(text_size);
         for (int i = 1; i <= 40; ++i) {
@@ -253,7 +255,7 @@ class Planner {
         const double dot = scaled(2.6);
         const double apart = scaled(44);
         for (const MapPlace& city : lines_.map->cities) {
-            // Not too close, so that the map stays quiet.
+            // Cities keep a distance from each other, so that the map stays quiet.
             const bool crowded =
                 std::any_of(marks_.cities.begin(), marks_.cities.end(), [&](const Point& other) {
                     return std::hypot(other.x - city.at.x, other.y - city.at.y) < apart;
@@ -267,7 +269,7 @@ class Planner {
             std::vector<Point> corners = {Point{right, level}, Point{left, level},
                                           Point{middle, city.at.y - scaled(5)},
                                           Point{middle, city.at.y + 0.8 * size + scaled(5)}};
-            // A name across the grid's edge looks cut by it: such places come last.
+            // A name across the edge of the grid looks cut by it, so such places come last.
             std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
                 return over_grid(corner) && over_grid({corner.x + width, corner.y});
             });

@@ -1,14 +1,17 @@
-// render/map/map_marks.h -- what stands on the map: sites, cities, the rings' distances, heights,
-// north and a scale bar.
+// render/map/map_marks.h -- what is marked on the map: sites, cities, the distances of rings,
+// heights, north and a scale bar.
 //
-// Planned first and drawn later, so that nothing stands on anything else: the north arrow and the
-// scale bar have a corner, the lower left one unless a site is there; then come names of sites,
-// heights, distances and cities, the largest first. A name that has no room is left out; a site's
-// mark is drawn all the same, a city's is not. All lies inside the picture; plans are in its
-// pixels. The scale bar holds at the middle of the picture, across it: 1, 2 or 5 times a power of
-// ten, by the distance on WGS84 (1 % of it at worst). None where the view's middle shows no ground.
-// Needs of the view only where points are and which ground is under a pixel.
-// Thread contract: pure functions and plain data.
+// Marks are planned first and drawn later, so that none overlaps another. The north arrow and the
+// scale bar take a corner: the lower left one unless a site is there. Then come the names of sites,
+// heights, distances, and cities, the largest first. A name without room is left out; the mark of a
+// site is drawn all the same, that of a city is not. Everything lies inside the picture; plans are
+// in its pixels.
+//
+// The length of the scale bar holds across the middle of the picture. It is 1, 2 or 5 times a power
+// of ten, by the distance on WGS84 (to 1 % at worst). There is none if the middle of the view shows
+// no ground. Of the view, only where points are and which ground is under a pixel is needed.
+//
+// Threads   Plain data; pure functions, except that they draw on the canvas.
 #pragma once
 
 #include <optional>
@@ -35,18 +38,18 @@ struct ScaleBar {
     Rect box;  // of bar and text
 };
 
-// A scale of heights, at an edge of the box behind which there is nothing.
+// A scale of heights, at an edge of the box with nothing behind it.
 struct HeightScale {
     Point bottom, top;
     std::vector<Point> ticks;
-    double side = -1;  // of the ticks: -1 to the left
+    double side = -1;  // side of the ticks: -1 to the left
 };
 
 struct MapMarks {
     std::vector<Point> sites;
     std::vector<Point> cities;
     std::vector<MarkText> site_texts;    // over everything
-    std::vector<MarkText> ground_texts;  // distances and cities: under a volume
+    std::vector<MarkText> ground_texts;  // distances and cities; under a volume
     std::vector<MarkText> height_texts;
     std::optional<HeightScale> heights;
     Rect north;
@@ -55,13 +58,13 @@ struct MapMarks {
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);
 
-// Cities, distances and heights: with the map, before a volume.
+// Draws cities, distances and heights, with the map, before a volume.
 void draw_ground_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
                        const MapMarks& marks);
-// Sites, north arrow and scale bar: over everything.
+// Draws sites, north arrow and scale bar, over everything.
 void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks);
 
-// "50 km", "200 m".
+// Returns "50 km" or "200 m".
 [[nodiscard]] std::string distance_text(double metres);
 
 }  // namespace stormcellar::render

@@ -45,8 +45,8 @@ void draw_heights(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
     draw_texts(canvas, fonts, lines, marks.height_texts, {0, 0, 0, 0});
 }
 
-// How ground directions look in the middle of the picture: a unit circle of the ground as an
-// ellipse whose long axis is 1.
+// How directions on the ground look in the middle of the picture: a unit circle of the ground
+// appears as an ellipse, scaled so that its long axis is 1.
 class GroundTurn {
   public:
     explicit GroundTurn(const ViewGeometry& geometry) {

@@ -12,7 +12,7 @@ using accuracy::make_effect;
 
 constexpr int fewest_slices = 32;
 constexpr int most_slices = 2048;
-// In a scale of its own: a slice counts one, whatever the scene.
+// The scale is arbitrary but fixed: a slice counts one unit, whatever the scene.
 constexpr double effort_of_a_slice = 1e-3;
 constexpr double effort_of_a_table = 1e-3;
 constexpr double effort_of_every_pixel = 2e-2;

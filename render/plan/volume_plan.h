@@ -1,11 +1,12 @@
-// render/plan/volume_plan.h -- the cheapest picture of a volume that holds a budget, and how large
-// each effect is in it.
+// render/plan/volume_plan.h -- finds the cheapest picture of a volume within a budget, and the size
+// of each effect in it.
 //
-// Sizes are the 99th percentile of CIEDE2000 over all pixels of the picture, without labels and
-// over the page's colour: each rung against the one below, every other step exact. What is measured
-// is the whole picture against the exact chain's, so that nothing is estimated; the price is that
-// picture, drawn once.
-// Threads: a VolumeScene is used by one thread at a time; it draws on `threads`.
+// A size is the 99th percentile of CIEDE2000 over all pixels of the picture, without labels and
+// over the page's color, for a rung against the one below with every other step exact. The whole
+// picture is measured against that of the exact chain, so nothing is estimated; the price is that
+// this picture must be drawn once.
+//
+// Threads   A VolumeScene may be used by one thread at a time; it draws with `threads` threads.
 #pragma once
 
 #include <deque>
@@ -21,7 +22,7 @@
 
 namespace stormcellar::render {
 
-// What is to be drawn; all must outlive it.
+// What is to be drawn. All arguments must outlive the scene.
 class VolumeScene {
   public:
     // `width` and `height` are those of the picture without its labels.
@@ -30,9 +31,9 @@ class VolumeScene {
 
     struct Drawn {
         Image picture;
-        double seconds = 0;  // by the clock, with what a loop makes once
+        double seconds = 0;  // by the clock, including what a loop makes only once
     };
-    // Drawn once and kept.
+    // Draws a choice, once; the picture is kept.
     [[nodiscard]] const Drawn& draw(const VolumeChoice& choice);
 
   private:
@@ -40,13 +41,13 @@ class VolumeScene {
     const ColourTable& table_;
     Scene scene_;
     int width_, height_, threads_;
-    std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to them stay
+    std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to these stay valid
 };
 
-// Of what the scene does not ask for, a size is told to who wants to know all; no plan needs it.
+// Whether to predict sizes also for effects that the scene does not ask for. No plan needs them.
 enum class Predicted { asked, all };
 
-// Each effect's size and cost for this scene; settings stay.
+// Predicts the size and cost of each effect for this scene. Settings stay.
 [[nodiscard]] Status predict(VolumeScene& scene, accuracy::Chain& chain,
                              Predicted which = Predicted::asked);
 
@@ -54,16 +55,16 @@ struct VolumePlan {
     accuracy::Plan plan;
     VolumeChoice choice;
 };
-// Predicts, chooses and measures (accuracy/governor.h). Without a budget: what `by_default` names,
-// with each effect's size. Errors: those of accuracy::govern(); bad_argument for a budget that
-// bounds other errors than the picture's.
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds
+// `by_default` with the size of each effect. Errors: those of accuracy::govern(); bad_argument for
+// a budget that bounds other errors than those of the picture.
 [[nodiscard]] Result<VolumePlan> plan_volume(VolumeScene& scene, accuracy::Chain chain,
                                              const std::optional<accuracy::Budget>& budget,
                                              const VolumeChoice& by_default,
                                              Predicted which = Predicted::asked);
 
-// A row for each rung of each step that the scene asks for, the others exact, against the exact
-// chain's picture.
+// Makes a row for each rung of each step that the scene asks for, with the others exact, against
+// the picture of the exact chain.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 

@@ -1,11 +1,13 @@
-// render/products/cell_mixer.h -- what lies between a grid's cells.
+// render/products/cell_mixer.h -- what lies between the cells of a grid.
 //
-// The status rule of DESIGN section 5 (grid/sweep/mixture.h), with the weights of the cells: not
-// seen if more than half is; else range folded if that is the largest part; else no echo if that
-// outweighs the values; else the mean of the values by their weights. No echo enters no value: a
-// grid does not say what its cells could have seen. PHI is averaged on its circle of 360 degrees;
-// of VEL, whose circle a grid does not tell, the value that weighs most stands. Thread contract:
-// plain values.
+// This is the status rule (docs/geometry.md, grid/sweep/mixture.h) with the weights of the cells:
+// not seen if more than half is not seen; else range folded if that is the largest part; else no
+// echo if that outweighs the values; else the mean of the values by weight. No echo does not enter
+// a value, because a grid does not hold the detection limits of its cells. PHI is averaged on its
+// circle of 360 degrees. For VEL, whose circle a grid does not hold, the value that weighs most is
+// the result.
+//
+// Threads   Plain values.
 #pragma once
 
 #include <array>
@@ -17,11 +19,11 @@
 
 namespace stormcellar::render {
 
-// What a cell holds; the cell must exist.
+// Returns what a cell holds. The cell must exist.
 [[nodiscard]] grid::Sample cell_of(const grid::BrickView& view, level2::Moment moment, int ix,
                                    int iy, int iz);
 
-// Up to eight cells with weights of 0 to 1.
+// Mixes up to eight cells with weights of 0 to 1.
 class CellMixer {
   public:
     explicit CellMixer(level2::Moment moment);
@@ -41,13 +43,14 @@ class CellMixer {
     std::size_t count_ = 0;
 };
 
-// The two levels about a height and the share of the upper one; lower == upper at a level and
-// within the half level by which the cells of the first and the last reach beyond it.
+// The two levels around a height, and the share of the upper one. Both are the same at a level, and
+// within the half level by which the cells of the first and the last level reach beyond it.
 struct LevelPair {
     int lower = 0, upper = 0;
     double upper_share = 0;
 };
-// bad_argument, naming the grid's heights, for a height where it has no cells.
+// Returns the levels around a height. Errors: bad_argument, naming the heights of the grid, where
+// it has no cells.
 [[nodiscard]] Result<LevelPair> levels_about(const grid::GridSpec& spec, double height_m);
 
 }  // namespace stormcellar::render

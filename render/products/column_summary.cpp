@@ -22,8 +22,8 @@ void note_status(ColumnSummary& column, CellStatus status, int level) {
     column.has_range_folded = column.has_range_folded || status == CellStatus::range_folded;
 }
 
-// A whole run of 16: cells beyond the grid's top are stored as not seen. Without branches, so that
-// the compiler takes all cells at once.
+// Summarizes a whole run of 16 cells; cells beyond the top of the grid are stored as not seen.
+// There are no branches, so that the compiler handles all cells at once.
 template <class Code>
 void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) {
     std::array<Code, brick_edge> run{};
@@ -50,7 +50,7 @@ void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) 
 
 // The part of one column that lies in one brick.
 struct Run {
-    std::size_t cell;  // of the run's first cell, in the brick
+    std::size_t cell;  // index of the first cell of the run in the brick
     int cells;
     int first_level;
 };
@@ -78,7 +78,7 @@ void note_run(ColumnSummary& column, const BrickView& view, std::size_t brick, c
     }
 }
 
-// The rows of columns that bricks with this y number hold.
+// Summarizes the rows of columns that lie in the bricks with this y number.
 void summarize_band(const BrickView& view, int by, std::vector<ColumnSummary>& columns) {
     const grid::GridSpec& spec = *view.spec;
     const int last_y = std::min(spec.ny, (by + 1) * brick_edge);

@@ -1,7 +1,9 @@
-// render/products/column_summary.h -- each column of a grid in three numbers.
+// render/products/column_summary.h -- three numbers for each column of a grid.
 //
-// What 2D products and the ground of the 3D view need: how far down the column was seen, its
-// highest value, and which states it holds.
+// 2D products and the ground of the 3D view need them: the lowest level at which the column was
+// seen, its highest value, and the states that it holds.
+//
+// Threads   Plain values and a pure function.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +15,18 @@ namespace stormcellar::render {
 
 struct ColumnSummary {
     static constexpr std::uint16_t never = 0xFFFF;
-    std::uint16_t lowest_seen = never;  // level: the lowest cell that is not "not seen"
-    std::uint16_t max_code = 0;         // of the cells with a value; 0: none
+    std::uint16_t lowest_seen = never;  // the level of the lowest cell that is not "not seen"
+    std::uint16_t max_code = 0;         // over the cells with a value; 0: none
     bool has_no_echo = false;
     bool has_range_folded = false;
 
-    // The state of the column maximum: a value if any cell has one; else range folded if any cell
-    // is (what is under it is unknown); else no echo if any cell was seen.
+    // Returns the state of the column maximum: a value if any cell has one; else range folded if
+    // any cell is, because the echo behind it is unknown; else no echo if any cell was seen.
     [[nodiscard]] grid::CellStatus status() const;
 };
 
-// One for each column, west to east in rows from south to north. The same result for any number
-// of threads.
+// Summarizes all columns, from west to east in rows from south to north. The result is the same for
+// any number of threads.
 [[nodiscard]] std::vector<ColumnSummary> summarize_columns(const grid::BrickView& view,
                                                            int threads);
 

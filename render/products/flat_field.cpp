@@ -16,7 +16,7 @@ using grid::brick_edge;
 using grid::BrickView;
 using grid::CellStatus;
 
-// Calls work(column's cells, place in the field) for every column.
+// Calls work(cells of the column, place in the field) for every column.
 template <class Work>
 FlatField for_each_column(const BrickView& view, int threads, const Work& work) {
     FlatField field(view.spec->nx, view.spec->ny);
@@ -30,7 +30,7 @@ FlatField for_each_column(const BrickView& view, int threads, const Work& work) 
     return field;
 }
 
-// Of a column whose product has no value.
+// Returns the state of a column for which the product has no value.
 CellStatus state_without_value(const ColumnCells& cells) {
     bool seen = false;
     for (const CellStatus status : cells.status) {
@@ -45,7 +45,7 @@ struct EchoTop {
     bool at_least = false;
 };
 
-// From the highest cell that reaches the threshold.
+// Computes the top from the highest cell that reaches the threshold.
 EchoTop echo_top(const ColumnCells& cells, const std::vector<double>& levels_m, std::size_t cell,
                  double threshold_dbz) {
     const std::size_t above = cell + 1;

@@ -1,24 +1,26 @@
 // render/products/flat_field.h -- 2D products: one value or state for each column of a grid.
 //
-//   composite     the largest value of the column; state by ColumnSummary::status()
-//   cappi         at one height, linear between the two levels about it (cell_mixer.h: which state
-//                 stands where states mix); at a level, that level
-//   echo_top      km: the highest height at which reflectivity reaches a threshold. From the
-//                 highest cell that reaches it, straight in dB to the next one above, if that has a
-//                 value; that cell's own height where there is no echo above. Where the cell above
-//                 was not seen or is range folded, or there is none, the top is not known: the
-//                 height is marked as "at least"
-//   vil           kg/m2: vertically integrated liquid after Greene and Clark (1972), 3.44e-6 times
-//                 the integral of Z^(4/7) over height, Z in mm6/m3 the mean of two levels in the
-//                 layer between them and capped at 56 dBZ, as the Weather Service does. No echo is
-//                 Z = 0. Cells not seen or range folded add nothing: half of the layer beside them
-//                 is left out. The first and the last level reach half a level beyond themselves,
-//                 as cells do
-//   lowest_seen, highest_seen   km: height of the lowest and highest cell that is not "not seen"
+//   composite   The largest value of the column; the state by ColumnSummary::status().
+//   cappi       The value at one height, linear between the two levels around it (cell_mixer.h says
+//               which state results where states mix). At a level it is that level.
+//   echo_top    km: the greatest height at which reflectivity reaches a threshold. From the highest
+//               cell that reaches it, it goes straight in dB to the next cell above, if that has a
+//               value. If there is no echo above, it is the height of the cell itself. If the cell
+//               above was not seen or is range folded, or there is none, the top is not known and
+//               the height is marked "at least".
+//   vil         kg/m2: vertically integrated liquid after Greene and Clark (1972). It is 3.44e-6
+//               times the integral of Z^(4/7) over height, where Z (mm6/m3) of a layer is the mean
+//               of the two levels around it, capped at 56 dBZ, as the Weather Service does. No echo
+//               is Z = 0. Cells that are not seen or range folded add nothing: half of the layer
+//               beside them is left out. The first and the last level reach half a level beyond
+//               themselves, like cells.
+//   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
+//                               seen".
+// A column without a value of echo_top and vil is range folded if any cell is, because the echo
+// behind it is unknown; else no echo (below the threshold) if any cell was seen; else not seen.
 //
-// Without a value, a column of echo_top and vil is range folded if any cell is (what is under it is
-// unknown), else no echo (below the threshold) if any was seen, else not seen.
-// Heights are those above sea level. The same bits for any number of threads.
+// Units     Heights are above mean sea level.
+// Threads   Pure functions; the same bits for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -34,9 +36,10 @@ namespace stormcellar::render {
 
 struct FlatField {
     int width = 0, height = 0;             // columns, and rows from south to north
-    std::vector<float> values;             // 0 where the status is not value
+    std::vector<float> values;             // 0 if the status is not value
     std::vector<grid::CellStatus> status;  // of each column
-    std::vector<std::uint8_t> at_least;    // 1: the true value may be larger; empty: none is so
+    // 1: the true value may be larger; empty: this applies to no column
+    std::vector<std::uint8_t> at_least;
 
     FlatField() = default;
     FlatField(int columns, int rows);
@@ -49,10 +52,10 @@ struct FlatField {
 
 [[nodiscard]] FlatField composite_field(const grid::BrickView& view,
                                         const std::vector<ColumnSummary>& columns);
-// bad_argument for a height at which the grid has no cells.
+// Errors: bad_argument for a height at which the grid has no cells.
 [[nodiscard]] Result<FlatField> cappi_field(const grid::BrickView& view, level2::Moment moment,
                                             double height_m, int threads);
-// Of grids of reflectivity.
+// For grids of reflectivity.
 [[nodiscard]] FlatField echo_top_field(const grid::BrickView& view, double threshold_dbz,
                                        int threads);
 [[nodiscard]] FlatField vil_field(const grid::BrickView& view, int threads);
@@ -68,9 +71,9 @@ struct FlatField {
 // One column, from the lowest level up.
 struct ColumnCells {
     std::vector<grid::CellStatus> status;
-    std::vector<float> values;  // 0 where the status is not value
+    std::vector<float> values;  // 0 if the status is not value
 };
-// Into `cells`, whose memory is used again.
+// Reads a column into `cells`, reusing its memory.
 void read_column(const grid::BrickView& view, int ix, int iy, ColumnCells& cells);
 
 }  // namespace stormcellar::render

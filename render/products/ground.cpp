@@ -11,7 +11,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Dots of a value that is "at least" so much.
+// Returns true for the pixels of the dots that mark a value "at least".
 bool is_dot(int x, int y, double scale) {
     const int period = std::max(4, static_cast<int>(std::lround(6 * scale)));
     const int size = std::max(1, static_cast<int>(std::lround(2 * scale)));

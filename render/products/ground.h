@@ -1,7 +1,9 @@
-// render/products/ground.h -- what lies flat: the ground of the 3D view, and 2D products.
+// render/products/ground.h -- paints what lies flat: the ground of the 3D view, and 2D products.
 //
-// Both paint an opaque picture pixel by pixel; each pixel shows the column whose cell it falls
-// into. Beyond the grid is the page. The same bits for any number of threads.
+// Both paint an opaque picture pixel by pixel. Each pixel shows the column into whose cell it
+// falls; beyond the grid is the page.
+//
+// Threads   Pure functions; the same bits for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +19,11 @@
 
 namespace stormcellar::render {
 
-// A column seen from below this height above sea level counts as seen from low down.
+// A column that was seen below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// What the ground tells of the columns over it: whether they were seen from low down, only higher
-// up, or not; or only whether at all, where haze tells the rest.
+// What the ground shows about the columns over it: whether they were seen from low down, only
+// higher up, or not at all; or, if haze shows the rest, only whether they were seen.
 enum class GroundTells { how_low, whether_seen };
 
 [[nodiscard]] Image paint_ground(const grid::GridSpec& spec,
@@ -29,18 +31,19 @@ enum class GroundTells { how_low, whether_seen };
                                  const ViewGeometry& geometry, GroundTells tells, double scale,
                                  int threads);
 
-// What a place of a field looks like at a pixel of the whole picture: a value by the table, over
-// plain ground where the colour is translucent, dotted where it is "at least" so much; no echo and
-// values below the table as plain ground, range folded in its colour, not seen hatched.
+// Returns the color of a place of a field at a pixel of the whole picture. A value has the color of
+// the table, over plain ground where that is translucent, and with dots if it is "at least". No
+// echo and values below the table are plain ground, range folded has its own color, and not seen is
+// hatched.
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
                              int x, int y, double scale);
 
-// A product of the grid, which has its columns and rows.
+// Paints a product, whose columns and rows are those of the grid.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColourTable& table, const ViewGeometry& geometry,
                                 double scale, int threads);
 
-// The column whose cell holds a ground point, as an index; -1 beyond the grid.
+// Returns the index of the column whose cell holds a point of the ground; -1 beyond the grid.
 [[nodiscard]] std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint point);
 
 }  // namespace stormcellar::render

@@ -14,7 +14,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The two numbers about a place along an axis and the share of the second. None beyond the cells.
+// The two indices around a place along an axis, and the share of the second; none beyond the cells.
 struct Neighbours {
     int first = 0, second = 0;
     double second_share = 0;
@@ -26,7 +26,7 @@ std::optional<Neighbours> neighbours(double at, int count) {
     return Neighbours{first, std::min(first + 1, count - 1), inside - first};
 }
 
-// The four columns about a place, with their weights.
+// One of the four columns around a place, with its weight.
 struct Corner {
     ColumnCells cells;
     double weight = 0;

@@ -1,4 +1,4 @@
-// The picture of a vertical section with its axes.
+// Draws the picture of a vertical section with its axes.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,7 @@ class Axes {
     }
 
   private:
-    // `share` of the text's width lies left of x.
+    // Draws a text so that `share` of its width lies left of x.
     void put(const std::string& text, double x, double baseline, double share, bool strong) {
         const double size = 10 * scale_;
         canvas_.text(fonts_, text, {x - share * fonts_.width(text, size, strong), baseline}, size,
@@ -73,7 +73,7 @@ class Axes {
         const std::string from = "A  " + place_text(section_.line.from);
         const std::string to = place_text(section_.line.to) + "  B";
         put(from, left_, baseline, 0, true);
-        // Where both do not fit, the second is left out.
+        // If both do not fit, the second is left out.
         const double room = right_ - left_;
         const double size = 10 * scale_;
         if (fonts_.width(from + to, size, true) + 12 * scale_ <= room) {

@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// NaN is outside every range.
+// Checks a range; NaN is outside every range.
 Status check_range(std::string_view what, double value, NumberRange range) {
     if (is_within(value, range.least, range.most)) return {};
     return fail(ErrorCode::bad_argument, "{} must be {} to {}, not {}", what, range.least,

@@ -8,11 +8,12 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double margin = 1.04;  // of the box in the picture, so that nothing touches the edge
+constexpr double margin = 1.04;  // factor for the size of the box, so that nothing touches the edge
 constexpr double single_level_m = 1000;
 constexpr double earth_radius_m = 6371e3;
-constexpr double nearest_share = 1e-4;  // of the farthest depth: how near a perspective camera sees
-constexpr double flattest = 1e-6;       // a view that falls less than this runs along the ground
+// how near a perspective camera sees, as a share of the farthest depth
+constexpr double nearest_share = 1e-4;
+constexpr double flattest = 1e-6;  // a view that falls by less than this runs along the ground
 
 double dot(const Vec3& a, const Vec3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -22,7 +23,7 @@ Vec3 minus(const Vec3& a, const Vec3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// Sine and cosine that are exact at the quarter turns, where views are asked for most often.
+// Sine and cosine that are exact at the quarter turns, because most views are at these.
 struct Turn {
     double sine, cosine;
 };
@@ -83,7 +84,7 @@ ViewGeometry::ViewGeometry(const grid::GridSpec& spec, const Camera& camera,
     find_depths();
 }
 
-// Of the box from a height up, in drawn space.
+// Returns the corners of the box from a height upward, in drawn space.
 std::array<Vec3, 8> ViewGeometry::corners(double low_m) const {
     std::array<Vec3, 8> all{};
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -102,8 +103,8 @@ void ViewGeometry::fit_picture(const Camera& camera) {
     metres_per_pixel_ = margin * std::max(2 * across / width_, 2 * upright / height_) / camera.zoom;
 }
 
-// The field of view is that of zoom 1. A camera without a place stands back as far as the box
-// needs.
+// Places the camera. The field of view is that of zoom 1. A camera without a place of its own
+// stands as far back as the box needs.
 void ViewGeometry::place_eye(const Camera& camera) {
     const double half_angle = 0.5 * camera.field_of_view_deg * std::numbers::pi / 180;
     const double focal = 0.5 * width_ / std::tan(half_angle);
@@ -183,8 +184,8 @@ Vec3 ViewGeometry::point(Pixel pixel, double depth_m) const {
     return p;
 }
 
-// How far above the ground the ray is, as a polynomial of the depth: c d^2 + b d + a. The first
-// root at which it falls.
+// The height of the ray above the ground is a polynomial of the depth: c d^2 + b d + a. The ground
+// is at the first root where it falls.
 std::optional<GroundPoint> ViewGeometry::ground(Pixel pixel) const {
     const Vec3 start = point(pixel, 0);
     const Vec3 step = along(pixel);
@@ -197,7 +198,7 @@ std::optional<GroundPoint> ViewGeometry::ground(Pixel pixel) const {
     if (c > 0) {
         const double inside = b * b - 4 * a * c;
         if (!(inside > 0)) return std::nullopt;
-        // The smaller root, without the difference of nearly equal numbers.
+        // The smaller root, in a form that does not subtract nearly equal numbers.
         const double root = std::sqrt(inside);
         depth = b < 0 ? 2 * a / (root - b) : -(b + root) / (2 * c);
     } else {

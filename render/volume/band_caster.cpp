@@ -6,8 +6,9 @@
 
 namespace stormcellar::render {
 
-// The steps of a row of tiles, and the pixels of it that wait for their rays. Where few pixels of a
-// tile ask for one, those of the next tiles fill the packet; its rays then take the steps of all.
+// The steps of a row of tiles, and the pixels in it that wait for their rays. If few pixels of a
+// tile need a ray, those of the next tiles fill the packet; its rays then sample the steps of all
+// these tiles.
 class BandCaster::Tiles {
   public:
     Tiles(const BandCaster& caster, int tile_row) : caster_(caster) {
@@ -16,7 +17,7 @@ class BandCaster::Tiles {
     }
     [[nodiscard]] bool any() const { return any_; }
 
-    // False for a tile in which nothing shows.
+    // Returns false for a tile in which nothing shows.
     bool enter(int tile) {
         tile_ = tile;
         has_joined_ = false;
@@ -24,6 +25,8 @@ class BandCaster::Tiles {
         const auto words = words_of(tile);
         return std::any_of(words.begin(), words.end(), [](std::uint64_t w) { return w != 0; });
     }
+    // A pixel asks for its ray. The ray is cast when the packet is full, or when the row of tiles
+    // ends.
     void want(int x, int y) {
         if (!has_joined_) join();
         wanted_[count_++] = {x, y};
@@ -48,6 +51,9 @@ class BandCaster::Tiles {
         const std::size_t count = packet_words_.size();
         return std::span(words_).subspan(static_cast<std::size_t>(tile) * count, count);
     }
+    // The first pixel of a tile adds the steps of its tile to those of the packet. A ray may then
+    // sample steps of another tile; this costs time but changes nothing, because there it finds
+    // only clear values.
     void join() {
         const auto words = words_of(tile_);
         if (count_ == 0) {
@@ -64,7 +70,7 @@ class BandCaster::Tiles {
     bool any_ = false;
     std::vector<std::uint64_t> words_, packet_words_;
     int tile_ = 0, first_tile_ = 0;
-    bool has_joined_ = false;  // this tile's steps are among the packet's
+    bool has_joined_ = false;  // the steps of this tile are among those of the packet
     std::array<PixelPlace, packet_rays> wanted_{};
     std::size_t count_ = 0;
 };
@@ -74,7 +80,7 @@ BandCaster::BandCaster(const PacketVolume& volume, const RayMaker& maker, const 
     : volume_(volume), maker_(maker), mask_(mask), width_(width), height_(height), rgba_(rgba) {}
 
 // Asks for the rays of every `stride`-th pixel of the row of tiles, tile by tile. A tile in which
-// nothing shows stays clear: its rays would find nothing.
+// nothing shows stays clear, because its rays would find nothing.
 template <class Ask>
 void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
     Tiles tiles(*this, tile_row);
@@ -86,7 +92,7 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
         if (!tiles.enter(tile)) continue;
         const int left = tile * side;
         const int right = std::min(left + side, width_);
-        // Sixteen rays of a square find more of the same than those of two rows.
+        // Sixteen rays of a square find more of the same values than sixteen rays of two rows.
         const int edge = std::max(small_tile_edge, stride);
         for (int from_y = top; from_y < bottom; from_y += edge) {
             for (int from_x = left; from_x < right; from_x += edge) {
@@ -107,7 +113,7 @@ void BandCaster::cast_first(int tile_row, int stride) const {
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 
-// Where the picture bends at the pixels of a grid, for the rows that a row of tiles leans on.
+// Where the picture bends at the pixels of a grid, for the rows that a row of tiles depends on.
 class BandCaster::Bends {
   public:
     Bends(const BandCaster& caster, int tile_row, int stride, float most)
@@ -117,7 +123,7 @@ class BandCaster::Bends {
                 bends_.push_back(caster.bends(x, y, stride, most) ? 1 : 0);
         }
     }
-    // At a corner of the grid's cell that begins at a pixel.
+    // Returns true if it bends at a corner of the cell of the grid that begins at a pixel.
     [[nodiscard]] bool any(int x, int y) const {
         const char* corner = bends_.data() +
                              static_cast<std::ptrdiff_t>((y - top_) / stride_) * across_ +
@@ -131,14 +137,14 @@ class BandCaster::Bends {
 };
 
 void BandCaster::refine(int tile_row, int stride, float tolerance) const {
-    // A straight line through two neighbours is off by an eighth of their second difference.
+    // A straight line through two neighbors is off by an eighth of their second difference.
     const Bends bends(*this, tile_row, stride, 8 * tolerance);
     for_each_pixel(tile_row, stride,
                    [&](Tiles& tiles, int x, int y) { refine_cell(tiles, x, y, stride, bends); });
 }
 
-// Whether the picture bends at a pixel of the grid, along a row or a column. Where the picture ends
-// there is no telling, and no bend.
+// Returns true if the picture bends at a pixel of the grid, along a row or a column. At the edge of
+// the picture this cannot be known, and counts as no bend.
 bool BandCaster::bends(int x, int y, int stride, float most) const {
     const float* here = at(x, y);
     const auto bends_between = [&](const float* before, const float* after) {
@@ -154,7 +160,9 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
            bends_between(at(x, y - stride), at(x, y + stride));
 }
 
-// Beside the picture's last column and below its last row there is nobody to lean on.
+// Fills the half-way pixels of one cell of the grid: interpolates them if the picture bends at none
+// of the cell's corners, and otherwise casts their rays. Beyond the last column and the last row of
+// the picture there are no pixels to interpolate from, so their rays are cast.
 void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
     if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
         return interpolate(x, y, stride);

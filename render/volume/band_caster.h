@@ -1,13 +1,15 @@
-// render/volume/band_caster.h -- one row of tiles of the picture: which rays are cast, which are
-// not.
+// render/volume/band_caster.h -- draws one row of tiles of the picture, and decides which of its
+// rays must be cast.
 //
 // Where cells are larger than pixels, the picture is smooth between them. So rays are cast on a
-// grid of `stride` pixels first, and then the grid is halved, down to every pixel: where the
-// picture is nearly straight, the pixels between are interpolated, elsewhere cast. How straight is
-// told by the second differences of the grid's colours: a straight line through two neighbours is
-// off by an eighth of them in its middle. With a stride of at most a cell's width no cell falls
-// between the first rays. Thread contract: immutable. Bands of one pass may be worked on by many
-// threads; a pass begins when the one before it is through.
+// grid of `stride` pixels first, and then the grid is halved, down to every pixel. Where the
+// picture is nearly straight, the pixels in between are interpolated; elsewhere their rays are
+// cast. The second differences of the colors on the grid say how straight the picture is: in the
+// middle between two neighbors, a straight line is off by an eighth of them. With a stride of at
+// most the width of a cell, no cell falls between the first rays.
+//
+// Threads   Immutable. Many threads may work on the bands of one pass; a pass begins when the pass
+//           before it has ended.
 #pragma once
 
 #include <cstdint>
@@ -21,18 +23,19 @@ namespace stormcellar::render {
 
 struct PixelSteps {
     int stride = 1;       // 1, 2, 4 or 8
-    float tolerance = 0;  // of each channel and of alpha, 0..1
+    float tolerance = 0;  // for each channel and for alpha, 0..1
 };
 
 class BandCaster {
   public:
-    // All must outlive this; `rgba` has four floats a pixel of the whole picture.
+    // All arguments must outlive the object. `rgba` has four floats for each pixel of the whole
+    // picture.
     BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask, int width,
                int height, float* rgba);
 
-    // Clears the row of tiles, and draws every `stride`-th pixel both ways.
+    // Clears the row of tiles, and draws every `stride`-th pixel in both directions.
     void cast_first(int tile_row, int stride) const;
-    // From a grid of `stride` pixels to one of half of it.
+    // Goes from a grid of `stride` pixels to one of half of it.
     void refine(int tile_row, int stride, float tolerance) const;
 
   private:

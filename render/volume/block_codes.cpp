@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Codes of states, less the first of a value, wrap to the top, where no value is.
+// If the first code of a value is subtracted, the codes of states wrap to the top, where no value
+// is.
 template <class Code>
 void find_in(const std::byte* bytes, int edge, BlockCodes& found) {
     constexpr int row_cells = grid::brick_edge;

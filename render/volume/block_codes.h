@@ -1,4 +1,6 @@
 // render/volume/block_codes.h -- the range of values in each block of a brick.
+//
+// Threads   Pure.
 #pragma once
 
 #include <array>
@@ -7,16 +9,17 @@
 
 namespace stormcellar::render {
 
-// Blocks are cubes of `edge` cells, 2, 4, 8 or 16; block (x, y, z) has the number
-// (x * across + y) * across + z. A block without a value has a `largest` below
-// grid::first_value_code, and its `least` says nothing.
+// Blocks are cubes of `edge` cells: 2, 4, 8 or 16. Block (x, y, z) has the number (x * across + y)
+// * across + z. In a block without a value, `largest` is below grid::first_value_code and `least`
+// has no meaning.
 struct BlockCodes {
     static constexpr std::size_t most = 512;
     int across = 0;  // blocks along each axis
     std::array<std::uint16_t, most> least, largest;
 };
 
-// Of the codes of one whole brick (stormcellar/grid/brick_view.h), 1 or 2 bytes each.
+// Finds the ranges for the codes of one whole brick (stormcellar/grid/brick_view.h), 1 or 2 bytes
+// each.
 void find_block_codes(const std::byte* codes, int code_bytes, int edge, BlockCodes& found);
 
 }  // namespace stormcellar::render

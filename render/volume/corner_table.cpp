@@ -13,7 +13,7 @@ using grid::brick_edge;
 
 constexpr double most_cells = 1 << 24;
 
-using Row = std::array<std::uint8_t, brick_edge>;  // of a column, in one brick
+using Row = std::array<std::uint8_t, brick_edge>;  // the codes of a column in one brick
 constexpr Row no_values{};
 
 bool has_values(const grid::BrickView& view, int bx, int by, int bz) {
@@ -23,7 +23,7 @@ bool has_values(const grid::BrickView& view, int bx, int by, int bz) {
 
 }  // namespace
 
-// The cells of one column of bricks, and of those beside it to the east and north.
+// The cells of one column of bricks, and of its neighbors to the east and north.
 struct CornerTable::Columns {
     int bx, by;
     int past_x, past_y;  // cells of the bricks that are in the grid
@@ -34,7 +34,7 @@ bool CornerTable::serves(const grid::BrickView& view, double samples) {
     return view.quantization.code_bytes == 1 && cells <= most_cells && samples >= 12 * cells;
 }
 
-// Room that is zero and not touched yet takes no memory.
+// Memory that is zero and not touched yet takes no room.
 void CornerTable::make_room(const grid::BrickView& view) {
     stride_y_ = view.spec->nz() + 1;
     stride_x_ = view.spec->ny * stride_y_;
@@ -62,11 +62,14 @@ void CornerTable::fill_bricks(const grid::BrickView& view, int bx, int by) {
         fill_brick(view, columns, bz);
 }
 
+// Writes the words of one brick. They also need the first columns of the neighbors to the east and
+// north. A brick without values is skipped unless an earlier grid left words in it; in a brick that
+// only touches a neighbor with values, only the columns along that border are written.
 void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns, int bz) {
     const auto [bx, by, past_x, past_y] = columns;
     const int levels = std::min(brick_edge, view.spec->nz() - bz * brick_edge);
     const bool is_last_x = bx + 1 == view.bricks_x, is_last_y = by + 1 == view.bricks_y;
-    const std::byte* bricks[4] = {};  // none without values
+    const std::byte* bricks[4] = {};  // null for a brick without values
     for (int c = 0; c < 4; ++c) {
         const int x = bx + c % 2, y = by + c / 2;
         if (x == view.bricks_x || y == view.bricks_y || !has_values(view, x, y, bz)) continue;
@@ -93,6 +96,8 @@ void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns
             const std::uint8_t* c = row(x, north);
             const std::uint8_t* d = row(east, north);
             std::array<std::uint32_t, brick_edge> words;
+            // The codes of four columns are interleaved into words, 16 levels at a time, in a loop
+            // that the compiler vectorizes.
             for (std::size_t z = 0; z < words.size(); ++z) {
                 words[z] =
                     static_cast<std::uint32_t>(a[z]) | static_cast<std::uint32_t>(b[z]) << 8 |
@@ -104,7 +109,8 @@ void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns
             } else {
                 std::copy_n(words.begin(), levels, to);
             }
-            if (bz + 1 == view.bricks_z) to[levels] = to[levels - 1];  // the level above the last
+            // the level above the last one
+            if (bz + 1 == view.bricks_z) to[levels] = to[levels - 1];
         }
     }
     written = any ? 1 : 0;

@@ -1,13 +1,15 @@
-// render/volume/corner_table.h -- the codes of four columns beside each other in one word a cell.
+// render/volume/corner_table.h -- the codes of four neighboring columns in one word for each cell.
 //
-// A sample needs the eight codes round it. In a grid file they lie in up to eight bricks; here in
-// two words behind each other, which one load of 64 bits brings: word (x, y, z) holds the codes of
-// the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the first in its low
-// byte. Beyond the grid's last cell along an axis stands that cell again. Cells of bricks without
-// any value are 0, whatever their state.
-// It takes four bytes a cell, of bricks with values, and time to fill: worth it where samples are
-// many for the cells, which serves() tells.
-// Thread contract: fill() is one writer; what it wrote may be read by many threads.
+// A sample needs the eight codes around it. In a grid file they lie in up to eight bricks; here
+// they lie in two consecutive words, which one load of 64 bits brings. Word (x, y, z) holds the
+// codes of the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the first in its
+// low byte. Beyond the last cell of the grid along an axis, that cell is repeated. Cells of bricks
+// without any value are 0, whatever their state.
+//
+// The table takes four bytes for each cell of bricks with values, and time to fill. It is worth it
+// if there are many samples for each cell, which serves() decides.
+//
+// Threads   fill() may be called by one thread at a time; then many threads may read.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +23,18 @@ namespace stormcellar::render {
 
 class CornerTable {
   public:
-    // For grids of up to 2^24 cells with codes of one byte, each sampled 12 times or more if
-    // nothing were skipped (docs/decisions/slicer.md).
+    // Returns true for grids of up to 2^24 cells with codes of one byte, if each cell would be
+    // sampled 12 times or more without any skipping (docs/decisions.md has the measurements).
     [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
-    // Takes over the codes of a grid that it serves; quicker for one of the same size as before.
+    // Takes the codes of a grid for which serves() is true. It is faster if the last grid had the
+    // same size.
     void fill(const grid::BrickView& view, int threads);
 
     [[nodiscard]] const std::byte* words() const {
         return reinterpret_cast<const std::byte*>(words_.get());
     }
-    // Words from cell to cell; along z 1.
+    // The words from one cell to the next; along z it is 1.
     [[nodiscard]] std::int32_t stride_x() const { return stride_x_; }
     [[nodiscard]] std::int32_t stride_y() const { return stride_y_; }
 
@@ -51,7 +54,7 @@ class CornerTable {
     std::unique_ptr<std::uint32_t, Free> words_;
     std::size_t word_count_ = 0;
     std::int32_t stride_x_ = 0, stride_y_ = 0;
-    std::vector<char> written_;  // bricks that may hold other words than 0
+    std::vector<char> written_;  // bricks that may hold words other than 0
 };
 
 }  // namespace stormcellar::render

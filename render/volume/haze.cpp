@@ -31,7 +31,7 @@ class UnseenAir {
         });
     }
 
-    // At a place in cells and levels.
+    // Returns the share at a place in cells and levels.
     [[nodiscard]] float at(double x, double y, double z) const {
         const auto coarse = [](double place, int cells, int count) {
             return std::clamp(static_cast<int>((place + 0.5) / cells), 0, count - 1);
@@ -48,7 +48,7 @@ class UnseenAir {
                static_cast<std::size_t>(z);
     }
 
-    // Coarse cells lie within one brick.
+    // Each coarse cell lies within one brick.
     static float share_of(const grid::BrickView& view, int x, int y, int z) {
         const grid::GridSpec& spec = *view.spec;
         const std::size_t brick =
@@ -84,7 +84,7 @@ class HazeMarcher {
           levels_(spec_, 1),
           depth_m_(geometry.far_m() - geometry.near_m()) {}
 
-    // The opacity of haze along a pixel's ray.
+    // Returns the opacity of the haze along the ray of a pixel.
     [[nodiscard]] float opacity(Pixel pixel) const {
         constexpr int steps = 192;
         const Vec3 start = geometry_.point(pixel, geometry_.near_m());
@@ -101,7 +101,7 @@ class HazeMarcher {
     }
 
   private:
-    // At a point of drawn space; none outside the box.
+    // Returns the share at a point of drawn space; none outside the box.
     [[nodiscard]] double unseen_at(const Vec3& point) const {
         const double height_m = geometry_.height_at(point);
         const bool inside = std::abs(point[0]) < geometry_.half_x_m() &&

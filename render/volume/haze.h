@@ -1,11 +1,14 @@
-// render/volume/haze.h -- air that no beam saw, as a veil behind the echo.
+// render/volume/haze.h -- shows air that no beam saw as a veil behind the echo.
 //
-// A ray's opacity of haze is most_haze * (1 - exp(-s / L)), s its way through air that was not
-// seen, in metres of drawn space, L a fifth of the depth of the box. Seen air, with echo or
-// without, is clear of it. It lies behind all echo, so that colours stay exact.
-// Accuracy: which cells were not seen is kept by their share in coarse cells of 4 x 4 columns and
-// 2 levels, rays are cast for every fourth pixel both ways and interpolated between: a veil has no
-// edges that matter. Thread contract: pure; the same bits for any number of threads.
+// The opacity of the haze along a ray is most_haze * (1 - exp(-s / L)), where s is the length of
+// the ray through air that was not seen, in meters of drawn space, and L is a fifth of the depth of
+// the box. Air that was seen, with or without echo, has no haze. The haze lies behind all echo, so
+// that colors stay exact.
+//
+// Accuracy  Cells that were not seen are kept as their share in coarse cells of 4 x 4 columns and 2
+//           levels. Rays are cast for every fourth pixel in both directions and interpolated in
+//           between, because a veil has no edges that matter.
+// Threads   Pure; the same bits for any number of threads.
 #pragma once
 
 #include "stormcellar/grid/brick_view.h"
@@ -16,10 +19,10 @@ namespace stormcellar::render {
 
 inline constexpr double most_haze = 0.6;
 
-// A colour behind so much haze.
+// Returns a color behind haze of this opacity.
 [[nodiscard]] Rgba8 veiled(Rgba8 colour, double opacity);
 
-// Over `picture`, of the geometry's size.
+// Draws the haze over `picture`, which has the size of the geometry.
 void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, int threads,
                Image& picture);
 

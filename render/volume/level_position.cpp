@@ -6,7 +6,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr std::size_t bucket_count = 1024;
-constexpr double uniform_tolerance = 1e-6;  // of the spacing
+constexpr double uniform_tolerance = 1e-6;  // as a share of the spacing
 
 }  // namespace
 
@@ -26,14 +26,14 @@ LevelPosition::LevelPosition(const grid::GridSpec& spec, double exaggeration) {
         slope_ = 1 / (spacing * exaggeration);
         offset_ = -heights[0] / spacing;
     }
-    // One bucket more, for a height that rounding puts past the last one.
+    // There is one extra bucket for a height that rounding puts after the last one.
     buckets_.assign(bucket_count + 1, 0);
     if (span <= 0) return;
     const double bucket = span * exaggeration / bucket_count;
     buckets_per_metre_ = static_cast<float>(1 / bucket);
     std::size_t level = 0;
     for (std::size_t i = 1; i <= bucket_count; ++i) {
-        // From one bucket below, so that rounding of the index never starts too high.
+        // The index starts one bucket lower, so that rounding never makes it too high.
         const double low = heights[0] * exaggeration + (static_cast<double>(i) - 1) * bucket;
         while (level + 1 < last && low >= static_cast<double>(levels_[level + 1]))
             ++level;

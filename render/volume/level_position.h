@@ -1,10 +1,12 @@
-// render/volume/level_position.h -- height -> position among the levels, as a broken number.
+// render/volume/level_position.h -- converts a height into a position among the levels, with a
+// fraction.
 //
-// 2.25 is a quarter of the way from level 2 to level 3. Below the first level 0, above the last
-// nz - 1. Levels at one spacing take one multiplication, others a bucket of a table and then at
-// most a few steps.
-// Accuracy: single precision, 1e-3 of a level over 1,024 levels.
-// Thread contract: immutable.
+// 2.25 is a quarter of the way from level 2 to level 3. Below the first level the position is 0,
+// above the last level nz - 1. For evenly spaced levels this takes one multiplication. For others a
+// table of buckets gives the interval, within a few steps.
+//
+// Accuracy  Single precision, 1e-3 of a level over 1,024 levels.
+// Threads   Immutable.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +23,7 @@ class LevelPosition {
     LevelPosition(const grid::GridSpec& spec, double exaggeration);
 
     [[nodiscard]] bool is_uniform() const { return uniform_; }
-    // The two numbers of the straight line for levels at one spacing: position = a + b * height.
+    // The straight line for evenly spaced levels: position = offset + slope * height.
     [[nodiscard]] double offset() const { return offset_; }
     [[nodiscard]] double slope() const { return slope_; }
 
@@ -39,7 +41,7 @@ class LevelPosition {
     bool uniform_ = true;
     double offset_ = 0, slope_ = 0;
     std::vector<float> levels_;
-    std::vector<std::uint16_t> buckets_;  // the interval that holds the bucket's lower end
+    std::vector<std::uint16_t> buckets_;  // the interval that holds the lower end of the bucket
     float buckets_per_metre_ = 0;
 };
 

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double to_radians = std::numbers::pi / 180;
 constexpr double sky_elevation_deg = 35;
-constexpr int sky_directions = 9;  // the zenith and eight round it
-// Shares of the sky's light and of the sun's.
+constexpr int sky_directions = 9;  // the zenith and eight directions around it
+// The shares of the light from the sky and from the sun.
 constexpr float sky_share = 0.45F;
 constexpr float scattered_sky_share = 0.35F;
-constexpr double forward_g = 0.4;    // of the phase function
-constexpr double least_phase = 0.4;  // what is left of the sun's share at its weakest
+constexpr double forward_g = 0.4;    // parameter of the phase function
+constexpr double least_phase = 0.4;  // what is left of the sun's share where the phase is weakest
 
 Vec3 direction(double azimuth_deg, double elevation_deg) {
     const double azimuth = azimuth_deg * to_radians;
@@ -25,7 +25,7 @@ Vec3 direction(double azimuth_deg, double elevation_deg) {
             std::sin(elevation)};
 }
 
-// 1 where one looks straight into the sun.
+// Returns the phase function relative to its value straight into the sun.
 double relative_phase(double cosine) {
     const double g2 = forward_g * forward_g;
     const double phase = std::pow(1 + g2 - 2 * forward_g * cosine, -1.5);
@@ -61,6 +61,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
     extinction_.resize(index(sizes_[0] - 1, sizes_[1] - 1, sizes_[2] - 1) + 1);
     add_extinction(view, transfer, step_m);
 
+    // The sun and the nine directions of the sky are independent sweeps, one for each piece of
+    // work.
     std::vector<std::vector<float>> swept(1 + sky_directions);
     for_each_piece(static_cast<int>(swept.size()), threads, [&](int i) {
         const Vec3 towards = i == 0   ? sun_direction(light)
@@ -69,6 +71,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
         swept[static_cast<std::size_t>(i)] = transmittance(towards);
     });
     sun_ = std::move(swept.front());
+    // The light of a cell is a share from the sky and a share from the sun. With scattering, the
+    // sun's share depends on the angle between the view and the sun.
     const Vec3 sun = sun_direction(light);
     const Vec3& looks = geometry.forward();
     const double cosine = looks[0] * sun[0] + looks[1] * sun[1] + looks[2] * sun[2];
@@ -84,7 +88,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
     }
 }
 
-// The mean over the coarse cell's cells, those without a value and beyond the grid's edge as none.
+// Averages the extinction over the cells of each coarse cell. Cells without a value and beyond the
+// edge of the grid count as 0.
 void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunction& transfer,
                                  double step_m) {
     const grid::GridSpec& spec = *view.spec;
@@ -118,16 +123,18 @@ void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunc
     }
 }
 
-// From the side where the light comes in, plane by plane along the axis with the most planes a
-// metre of the way; beyond the grid is clear.
+// Computes the transmittance from the side where the light comes in, plane by plane along the axis
+// with the most planes for each meter of the way. Beyond the grid the air is clear.
 std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
-    Vec3 rate{};  // coarse cells a metre
+    Vec3 rate{};  // in coarse cells for each meter
     for (std::size_t axis = 0; axis < 3; ++axis)
         rate[axis] = towards[axis] / widths_m_[axis];
     std::size_t main = 0;
     for (std::size_t axis = 1; axis < 3; ++axis) {
         if (std::abs(rate[axis]) > std::abs(rate[main])) main = axis;
     }
+    // The sweep goes along the main axis, beginning at the side of the light. From one plane to the
+    // next, the light moves by (du, dv) cells across, and crosses length_m of air.
     const std::size_t u = (main + 1) % 3;
     const std::size_t v = (main + 2) % 3;
     const auto length_m = static_cast<float>(1 / std::abs(rate[main]));
@@ -144,12 +151,14 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
-    // Light that has passed the cell of the plane before; 1 beyond the grid.
+    // Returns the light that has passed the cell of the plane before; 1 beyond the grid.
     const auto passed = [&](int plane, int iu, int iv) {
         if (iu < 0 || iv < 0 || iu >= sizes_[u] || iv >= sizes_[v]) return 1.0F;
         const std::size_t cell = place(plane, iu, iv);
         return through[cell] * std::exp(-extinction_[cell] * length_m);
     };
+    // Each cell takes the light of the plane before at the place from which it comes, which lies
+    // between four cells.
     for (int n = 1; n < sizes_[main]; ++n) {
         const int plane = first + n * step;
         const int before = plane - step;

@@ -1,11 +1,13 @@
 // render/volume/light_volume.h -- how much light reaches each part of a volume.
 //
-// On a coarse grid (4 x 4 columns, 2 levels), made once for each time step: the transmittance of
-// echo towards the sun and, as the mean over nine directions, towards the sky. Each direction is a
-// sweep from plane to plane along its steepest axis, the plane before read bilinearly: that blurs
-// shadows by about a coarse cell for each that they cross.
-// Cost: 12 bytes a coarse cell while it is made, 4 kept.
-// Thread contract: immutable. The same bits for any number of threads.
+// On a coarse grid (4 x 4 columns, 2 levels), made once for each time step, this holds the
+// transmittance of the echo toward the sun and, as the mean over nine directions, toward the sky.
+// Each direction is a sweep from plane to plane along its steepest axis, which reads the plane
+// before it bilinearly. That blurs shadows by about one coarse cell for each coarse cell that they
+// cross.
+//
+// Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
+// Threads   Immutable. The same bits for any number of threads.
 #pragma once
 
 #include <array>
@@ -18,21 +20,22 @@
 
 namespace stormcellar::render {
 
-// Towards the sun, of unit length, in drawn space.
+// Returns the direction toward the sun, of unit length, in drawn space.
 [[nodiscard]] Vec3 sun_direction(const Light& light);
 
 class LightVolume {
   public:
     static constexpr int cells_across = 4, cells_up = 2;
 
-    // `step_m` is the transfer function's.
+    // `step_m` must be that of the transfer function.
     LightVolume(const grid::BrickView& view, const TransferFunction& transfer, double step_m,
                 const ViewGeometry& geometry, const Light& light, int threads);
 
-    // Of light, 0..1, at a place in cells and levels; trilinear, held at the edges.
+    // Returns the light, 0..1, at a place in cells and levels: trilinear, constant beyond the
+    // edges.
     [[nodiscard]] float at(float x, float y, float z) const;
 
-    // Parts of the full light, for tests.
+    // These are parts of the full light, for tests.
     [[nodiscard]] float sun_at(int x, int y, int z) const { return sun_[index(x, y, z)]; }
     [[nodiscard]] int size(std::size_t axis) const { return sizes_[axis]; }
 
@@ -49,7 +52,7 @@ class LightVolume {
 
     std::array<int, 3> sizes_{};
     Vec3 widths_m_{};                // of a coarse cell in drawn space
-    std::vector<float> extinction_;  // per metre
+    std::vector<float> extinction_;  // per meter
     std::vector<float> sun_;
     std::vector<float> light_;
 };

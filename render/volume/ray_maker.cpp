@@ -25,11 +25,13 @@ HWY_INLINE DoubleVec at(const RayLines::Linear& linear, std::size_t axis, Double
         hn::Mul(y, hn::Set(d, linear.per_y[axis])));
 }
 
+// The step of each ray along the three axes, its reciprocals, and its length.
 struct Steps {
     DoubleVec step[3], inverse[3], length;
 
     HWY_INLINE Steps(const RayLines& lines, DoubleVec x, DoubleVec y) {
-        constexpr double no_step = 1e-30;  // stands for 0 along an axis, which never leaves a box
+        // stands for 0 along an axis, so that the ray never leaves the box there
+        constexpr double no_step = 1e-30;
         const Doubles d;
         DoubleVec square = hn::Zero(d);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -43,7 +45,9 @@ struct Steps {
     }
 };
 
-// The rays of the pixels at x and y, clipped to the box.
+// Makes the rays of the pixels at (px, py), clipped to the box. In a parallel view all rays have
+// one step; in perspective each has its own. A ray crosses the two planes of each axis at two
+// values of t; it is inside the box between the last entry and the first exit over the three axes.
 void make_packet(const RayLines& lines, const double* px, const double* py, RayPacket& rays) {
     const Doubles d;
     const hn::Rebind<float, Doubles> f;
@@ -98,7 +102,8 @@ struct Stretch {
         first = std::max(first, from);
         last = std::min(last, to);
     }
-    // Keeps where c t^2 + b t + a <= 0; c >= 0.
+    // Keeps the part where c t^2 + b t + a <= 0, for c >= 0. It lies between the two roots; they
+    // are computed as q / c and a / q, so that no root is the difference of nearly equal numbers.
     void keep_below(double a, double b, double c) {
         if (c <= 0) {
             if (b == 0 && a > 0) last = first - 1;
@@ -116,7 +121,7 @@ struct Stretch {
         const double other = q == 0 ? 0 : a / q;
         keep(std::min(one, other), std::max(one, other));
     }
-    // Keeps the first stretch where c t^2 + b t + a >= 0; c >= 0.
+    // Keeps the first part where c t^2 + b t + a >= 0, for c >= 0.
     void keep_above(double a, double b, double c) {
         Stretch below = *this;
         below.keep_below(a, b, c);
@@ -131,6 +136,7 @@ struct Stretch {
 
 }  // namespace
 
+// The start and the step of a ray are linear in the pixel, so three pixels determine them for all.
 RayMaker::RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry,
                    const LevelPosition& levels, int slices)
     : geometry_(geometry) {
@@ -155,6 +161,8 @@ RayMaker::RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry,
     const double exaggeration = geometry.exaggeration();
     lines_.low = {-geometry.half_x_m(), -geometry.half_y_m(), geometry.bottom_m() * exaggeration};
     lines_.high = {geometry.half_x_m(), geometry.half_y_m(), geometry.top_m() * exaggeration};
+    // On a curved earth the drop is r^2 times a factor. Written in positions of cells, it can be
+    // added to the z of a sample without computing meters.
     if (geometry.drop_per_m2() > 0) {
         const double factor = geometry.drop_per_m2() * exaggeration * z_slope;
         const Vec3& scale = lines_.scale;
@@ -179,8 +187,9 @@ RayPacket RayMaker::packet(std::span<const PixelPlace> pixels) const {
     return rays;
 }
 
-// Heights above the curved sea level are a polynomial of the step. Below the box a ray has met the
-// earth: what lies beyond is hidden.
+// Clips rays on a curved earth. The height above the curved sea level is a polynomial of second
+// degree in the step, so the top and the bottom of the box each give an inequality of second
+// degree. A ray that falls below the box has met the earth, which hides what lies beyond.
 void RayMaker::clip_to_curved_box(std::span<const PixelPlace> pixels, RayPacket& rays) const {
     const double curve = geometry_.drop_per_m2() * geometry_.exaggeration();
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -1,6 +1,9 @@
-// render/volume/ray_maker.h -- pixels -> rays in cell positions, clipped to the box of the cells.
+// render/volume/ray_maker.h -- makes rays in positions of cells from pixels, clipped to the box of
+// the cells.
 //
-// SIMD by Highway; the same bits on every target. Thread contract: immutable.
+// It uses SIMD by Highway, with the same bits on every target.
+//
+// Threads   Immutable.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +16,12 @@
 
 namespace stormcellar::render {
 
-// The middle of a pixel is half a pixel further.
+// A pixel. Its middle is half a pixel farther in both directions.
 struct PixelPlace {
     int x = 0, y = 0;
 };
 
-// What the rays of a picture have in common, in drawn space: start and step of a ray are linear in
+// What all rays of a picture share, in drawn space: the start and the step of a ray are linear in
 // the pixel.
 struct RayLines {
     struct Linear {
@@ -28,7 +31,7 @@ struct RayLines {
         }
     };
     Linear start, step;
-    Vec3 scale{}, offset{};  // to cell positions
+    Vec3 scale{}, offset{};  // convert to positions of cells
     Vec3 low{}, high{};      // the box of the cells
     double slices = 1, step_m = 1;
     bool parallel = true;
@@ -36,14 +39,14 @@ struct RayLines {
 
 class RayMaker {
   public:
-    // The geometry must outlive this.
+    // The geometry must outlive this object.
     RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry, const LevelPosition& levels,
              int slices);
 
-    // At most packet_rays of them; rays without a pixel see nothing.
+    // Makes the rays of at most packet_rays pixels. Rays without a pixel see nothing.
     [[nodiscard]] RayPacket packet(std::span<const PixelPlace> pixels) const;
 
-    // None where the earth is drawn flat.
+    // Returns null if the earth is drawn flat.
     [[nodiscard]] const CurvedLevels* curve() const { return curve_ ? &*curve_ : nullptr; }
 
   private:

@@ -1,12 +1,13 @@
 // render/volume/reference_marcher.h -- the slicer's oracle: slow, in double, one ray at a time.
 //
-// The same picture in the limit of infinitely many slices, by the rules of render/volume/slicer.h
-// but with none of its tables: each sample's value looks up the colour table itself. Steps are
-// taken at their middles, so the error falls with the square of their length where colours are
-// smooth, and with the length where they are stepped.
-// A ray that falls below the box has met the earth, which hides what lies beyond its curve.
-// Cost: four bytes of memory a cell, some 20 ns a step.
-// Thread contract: immutable; ray() may run on many threads.
+// It draws the picture in the limit of infinitely many slices, by the rules of
+// render/volume/slicer.h but with none of its tables: the value of each sample looks up the color
+// table itself. Steps are sampled at their middles, so the error falls with the square of their
+// length where colors are smooth, and with the length where they are stepped. A ray that falls
+// below the box has met the earth, which hides what lies beyond its curve.
+//
+// Cost      Four bytes of memory for each cell, and some 20 ns for each step.
+// Threads   Immutable; many threads may call ray().
 #pragma once
 
 #include <array>
@@ -20,15 +21,16 @@ namespace stormcellar::render {
 
 class ReferenceMarcher {
   public:
-    // The geometry must outlive this.
+    // The geometry must outlive this object.
     ReferenceMarcher(const grid::BrickView& view, const ColourTable& table,
                      const ViewGeometry& geometry, double opacity);
 
-    // Red, green and blue, premultiplied, and alpha; 0..1. `steps` between the nearest and the
-    // farthest depth of the box.
+    // Returns red, green and blue, premultiplied, and alpha, all 0..1. There are `steps` steps
+    // between the nearest and the farthest depth of the box.
     [[nodiscard]] std::array<double, 4> ray(Pixel pixel, int steps) const;
 
-    // Value and share of valued cells at a point of drawn space; share 0: nothing there.
+    // The value and the share of valued cells at a point of drawn space. If the share is 0, there
+    // is nothing.
     struct Sample {
         double value = 0, share = 0;
     };
@@ -41,7 +43,7 @@ class ReferenceMarcher {
     const ColourTable table_;
     const grid::GridSpec spec_;
     double opacity_;
-    std::vector<float> values_;  // z fastest, then y, then x; NaN where there is none
+    std::vector<float> values_;  // z runs fastest, then y, then x; NaN if there is no value
 };
 
 }  // namespace stormcellar::render

@@ -12,7 +12,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The widest stride that leaves no cell between the first rays.
+// Returns the widest stride that leaves no cell between the first rays.
 PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry, double tolerance) {
     PixelSteps steps;
     if (!(tolerance > 0)) return steps;
@@ -39,8 +39,8 @@ double VolumeSlicer::step_m() const {
     return (geometry_.far_m() - geometry_.near_m()) / options_.slices;
 }
 
-// Surfaces are steep where values change by 4 steps of their codes a kilometre of drawn space: 2
-// dB.
+// Prepares the light. A surface is steep if values change by 4 steps of their codes (2 dB) for each
+// kilometer of drawn space.
 PacketLight VolumeSlicer::light_of(const grid::GridSpec& spec) const {
     PacketLight light;
     light.gradient = options_.light.gradient;
@@ -64,13 +64,15 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     return std::move(room.layer);
 }
 
+// Prepares what the rays need: the mask of steps that may show anything, the light in the volume if
+// the scene asks for shadows, and the table of corners if there are enough samples for each cell.
 void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     Layer& layer = room.layer;
     layer.width = geometry_.width();
     layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    // Where the picture is interpolated between rays, about every second one is cast.
+    // Where the picture is interpolated between rays, about half of the rays are cast.
     const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
     room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads,
                       all_rays ? small_tile_edge : tile_edge);
@@ -84,6 +86,9 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     if (room.has_corners) room.corners.fill(view, threads);
 }
 
+// Casts the rays, one band of tiles after another on several threads: first those on a grid of
+// `stride` pixels, then, halving the stride each time, those where the picture is not smooth enough
+// to be interpolated.
 void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);

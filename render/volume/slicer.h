@@ -1,23 +1,25 @@
-// render/volume/slicer.h -- the volume as slices parallel to the picture, composited front to back.
+// render/volume/slicer.h -- draws the volume as slices parallel to the picture, composited from
+// front to back.
 //
-// The depth of the grid's box is divided into `slices` equal steps; every ray samples the volume
-// at the planes between them and where it enters and leaves the box.
-//   sample   trilinear over the 8 cells round it, of which only those with a value count: the value
-//            is their weighted mean, and the sum of their weights is the sample's share. So echo
-//            tapers to nothing over one cell towards cells without a value, whatever their state,
-//            and no state ever lends a colour. Half a cell beyond the outermost cell centres the
-//            value is that of the cell.
-//   step     the TransferFunction's entry for the values at its two ends; its optical depth is
-//            multiplied by the mean of their shares and by the length of the ray's way through it,
-//            where the box cuts the step too. An end without any value takes that of the other.
-//            Colours mix in sRGB, as drawn.
-//   light    where it is asked for: one factor a sample (stormcellar/render/light.h), the mean of
-//   both
-//            ends of a step
-//   skipped  stretches of a ray in bricks whose range of values is clear (exact), and what lies
-//            behind an opacity of 0.999 (changes no channel by more than 0.26 of 255).
-// Accuracy: docs/rendering.md has the measured order of convergence of each Integration; the
-// oracle is render/volume/reference_marcher.h. The same bits for any number of threads.
+// The depth of the grid's box is divided into `slices` equal steps. Every ray samples the volume at
+// the planes between them, and where it enters and leaves the box.
+//   sample   Trilinear over the 8 cells around it, of which only those with a value count. The
+//            value is their weighted mean, and the sum of their weights is the sample's share. So
+//            echo tapers to nothing over one cell toward cells without a value, whatever their
+//            state, and no state ever lends a color. Half a cell beyond the outermost centers of
+//            cells, the value is that of the cell.
+//   step     The entry of the TransferFunction for the values at its two ends. Its optical depth is
+//            multiplied by the mean of their shares and by the length of the ray through the step,
+//            also where the box cuts the step. An end without any value takes that of the other
+//            end. Colors mix in sRGB, as drawn.
+//   light    If the scene asks for it, one factor for each sample (stormcellar/render/light.h); a
+//            step takes the mean of both its ends.
+//   skipped  Stretches of a ray in bricks whose range of values is clear (this is exact), and
+//            whatever lies behind an opacity of 0.999 (this changes no channel by more than 0.26 of
+//            255).
+//
+// Accuracy  docs/rendering.md has the measured order of convergence of each Integration. The oracle
+//           is render/volume/reference_marcher.h. The same bits for any number of threads.
 #pragma once
 
 #include <memory>
@@ -36,7 +38,8 @@
 
 namespace stormcellar::render {
 
-// A picture while it is drawn. Kept from picture to picture, it need not be asked for again.
+// The memory for a picture while it is drawn. If it is kept from picture to picture, it need not be
+// allocated again.
 struct SlicerRoom {
     Layer layer;  // of the last picture
     std::optional<SliceMask> mask;
@@ -49,25 +52,25 @@ struct VolumeOptions {
     int slices = 256;  // at least 1
     Integration integration = Integration::second_order;
     double opacity = 1;  // scales the table's extinction; above 0
-    // Where cells are larger than pixels: between rays whose channels differ by no more than this
-    // (of 1) the picture is interpolated. 0: a ray for each pixel.
+    // Where cells are larger than pixels, the picture is interpolated between rays whose channels
+    // differ by no more than this (of 1). 0: a ray for each pixel.
     double pixel_tolerance = 0;
-    Light light = {};  // none: the table's own colours
+    Light light = {};  // none: the table's own colors
 };
 
-// Draws grids of one quantisation in one view: what they share is made once.
-// Thread contract: immutable; draw() may run on many threads.
+// Draws grids of one quantization in one view; what they share is made once. It is immutable, and
+// many threads may call draw().
 class VolumeSlicer {
   public:
-    // The geometry must outlive this; `cache` may be null.
+    // The geometry must outlive this object; `keeper` may be null.
     VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
                  const ViewGeometry& geometry, const VolumeOptions& options,
                  TransferCache* cache = nullptr);
 
-    // Of the geometry's grid.
+    // Draws a grid, which must be that of the geometry.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
-    // The same in two steps, into a room that no other draws in: what the rays need of a grid, and
-    // the rays.
+    // The same in two steps, into memory that no other thread uses: what the rays need of a grid,
+    // and the rays themselves.
     void prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const;
     void cast(const grid::BrickView& view, int threads, SlicerRoom& room) const;
 

@@ -1,7 +1,8 @@
 // render/volume/transfer_cache.h -- keeps the transfer function of the last picture.
 //
-// It takes milliseconds to make and is the same for all frames of a loop.
-// Thread contract: one thread at a time.
+// It takes milliseconds to make, and is the same for all frames of a loop.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@ namespace stormcellar::render {
 
 class TransferCache {
   public:
-    // Made anew where anything is another one than last time.
+    // Returns the function; makes it anew if anything differs from the last call.
     [[nodiscard]] std::shared_ptr<const TransferFunction> get(
         const ColourTable& table, const grid::Quantization& quantization, double opacity,
         double step_m, Integration integration);

@@ -9,7 +9,7 @@ namespace {
 constexpr double bin_slack = 1.0 / 64;  // bins
 constexpr auto bins = static_cast<std::size_t>(TransferFunction::bin_count);
 
-// What each bin looks like: optical depth of the reference step, and colour.
+// What each bin looks like: the optical depth of the reference step, and the color.
 struct Bins {
     std::array<double, bins> depth{};
     std::array<std::array<double, bins>, 3> colour{};
@@ -22,6 +22,7 @@ TransferEntry entry_of(double red, double green, double blue, double depth) {
             static_cast<float>(depth)};
 }
 
+// The nearer value alone: the second bin does not matter.
 void fill_riemann(const Bins& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         const auto entry =
@@ -30,7 +31,7 @@ void fill_riemann(const Bins& look, Entries& entries) {
     }
 }
 
-// Sums over the bins: whole ones between the ends, half of each end.
+// Sums over the bins: whole bins between the ends, and half of each end.
 void fill_first_order(const Bins& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         double depth = 0;
@@ -59,8 +60,9 @@ void fill_first_order(const Bins& look, Entries& entries) {
     }
 }
 
-// All steps over `distance` bins at once: front to back through half a bin, whole ones, and half a
-// bin again, each of its share of the step. `rising`: the nearer end has the lower bin.
+// Integrates all steps over `distance` bins at once, front to back: half a bin, whole bins, and
+// half a bin again, each with its share of the step. `rising` means that the nearer end has the
+// lower bin.
 void integrate_steps(const Bins& look, std::size_t distance, bool rising, Entries& entries) {
     const double piece = 1.0 / static_cast<double>(distance);
     std::array<double, bins> opacity{}, half_opacity{};
@@ -68,12 +70,14 @@ void integrate_steps(const Bins& look, std::size_t distance, bool rising, Entrie
         half_opacity[i] = -std::expm1(-0.5 * piece * look.depth[i]);
         opacity[i] = -std::expm1(-piece * look.depth[i]);
     }
+    // `through` is the light that still gets through each step, `depth` its optical depth so far.
+    // The inner loop treats all steps over this distance alike, so the compiler vectorizes it.
     const std::size_t count = bins - distance;
     std::array<double, bins> through{}, depth{};
     std::array<std::array<double, bins>, 3> colour{};
     through.fill(1);
     for (std::size_t m = 0; m <= distance; ++m) {
-        const std::size_t at = rising ? m : distance - m;  // from the lower of the two bins
+        const std::size_t at = rising ? m : distance - m;  // counted from the lower of the two bins
         const bool is_end = m == 0 || m == distance;
         const auto& alpha = is_end ? half_opacity : opacity;
         for (std::size_t i = 0; i < count; ++i) {
@@ -119,7 +123,7 @@ std::string_view integration_name(Integration integration) {
     return "pre-integrated-2";
 }
 
-// A stop's bin begins at the stop where a whole number of bins fits between any two.
+// The bin of a stop begins at the stop if a whole number of bins fits between any two stops.
 void TransferFunction::choose_bins(const ColourTable& table) {
     const auto& stops = table.stops;
     lowest_ = static_cast<double>(std::max(table.lowest(), table.extinction.front().value));
@@ -129,7 +133,7 @@ void TransferFunction::choose_bins(const ColourTable& table) {
     double gap = range;
     for (std::size_t i = 1; i < stops.size(); ++i)
         gap = std::min(gap, static_cast<double>(stops[i].from - stops[i - 1].from));
-    // One bin for what is clear below, one for what begins at the highest value.
+    // One bin is for what is clear below, and one for what begins at the highest value.
     const double finest = range / (bin_count - 2);
     const double bins_a_gap = std::floor(gap / finest * (1 + 1e-9));
     bin_width_ = bins_a_gap >= 1 ? gap / bins_a_gap : finest;
@@ -145,6 +149,8 @@ TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantiz
     bin_slope_ = static_cast<float>(step / bin_width_);
     bin_offset_ = static_cast<float>((code_zero - lowest_) / bin_width_ + 1 + bin_slack);
 
+    // First the look of each bin, by its middle value; then the count of visible bins, from which
+    // shows() answers for any range with one subtraction; then the entries for all pairs of bins.
     Bins look;
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);

@@ -1,14 +1,15 @@
-// render/volume/transfer_function.h -- a colour table made ready for steps through a volume.
+// render/volume/transfer_function.h -- a color table, prepared for steps through a volume.
 //
 // A path of length s through an extinction k (ColourTable::extinction) has the optical depth k s
 // and the opacity 1 - exp(-k s). Lengths are those of the drawn scene, with heights exaggerated.
 //
-// Values are sorted into bins: all of a bin look like its middle. Bin 0 is clear: what lies below
-// the table or its first extinction. The others are equally wide, so wide that the last holds the
-// table's highest stop, and where that is possible so that each stop begins a bin. For each pair of
-// bins at the two ends of a step the table holds what the step looks like from its first end:
-// stormcellar/render/integration.h says how.
-// Thread contract: immutable.
+// Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear: it
+// holds what lies below the table or its first extinction. The other bins have equal widths, such
+// that the last bin holds the highest stop of the table and, where possible, each stop begins a
+// bin. For each pair of bins at the two ends of a step, the table holds what the step looks like
+// from its first end, as stormcellar/render/integration.h says.
+//
+// Threads   Immutable.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +23,8 @@
 
 namespace stormcellar::render {
 
-// What a step of the reference length looks like where its whole width holds values. A step of
-// another length, or of another share, has the same colour and that multiple of the depth.
+// What a step of the reference length looks like if its whole width holds values. A step of another
+// length, or with another share of values, has the same color and that multiple of the depth.
 struct TransferEntry {
     float red = 0, green = 0, blue = 0;  // 0..1, not premultiplied
     float depth = 0;                     // optical depth
@@ -33,28 +34,29 @@ class TransferFunction {
   public:
     static constexpr int bin_count = 256;
 
-    // For steps of `step_m` in the drawn scene.
+    // Makes the table for steps of `step_m` in the drawn scene.
     TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
                      double opacity, double step_m, Integration integration);
 
-    // The bin of a code, which may be broken (the mean of several), is the whole part of
-    // bin_offset + bin_slope * code, bounded. It is never below the right one by rounding: values
-    // up to 1/64 of a bin short of it belong to it.
+    // The bin of a code is the whole part of bin_offset + bin_slope * code, bounded. The code may
+    // have a fraction (the mean of several codes). Rounding never makes the bin too low: values up
+    // to 1/64 of a bin below its start belong to it.
     [[nodiscard]] float bin_offset() const { return bin_offset_; }
     [[nodiscard]] float bin_slope() const { return bin_slope_; }
     [[nodiscard]] int bin(float code) const {
         return static_cast<int>(
             std::clamp(bin_offset_ + bin_slope_ * code, 0.0F, bin_count - 1.0F));
     }
-    // The value that a bin looks like; of bin 0 none.
+    // Returns the value that a bin looks like. Bin 0 has none.
     [[nodiscard]] double value_of(int bin) const { return lowest_ + (bin - 0.5) * bin_width_; }
     [[nodiscard]] double bin_width() const { return bin_width_; }
-    // A step from one bin to another, the nearer first.
+    // Returns what a step from one bin to another looks like, the nearer one first.
     [[nodiscard]] const TransferEntry& entry(int bin, int other_bin) const {
         return entries_[static_cast<std::size_t>(bin) * bin_count +
                         static_cast<std::size_t>(other_bin)];
     }
-    // Whether any value between those of two codes, both included, is not clear.
+    // Returns true if any value from that of one code to that of the other, both included, is not
+    // clear.
     [[nodiscard]] bool shows(std::uint16_t least_code, std::uint16_t largest_code) const {
         const auto first = static_cast<std::size_t>(bin(least_code));
         const auto last = static_cast<std::size_t>(bin(largest_code));
@@ -67,7 +69,7 @@ class TransferFunction {
     double lowest_ = 0, bin_width_ = 1;
     float bin_offset_ = 0, bin_slope_ = 0;
     std::vector<TransferEntry> entries_;
-    std::vector<int> visible_below_;  // how many bins below this one are not clear
+    std::vector<int> visible_below_;  // the number of bins below this one that are not clear
 };
 
 }  // namespace stormcellar::render

@@ -39,7 +39,8 @@ TEST(Candidate, EffortGoesBeforeWhatWasMeasured) {
     chain.steps[2].effects[0].effort = 3;  // and 0.5 s
     const auto candidates = list_candidates(chain);
     ASSERT_TRUE(candidates);
-    // Of equal effort the one that leaves less off, whatever was measured: {0, 1, 0} before none.
+    // At equal effort, the choice that leaves off less comes first, whatever was measured: {0, 1,
+    // 0} before none.
     EXPECT_EQ((*candidates)[0].choice.rungs, (std::vector<std::size_t>{0, 1, 0}));
     EXPECT_EQ((*candidates)[2].choice.rungs, (std::vector<std::size_t>{1, 1, 0}));
     EXPECT_EQ(candidates->back().effort, 6);
@@ -145,7 +146,7 @@ TEST(Candidate, TooManyChoicesAreRefusedUntilSettingsNarrowThem) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
     EXPECT_THAT(refused.error().message, HasSubstr("more than 65536 choices"));
-    EXPECT_FALSE(list_candidates(wide_chain(1000)));  // the product must not wrap
+    EXPECT_FALSE(list_candidates(wide_chain(1000)));  // the product must not overflow
     chain.steps[3].effects[0].setting = Setting::on;
     EXPECT_TRUE(list_candidates(chain));
 }

@@ -40,11 +40,11 @@ TEST(Chain, SettingsNarrowTheRungs) {
     EXPECT_EQ(allowed_rungs(frame).most, 1U);
     frame.effects[0].setting = Setting::on;
     EXPECT_EQ(allowed_rungs(frame).least, 1U);
-    frame.effects[1].setting = Setting::on;  // needs the first
+    frame.effects[1].setting = Setting::on;  // requires the first effect
     frame.effects[0].setting = Setting::automatic;
     EXPECT_EQ(allowed_rungs(frame).least, 2U);
     frame.effects[1].setting = Setting::automatic;
-    frame.effects[0].setting = Setting::off;  // the second needs it
+    frame.effects[0].setting = Setting::off;  // the second effect requires it
     EXPECT_EQ(allowed_rungs(frame).most, 0U);
 }
 
@@ -58,7 +58,8 @@ TEST(Chain, WhatTheSceneDoesNotAskForIsNoErrorWhenLeftOff) {
     EXPECT_EQ(allowed_rungs(chain.steps[1]).most, 1U);
     EXPECT_NEAR(left_off(chain, none).position_m, all - geodesic, 1e-12 * all);
     EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 1, 1));
-    chain.steps[1].effects[1].setting = Setting::off;  // asked for, and set off: an error
+    // one effect is on although the effect that it requires is off: an error
+    chain.steps[1].effects[1].setting = Setting::off;
     EXPECT_EQ(left_off(chain, none).position_m, all);
     EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 2, 1));
 }

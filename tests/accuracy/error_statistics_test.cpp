@@ -33,7 +33,7 @@ TEST(ErrorStatistics, FiguresAreOfMagnitudes) {
     EXPECT_EQ(zero->max, 0);
 }
 
-// The definition, counted: the smallest error that at least q of all do not exceed.
+// The definition, by counting: the smallest error that at least q percent of all do not exceed.
 double counted_quantile(const std::vector<double>& errors, std::size_t q_percent) {
     std::vector<double> magnitudes;
     for (const double error : errors)

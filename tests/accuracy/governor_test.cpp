@@ -62,7 +62,7 @@ TEST(Governor, APredictionThatWasWrongCostsTheNextRung) {
     const Plan plan = governed(small_chain(), "250 m, 0.5 dB", sample);
     EXPECT_TRUE(plan.meets_budget);
     EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));
-    EXPECT_EQ(sample.seen, (std::vector<Rungs>{{0, 1, 0}}));  // the next is proven
+    EXPECT_EQ(sample.seen, (std::vector<Rungs>{{0, 1, 0}}));  // the next one is proven
     EXPECT_EQ(plan.measured_choices, 1U);
     EXPECT_FALSE(plan.measured);
     EXPECT_EQ(plan.decisions[3].effect, "linear_mean");
@@ -81,7 +81,7 @@ TEST(Governor, TooSmallASampleProvesNothing) {
     Sample sample{[](const Choice&) { return std::nullopt; }};
     const Plan plan = governed(small_chain(), "250 m, 0.5 dB", sample);
     EXPECT_TRUE(plan.meets_budget);
-    EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));  // leaves off what is proven alone
+    EXPECT_EQ(plan.choice.rungs, (Rungs{0, 1, 1}));  // leaves off only what is proven
 }
 
 TEST(Governor, ABudgetThatIsNotMetNamesTheBestAndItsError) {
@@ -124,7 +124,7 @@ TEST(Governor, AnErrorOfMeasuringIsPassedOn) {
     EXPECT_EQ(plan.error().message, "the volume is gone");
 }
 
-// Every effect known by sample only, ten steps.
+// Ten steps with effects whose errors are known only by sampling.
 Chain sampled_chain() {
     Chain chain;
     for (int i = 0; i < 10; ++i) {

@@ -1,4 +1,4 @@
-// tests/accuracy/infinity.h -- what no budget allows.
+// tests/accuracy/infinity.h -- an error that no budget allows.
 #pragma once
 
 #include <limits>

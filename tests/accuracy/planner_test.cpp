@@ -25,7 +25,7 @@ Budget budget_of(const char* text) {
 }
 
 TEST(Planner, TheSumOfWhatIsLeftOffIsWithinTheBudgetNotEachAlone) {
-    // 200, 240 and 30 m: each alone is within 250 m.
+    // The errors are 200, 240 and 30 m: each alone is within 250 m.
     const Plan made = plan_of(small_chain(), "250 m, 0.5 dB");
     EXPECT_TRUE(made.meets_budget);
     EXPECT_EQ(made.choice.rungs, (Rungs{0, 1, 0}));
@@ -48,7 +48,7 @@ TEST(Planner, AnEffectThatChangesNothingStaysOffEvenWhenExact) {
     EXPECT_EQ(plan_of(chain, "0 m, 0 dB").choice.rungs, (Rungs{0, 2, 1}));
 }
 
-// Refraction alone is more than may be left off: the other quantities and effects still count.
+// Leaving off refraction exceeds the budget; the other quantities and effects must still count.
 TEST(Planner, TheBestOfThoseThatAllMissIsTheMostAccurateInTheRest) {
     Chain chain = small_chain();
     chain.steps[0].effects[0].setting = Setting::off;
@@ -81,7 +81,7 @@ TEST(Planner, ErrorsAndATimeMustBothHold) {
     EXPECT_TRUE(plan_of(small_chain(), "250 m, 1.2 s").meets_budget);
     const Plan unmet = plan_of(small_chain(), "20 m, 1.2 s");
     EXPECT_FALSE(unmet.meets_budget);
-    EXPECT_EQ(unmet.choice.rungs, (Rungs{0, 1, 0}));  // the most accurate in time
+    EXPECT_EQ(unmet.choice.rungs, (Rungs{0, 1, 0}));  // the most accurate within the time
     EXPECT_EQ(unmet.shortfall,
               "no choice meets the budget of 20 m, 1.2 s: the best, beam: 4/3 earth, frame: "
               "ellipsoid, averaging: decibels, leaves off 230 m, 0.3 dB and takes 1.1 s");
@@ -90,7 +90,7 @@ TEST(Planner, ErrorsAndATimeMustBothHold) {
 TEST(Planner, SettingsInTheWayAreNamed) {
     Chain chain = small_chain();
     chain.steps[1].effects[0].setting = Setting::off;
-    chain.steps[2].effects[0].setting = Setting::off;  // has no part in position
+    chain.steps[2].effects[0].setting = Setting::off;  // it contributes nothing to position
     const Plan far = plan_of(chain, "100 m");
     EXPECT_FALSE(far.meets_budget);
     EXPECT_EQ(far.choice.rungs, (Rungs{1, 0, 0}));
@@ -112,7 +112,8 @@ TEST(Planner, BudgetsThatBoundNothingOrInAnotherUnitAreRefused) {
     EXPECT_EQ(other.error().message, "the budget is in m/s, but the values are in dB");
 }
 
-// Another way to the cheapest cost: depth first, one effect after the other, with sums carried
+// Another way to find the cheapest choice: depth first, one effect after the other, with running
+// sums.
 // along.
 struct Search {
     const Chain& chain;
@@ -183,7 +184,8 @@ TEST(Planner, IsTheCheapestThatASearchOfAnotherKindFinds) {
 }
 
 TEST(Planner, NoEffectIsOnThatCouldBeOff) {
-    // Of a met budget of errors: lowering any step to any lower rung breaks it, or saves nothing.
+    // If the budget of errors is met, lowering any step to any lower rung breaks it or saves
+    // nothing.
     std::mt19937_64 random(4);
     for (int trial = 0; trial < 2000; ++trial) {
         const Chain chain = random_chain(random);

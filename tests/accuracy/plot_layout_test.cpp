@@ -28,7 +28,7 @@ TEST(PlotLayout, AxesAreLogarithmicUpwardsAndToTheRight) {
     EXPECT_NEAR(layout.markers[1].y - layout.markers[0].y,
                 layout.markers[2].y - layout.markers[1].y, 1e-9);
     EXPECT_GT(layout.markers[1].x, layout.markers[0].x);
-    EXPECT_GT(layout.markers[1].y, layout.markers[0].y);  // a smaller error is lower
+    EXPECT_GT(layout.markers[1].y, layout.markers[0].y);  // a smaller error is drawn lower
     EXPECT_FALSE(layout.zero_y);
 }
 
@@ -86,7 +86,7 @@ TEST(PlotLayout, TicksLieInsideApartAndWhereTheySay) {
     }
 }
 
-// A ladder as the chain has it: some 25 rungs, several of them all but equal.
+// A ladder like that of the chain: some 25 rungs, several of them nearly equal.
 Plot crowded() {
     std::mt19937_64 random(3);
     Plot plot;

@@ -1,6 +1,7 @@
-// Coverage is what accuracy/quantile_bound.h promises: simulations whose true quantile is known,
-// with heavy tails, ties, clusters that are off together, strata. Each test states how many of its
-// trials may miss: the promised share and four standard deviations of the count of misses.
+// Tests that the coverage is what accuracy/quantile_bound.h promises, by simulations whose true
+// quantile is known: with heavy tails, ties, clusters of related errors, and strata. Each test
+// states how many of its trials may miss: the promised share plus four standard deviations of the
+// number of misses.
 #include "accuracy/quantile_bound.h"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ TEST(QuantileBound, IndependentErrorsAreCoveredAsPromised) {
 }
 
 TEST(QuantileBound, TheBinomialBoundIsNoLooserThanItMustBe) {
-    // At 600 uniform errors the miss rate of the exact bound is close under 10 %, not far from it.
+    // With 600 uniform errors, the miss rate of the exact bound is slightly below 10 %.
     Random random(3);
     const Outcome outcome = simulate(4000, 0.95, [&] {
         std::vector<double> errors(600);
@@ -99,7 +100,7 @@ TEST(QuantileBound, TooFewErrorsHaveNoBound) {
     EXPECT_EQ(quantile_upper_bound(ramp(688), {}), 687);
     EXPECT_FALSE(quantile_upper_bound(ramp(58), {0.95, 0.95}));
     EXPECT_EQ(quantile_upper_bound(ramp(59), {0.95, 0.95}), 58);  // Wilks 1941
-    // Conover: with 93 the second largest.
+    // Conover: with 93 errors, the second largest.
     EXPECT_EQ(quantile_upper_bound(ramp(92), {0.95, 0.95}), 91);
     EXPECT_EQ(quantile_upper_bound(ramp(93), {0.95, 0.95}), 91);
 }
@@ -139,8 +140,8 @@ TEST(QuantileBound, HowManyClustersItTakes) {
     EXPECT_NEAR(static_cast<double>(needed(5, 20)), 4 * 902, 20);
 }
 
-// Columns whose cells are all off together in a share `bad` of them; bad columns hold more cells.
-// The error of a bad column is one draw of a tail without a mean.
+// Columns of which a share `bad` have errors in all of their cells; bad columns have more cells.
+// The error of a bad column is drawn from a distribution whose tail has no mean.
 struct Columns {
     double bad = 0.01;
     std::size_t small = 4, large = 20;
@@ -155,7 +156,7 @@ struct Columns {
             cluster.errors.push_back(-uniform(random));
         return cluster;
     }
-    // A share s of all cells is bad; errors above t > 10 are s * 10 / t of all.
+    // A share s of all cells is bad. A share s * 10 / t of all errors is above t > 10.
     [[nodiscard]] double truth(double quantile) const {
         const double cells_bad = bad * static_cast<double>(large);
         const double share = cells_bad / (cells_bad + (1 - bad) * static_cast<double>(small));
@@ -185,7 +186,7 @@ TEST(QuantileBound, ClustersThatAreOffTogetherAreCovered) {
 }
 
 TEST(QuantileBound, TakingCellsForIndependentWouldMiss) {
-    // That the test above can fail: the same columns, cells taken for independent.
+    // Shows that the test above can fail: the same columns, with cells treated as independent.
     Random random(12);
     const Columns columns{0.02};
     const int trials = 1000;
@@ -201,8 +202,8 @@ TEST(QuantileBound, TakingCellsForIndependentWouldMiss) {
 }
 
 TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
-    // A tenth of the columns, near the radar, are sampled as often as all others, and are bad more
-    // often.
+    // A tenth of the columns, near the radar, are sampled as often as all others together, and are
+    // bad more often.
     Random random(13);
     const BoundRequest request{0.95, 0.9};
     const Columns near{0.3, 20, 20};
@@ -225,7 +226,7 @@ TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
         trials, truth, [&] { return quantile_upper_bound(sample(0.1, 0.9), 18, request); });
     EXPECT_EQ(outcome.bounds, trials);
     EXPECT_LE(outcome.misses, allowed_misses(trials, request.confidence));
-    // The scale of weights means nothing.
+    // The scale of the weights does not matter.
     Random same = random;
     const auto one = quantile_upper_bound(sample(0.125, 1), 20, request);
     random = same;
@@ -233,8 +234,8 @@ TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
 }
 
 TEST(QuantileBound, ColumnsDrawnInProportionToTheirSizeAreCovered) {
-    // Sizes 1 to 20; large columns are bad more often. Drawn by size, 1000 do what takes many times
-    // as many drawn evenly.
+    // Sizes are 1 to 20, and large columns are bad more often. A sample of 1000 drawn by size is as
+    // good as one many times larger drawn evenly.
     struct Held {
         std::size_t size;
         bool bad;
@@ -306,7 +307,8 @@ TEST(QuantileBound, AtTheConfidenceThatIsUsedNearlyNoneMisses) {
 }
 
 TEST(QuantileBound, WithManyClustersTheBoundComesNear) {
-    // Independent errors in columns: 20 000 columns of 10 bound the 99th percentile of |e| to 1 %.
+    // Independent errors in columns: 20,000 columns of 10 cells bound the 99th percentile of |e| to
+    // 1 %.
     Random random(16);
     std::vector<ErrorCluster> clusters(20000);
     for (ErrorCluster& cluster : clusters) {

@@ -8,16 +8,17 @@
 
 namespace stormcellar::accuracy::testing {
 
-// A beam (4/3 earth, traced) and a frame (sphere, ellipsoid, geodesic), in decibels:
-//   refraction 200 m, costs 1 s; ellipsoid 240 m, costs 0.1 s; geodesic 30 m, costs 2 s
-//   and averaging (dB, linear Z), 0.3 dB, costs 0.5 s, known by sample; the others are proven.
+// A chain of a beam (4/3 earth, traced) and a frame (sphere, ellipsoid, geodesic), with values in
+// decibels. Refraction is 200 m and costs 1 s; the ellipsoid is 240 m and costs 0.1 s; the geodesic
+// is 30 m and costs 2 s; averaging (dB, linear Z) is 0.3 dB and costs 0.5 s. Averaging is known by
+// sample, the others are proven.
 [[nodiscard]] Chain small_chain();
 
-// Up to four steps of up to three effects, small whole numbers so that ties and exact sums happen,
-// some of them set on or off, never against each other.
+// Up to four steps of up to three effects, with small whole numbers so that ties and exact sums
+// occur. Some effects are set on or off, but never in contradiction.
 [[nodiscard]] Chain random_chain(std::mt19937_64& random);
 
-// The plan of what `budget` says, which must be well said and possible: throws otherwise.
+// Returns the plan for `budget`. Throws if the budget is malformed or cannot be met.
 [[nodiscard]] Plan plan_of(const Chain& chain, const char* budget);
 
 }  // namespace stormcellar::accuracy::testing

@@ -10,7 +10,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Work that takes what it is told to, on a clock of the test's own.
+// The work takes the time that it is told to, on the test's own clock.
 TEST(Timing, FirstLeastAndMedianOfRuns) {
     double clock_s = 0;
     const auto now_s = [&] { return clock_s; };
@@ -43,7 +43,7 @@ TEST(Timing, RoundsTurnRoundSoThatNoneIsAlwaysBehindTheSame) {
 }
 
 TEST(Timing, ASlowerMachineIsSharedByAll) {
-    // The machine takes twice as long in later rounds; both works are told apart all the same.
+    // The machine is twice as slow in later rounds; the two works must still be told apart.
     double clock_s = 0;
     int runs = 0;
     const auto work = [&](double cost_s) {

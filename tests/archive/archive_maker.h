@@ -18,7 +18,7 @@ struct Put {
 };
 
 [[nodiscard]] std::vector<std::byte> make_archive(Kind kind, const std::vector<Put>& puts);
-// The bytes by themselves, packed as an archive of that kind is.
+// Returns the bytes alone, packed as an archive of that kind is packed.
 [[nodiscard]] std::vector<std::byte> packed(Kind kind, const std::vector<std::byte>& bytes);
 [[nodiscard]] std::vector<std::byte> bytes_of(const std::string& text);
 

@@ -57,7 +57,7 @@ TEST_P(EveryKind, IsReadFromAFileToo) {
     ::close(descriptor);
 }
 
-// Of what is cut anywhere nothing comes out that was not in it, and that it is cut is said.
+// An archive that is cut anywhere yields only members that were in it, and reports that it is cut.
 TEST_P(EveryKind, CutAnywhereItGivesWhatIsWhole) {
     const auto bytes = make_archive(GetParam(), two);
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 97) {
@@ -135,7 +135,7 @@ TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {
     EXPECT_THAT(names_of(*one), ElementsAre("inner.tar.gz!a/KTLX_1", "inner.tar.gz!KTLX_2", "c"));
     const auto outer = make_archive(Kind::tar, {{"middle.zip", middle}});
     auto two_deep = ArchiveReader::open(outer);
-    // What lies deeper is given as it is: it is no volume, and says so when it is read.
+    // A deeper archive is returned as it is: it is no volume, and reading it reports that.
     EXPECT_THAT(names_of(*two_deep), ElementsAre("middle.zip!inner.tar.gz", "middle.zip!c"));
 }
 
@@ -193,13 +193,13 @@ TEST(ArchiveReader, BombsStopAtTheLimits) {
     EXPECT_THAT(crowd->left_out().at(0).reason, HasSubstr("more than 3 members"));
 }
 
-// 2026-11-25: libarchive unpacked what was passed over, and nobody counted it.
+// 2026-11-25: libarchive unpacked members that were skipped, and nobody counted their bytes.
 TEST(ArchiveReader, WhatIsPassedOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     Limits limits;
     limits.unbounded_bytes = 1 << 20;
     for (const Kind kind : {Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz, Kind::tar_zst, Kind::zip}) {
-        // Not taken for its name, so its data are skipped.
+        // Its name is refused, so its data are skipped.
         const auto bomb = make_archive(kind, {{"../a", zeros}, {"b", bytes_of("b")}});
         auto reader = ArchiveReader::open(bomb, limits);
         ASSERT_TRUE(reader);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t volume_bytes = std::size_t{16} << 20;
 
-// Faults that it takes to touch fresh arrays of a volume's size, which are then freed.
+// Counts the page faults of touching new arrays of the size of a volume, which are then freed.
 long faults_of_a_volume() {
     rusage before{}, after{};
     getrusage(RUSAGE_SELF, &before);
@@ -38,7 +38,7 @@ TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
     EXPECT_LT(faults_of_a_volume(), 100);
 }
 
-// Small things, of which every tenth stays, so that what is free lies between them.
+// Every tenth of many small blocks stays, so that the free memory lies between them.
 TEST(GiveBackFreedMemory, WhatIsFreeBetweenOtherThingsGoesBackToTheSystem) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "another allocator";
@@ -76,7 +76,7 @@ TEST(LargePages, AnArrayIsAllZero) {
     }
 }
 
-// Where the system has large pages, 32 MiB come by few faults; where it has none, as before.
+// If the system has large pages, 32 MiB take few faults; if it has none, as many as before.
 TEST(LargePages, AreAHintThatCostsNoMoreFaults) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "another allocator";

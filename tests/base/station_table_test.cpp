@@ -30,13 +30,13 @@ TEST(StationTable, EveryFieldIsFilled) {
     }
 }
 
-// 159 WSR-88D that operate, KJAN, KLIX, KRMX and LPLA that did, and Norman's KCRI and KOUN.
+// 159 WSR-88D in operation; KJAN, KLIX, KRMX and LPLA, which were; and KCRI and KOUN in Norman.
 TEST(StationTable, HoldsTheWholeNetwork) {
     EXPECT_EQ(count(RadarKind::nexrad), 165U);
     EXPECT_EQ(count(RadarKind::tdwr), 45U);
 }
 
-// Guam is the southernmost, Fairbanks the northernmost; KICX stands highest.
+// Guam is the southernmost, Fairbanks the northernmost; KICX is the highest.
 TEST(StationTable, PositionsAreInBounds) {
     for (const Station& station : all_stations()) {
         EXPECT_GE(station.latitude_deg, 13.4) << station.icao;
@@ -57,7 +57,7 @@ TEST(StationTable, KindsFollowNames) {
     }
 }
 
-// The first letters of an ICAO name say where it is: catches a lost sign and swapped fields.
+// The first letters of an ICAO name give the region. This finds a lost sign and swapped fields.
 TEST(StationTable, NamesFollowPlaces) {
     for (const Station& station : all_stations()) {
         if (station.icao.front() == 'K') {
@@ -92,7 +92,7 @@ void expect_agreement(const Reported& reported, double position_tolerance_deg) {
     EXPECT_NEAR(station->antenna_altitude_m, reported.antenna_altitude_m, 1.3) << reported.icao;
 }
 
-// What the radars say of themselves in message 31 since 2013: site + tower, both in whole metres
+// What the radars say of themselves in message 31 since 2013: site + tower, both in whole meters
 // rounded down, and for the TDWR the site height alone.
 TEST(StationTable, AgreesWithMessage31) {
     const Reported volumes[] = {
@@ -133,7 +133,7 @@ TEST(StationTable, AgreesWithLevelIIIProducts) {
         expect_agreement(product, 0.0015);
 }
 
-// In September 2010 message 31 of two sites held metres taken for feet and converted again:
+// In September 2010 message 31 of two sites held meters taken for feet and converted again:
 // 4 + 9 m at KDOX, 171 + 9 m at KTYX. Beyond 30 m the table is believed instead, so it must differ
 // from both by more; that they are 0.3048 of its own figures shows what went wrong.
 TEST(StationTable, ContradictsHeightsConvertedTwice) {
@@ -184,7 +184,7 @@ TEST(IsIcao, RefusesOtherLengths) {
     EXPECT_FALSE(is_icao("KTLXX"));
 }
 
-// One byte wrong in each place, over every byte value.
+// One wrong byte in each place, over all byte values.
 TEST(IsIcao, RefusesEveryOtherByte) {
     for (std::size_t place = 0; place < 4; ++place) {
         for (int value = 0; value < 256; ++value) {

@@ -43,7 +43,7 @@ TEST(TomlDepth, DotsOfNumbersStringsAndCommentsAreNone) {
     }
 }
 
-// A string that ends later for one than for the other would hide a key.
+// If the two disagreed about the end of a string, a key could be hidden.
 TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     const std::string deep = "\n" + key_of(100) + " = 1\n";
     for (const std::string before :
@@ -55,7 +55,7 @@ TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     }
 }
 
-// 2026-11-25: such a file ended the process, also where a mistake stood behind the key.
+// 2026-11-25: such a file ended the process, even if the key was followed by a mistake.
 TEST(TomlDepth, AKeyThatWouldEndTheProcessIsRefused) {
     const std::string deep = key_of(400'000);
     for (const std::string& text :

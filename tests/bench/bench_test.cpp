@@ -1,4 +1,4 @@
-// What every benchmark promises: options, and rows as a table or as JSON (DESIGN section 3).
+// Tests what every benchmark promises: options, and rows as a table or as JSON.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -91,7 +91,7 @@ TEST(BenchGrid, JsonHasARowForEachSpecAndNumberOfThreads) {
     }
 }
 
-// One row under its head: the same keys as in JSON.
+// One row under its head, with the same keys as in JSON.
 TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
     STORMCELLAR_NEED_DATA();
     const std::string file =
@@ -113,7 +113,7 @@ TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
     EXPECT_EQ(rows[0]["threads"], 1);
 }
 
-// One site, one thread: the keys that the paper's table has.
+// One site, one thread: the keys of the paper's table.
 TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--work"}).status, 2);
@@ -133,7 +133,7 @@ TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     EXPECT_GT(rows[0]["total_s"], 0.0);
     EXPECT_GT(rows[0]["expansion"], 1.0);
     EXPECT_TRUE(rows[0]["paper_min"].is_null());
-    // Merged volumes are not left behind, raw ones are.
+    // Merged volumes are removed, raw ones are kept.
     for (const auto& entry : fs::directory_iterator(work.path()))
         EXPECT_EQ(entry.path().filename(), "feed");
 }

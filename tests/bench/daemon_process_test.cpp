@@ -1,4 +1,4 @@
-// The daemon that a benchmark starts.
+// Tests the daemon that a benchmark starts.
 #include "bench/daemon_process.h"
 
 #include <array>
@@ -20,7 +20,7 @@ std::filesystem::path stormcellard() {
     return std::filesystem::path{BENCH_DIRECTORY}.parent_path() / "daemon/stormcellard";
 }
 
-// Whether it runs; one that ended and was not waited for does not.
+// Returns true if the process runs; one that ended and was not waited for does not count.
 bool runs(pid_t process) {
     std::ifstream file(fmt::format("/proc/{}/stat", process));
     std::string line;
@@ -44,7 +44,7 @@ TEST(DaemonProcess, IsStartedAndStopped) {
     EXPECT_EQ(none.id(), 0);
 }
 
-// 2026-11-22: it went on when the benchmark was killed.
+// 2026-11-22: the daemon went on when the benchmark was killed.
 TEST(DaemonProcess, EndsWithWhoeverStartedIt) {
     const testing::TemporaryDirectory directory;
     std::array<int, 2> ends{};

@@ -1,4 +1,5 @@
-// The national feed of bench_feed: re-stamped records, what the player writes, memory's slope.
+// Tests the national feed of bench_feed: re-stamped records, what the player writes, the slope of
+// memory.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -30,7 +31,7 @@ Bytes real_file(const char* name) {
     return read_file(*testing::data_directory() / name).value();
 }
 
-// The oracle is restamp(), which changes what was decoded.
+// The reference is restamp(), which changes the decoded volume.
 TEST(StampedRecords, AreWhatRestampMakesOfTheVolume) {
     STORMCELLAR_NEED_DATA();
     const Station station = *find_station("KMAF");
@@ -63,7 +64,7 @@ TEST(StampedRecords, WhatIsNoneIsRefused) {
     EXPECT_FALSE(StampedRecords::read(cut));
 }
 
-// Eight sites hold all three kinds.
+// Eight sites have all three kinds.
 const NationalFeed& feed() {
     static const testing::TemporaryDirectory directory;
     static const NationalFeed made =
@@ -79,7 +80,7 @@ class PlayedFeed : public ::testing::TestWithParam<Delivery> {
 TEST_P(PlayedFeed, GivesEachVolumeAtItsTimeAsTheSiteWouldSendIt) {
     STORMCELLAR_NEED_DATA();
     FeedPlayer player(feed(), drop_.path(), GetParam());
-    std::map<std::string, double> sent;  // when, by grid
+    std::map<std::string, double> sent;  // the time of each, by grid
     double at_s = 0;
     while (player.next_s() <= 0.6 * feed().period_s()) {
         at_s = player.next_s();

@@ -1,4 +1,4 @@
-// Volumes of the mosaic benchmark: another site, another time, the same gates.
+// Tests volumes of the mosaic benchmark: another site, another time, the same gates.
 #include "bench/restamp.h"
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A volume of that kind, re-stamped, written and read again.
+// Returns a volume of that kind, re-stamped, written and read again.
 level2::Decoded sent_by(const level2::Volume& source, const Station& station, UtcTime start) {
     level2::Volume stamped = source;
     restamp(stamped, station, start);
@@ -60,7 +60,7 @@ void expect_moved(const level2::Volume& from, const level2::Volume& to,
     }
 }
 
-// One of each: message 31, message 1, simulated.
+// One of each kind: message 31, message 1, simulated.
 class EachKind : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachKind, HasTheSiteAndTheTimesAskedForAndTheSameGates) {
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachKind,
                          ::testing::Values("mosaic-northeast/KDOX20100911_012056_V04.gz",
                                            "sequence-kbgm/KBGM20050822_024414.gz", "simulated-3"));
 
-// The station whose heights would be equal, which stands for a TDWR's.
+// The station whose heights would be equal, which would be read as those of a TDWR.
 TEST(Restamp, SplitsAnAltitudeIntoTwoHeightsThatAddUp) {
     level2::Volume volume;
     volume.block.emplace();

@@ -15,7 +15,7 @@ BlockPlan small_plan() {
     return block;
 }
 
-// Behind the stream's head (4 bytes), the mark, the checksum and 25 bits.
+// After the head of the stream (4 bytes), the mark, the checksum and 25 bits.
 constexpr std::uint64_t tables_at = 32 + 48 + 32 + 25;
 
 Found read(BlockTables& tables, const BlockPlan& block, std::size_t missing_bits = 0) {
@@ -33,7 +33,7 @@ TEST(BlockTables, AreReadAsTheyWereWritten) {
     EXPECT_EQ(tables.bytes[3], 255);
     EXPECT_EQ(tables.end_symbol(), 5);
     EXPECT_EQ(tables.code_count, 3U);
-    // Moved to the front: 2, then that again, then the one behind it, then the last.
+    // The selectors after moving to front: table 2, the same again, the next in the list, the last.
     EXPECT_EQ(tables.selectors, (std::vector<std::uint8_t>{2, 2, 0, 1}));
     EXPECT_EQ(tables.codes[1].decode(std::uint64_t{0b10} << 62).symbol, 1);
     EXPECT_EQ(tables.codes[2].decode(0).symbol, 1);
@@ -79,7 +79,7 @@ TEST(BlockTables, WhatContradictsIsBad) {
     }
 }
 
-// As libbz2 since 1.0.7.
+// As in libbz2 since 1.0.7.
 TEST(BlockTables, SelectorsThatNoBlockNeedsAreDropped) {
     BlockPlan many = small_plan();
     many.selectors.assign(20'000, 0);

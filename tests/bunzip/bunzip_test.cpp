@@ -43,7 +43,7 @@ TEST_P(BunzipBy, AStreamInPiecesOfAnySize) {
     }
 }
 
-// Where the last byte fills the room, the end of the stream has been looked at.
+// If the last byte fills the room, the end of the stream must still be checked.
 TEST_P(BunzipBy, AStreamEndsWithItsLastByte) {
     const Bytes bytes = contents(1000);
     const Bytes stream = compressed(bytes, 9);
@@ -134,8 +134,7 @@ TEST_P(BunzipBy, ThreadsWithAWorkspaceEach) {
     EXPECT_EQ(right, (std::array{true, true, true, true}));
 }
 
-// 2026-11-23: by libbz2's path all that just fitted was too large, by every path what holds
-// nothing.
+// 2026-11-23: libbz2's path refused streams that just fitted, and every path refused empty ones.
 TEST_P(BunzipBy, ALimitThatIsJustEnough) {
     Workspace workspace;
     for (const char* text : {"", "a", "aaa", "aaaa", "aaaaa", "a banana", "bbbbaaaa"}) {

@@ -1,4 +1,4 @@
-// tests/bunzip/each_path.h -- the paths that this machine has, and the names of their tests.
+// tests/bunzip/each_path.h -- the paths that this machine supports, and names for their tests.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ inline std::string test_name(const ::testing::TestParamInfo<Path>& info) {
     return std::string{name_of(info.param)};
 }
 
-// For a kernel, which libbz2 has none of.
+// For tests of a kernel, which libbz2 does not have.
 inline std::vector<Path> available_kernels() {
     std::vector<Path> paths = available_paths();
     paths.erase(paths.begin());

@@ -1,5 +1,5 @@
-// Streams that no compressor writes, or seldom. libbz2 is the oracle throughout: the same bytes,
-// the same kind of end.
+// Streams that no compressor writes, or rarely. libbz2 is the reference for all of them: the bytes
+// and the kind of end must be the same.
 #include <algorithm>
 #include <random>
 
@@ -16,7 +16,7 @@ constexpr std::size_t most = std::size_t{16} << 20;
 
 class OddStreams : public ::testing::TestWithParam<Path> {
   protected:
-    // What libbz2 ends as, so that a test can say which that is.
+    // Returns the end that libbz2 reports, so that a test can state it.
     End check(const Bytes& stream, std::size_t limit = most) {
         const LibraryOutcome wanted = decompressed(stream, limit);
         std::vector<std::byte> out;
@@ -46,7 +46,7 @@ Bytes noise(std::size_t size, unsigned kinds, unsigned seed) {
 TEST_P(OddStreams, AllLevelsAndBlockEnds) {
     for (const int level : {1, 2, 5, 9}) {
         const auto block = static_cast<std::size_t>(level) * 100'000;
-        // bzip2 keeps 19 bytes of a block free.
+        // bzip2 leaves 19 bytes of a block unused.
         for (const std::size_t size : {block - 20, block - 19, block - 18, block, 2 * block + 7}) {
             EXPECT_EQ(check(compressed(noise(size, 200, 1), level)), End::whole) << size;
         }
@@ -59,7 +59,7 @@ TEST_P(OddStreams, ContentsOfAllKinds) {
         EXPECT_EQ(check(compressed(noise(size, 3, 2), 1)), End::whole) << size;
     for (const unsigned kinds : {1U, 2U, 17U, 64U, 65U, 129U, 193U, 256U})
         EXPECT_EQ(check(compressed(noise(250'000, kinds, kinds), 9)), End::whole) << kinds;
-    // Periods: rotations that are alike, and links in many rings.
+    // Periods: equal rotations, and links in many rings.
     for (const std::size_t period : {1U, 2U, 3U, 5U, 64U, 100U, 2432U, 50'000U}) {
         const Bytes piece = noise(period, 251, 3);
         Bytes bytes;
@@ -67,7 +67,7 @@ TEST_P(OddStreams, ContentsOfAllKinds) {
             bytes.insert(bytes.end(), piece.begin(), piece.end());
         EXPECT_EQ(check(compressed(bytes, 4)), End::whole) << period;
     }
-    // Runs of every length that a count can say, and longer ones.
+    // Runs of every length that a count can express, and longer ones.
     Bytes runs;
     for (std::size_t length = 1; length < 700; ++length)
         runs.insert(runs.end(), length, static_cast<std::byte>(length % 5));
@@ -99,10 +99,10 @@ TEST_P(OddStreams, LongestWords) {
         symbols.push_back(symbol <= run_b && random() % 8 != 0 ? std::uint16_t{2} : symbol);
     }
     symbols.push_back(41);
-    // Words of 20 bits that their lengths have no room for are cut: then anything can come of it.
+    // Words of 20 bits that do not fit are cut, so anything can come out.
     static_cast<void>(check(mended_stream('9', plan(bytes, lengths, symbols))));
 
-    // A proper code up to 20 bits.
+    // a complete code up to 20 bits
     std::vector<std::uint8_t> proper(21);
     for (std::size_t i = 0; i < 20; ++i)
         proper[i] = static_cast<std::uint8_t>(20 - i);
@@ -117,7 +117,7 @@ TEST_P(OddStreams, LongestWords) {
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 }
 
-// One byte, so many times: the digits of a run, 1 and 2, that are worth that in all.
+// One byte `rows` times: run digits 1 and 2 of that total value.
 BlockPlan run_of(std::size_t rows) {
     std::vector<std::uint16_t> digits;
     for (std::size_t left = rows; left > 0; left = (left - 1) / 2)
@@ -126,7 +126,8 @@ BlockPlan run_of(std::size_t rows) {
     return plan({4}, {1, 2, 2}, digits);
 }
 
-// Read as bytes, each fifth row is a count, and a block that ends before one is corrupt.
+// If each byte is a row, every fifth one is a count, and a block that ends before a count is
+// corrupt.
 TEST_P(OddStreams, RunsUpToABlockAndAboveIt) {
     for (const std::size_t rows : {1U, 3U, 4U, 5U, 8U, 9U, 10U, 99'999U, 100'000U, 100'001U}) {
         const End end = check(mended_stream('1', run_of(rows)));
@@ -167,7 +168,7 @@ TEST_P(OddStreams, Origins) {
         block.origin = origin;
         EXPECT_EQ(check(mended_stream('1', block)) == End::corrupt, origin >= 30) << origin;
     }
-    // Nothing but the end: no row, so no origin.
+    // Only the end symbol: there is no row, so no origin.
     block.symbols = {3};
     block.origin = 0;
     EXPECT_EQ(check(mended_stream('1', block)), End::corrupt);
@@ -185,7 +186,7 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     block.origin = 17;
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 
-    // Behind a block that is not, which has been given out by then.
+    // The same after a block that is not empty, which has been returned by then.
     BlockPlan first = block;
     first.randomised = false;
     BlockPlan blocks[] = {first, block};
@@ -199,11 +200,11 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
 }
 
-// 2026-11-23: a move that made a block one byte too long was not counted until the next, so a
-// stream that is cut there was called cut.
+// 2026-11-23: a move that made a block one byte too long was only counted with the next symbol, so
+// a stream that was cut there was reported as cut.
 TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     for (const bool is_full : {false, true}) {
-        // 100,000 in digits of 1 and 2, or one less; then a move, and the end.
+        // 100,000 bytes in digits of 1 and 2, or one less; then a move, and the end.
         std::vector<std::uint16_t> symbols;
         for (unsigned left = is_full ? 100'000 : 99'999; left > 0;) {
             const unsigned digit = left % 2 == 1 ? 1 : 2;
@@ -221,7 +222,7 @@ TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     }
 }
 
-// What follows a block whose last byte fills the room is looked at still, as libbz2 does.
+// The bytes after a block whose last byte fills the room are still checked, as in libbz2.
 TEST_P(OddStreams, WhatIsBehindTheLimitsLastByte) {
     const BlockPlan sound = plan({0, 1, 2, 3}, std::vector<std::uint8_t>(6, 3), {2, 3, 2, 3, 5});
     const Bytes alone = mended_stream('9', sound);

@@ -10,8 +10,8 @@ namespace {
 
 using Lengths = std::vector<std::uint8_t>;
 
-// Bit by bit from the shortest words on, as the format's description has it: the words of a length
-// are numbered on from twice the number behind the last of the length before.
+// Decodes bit by bit from the shortest words on, as the format describes it: the first word of a
+// length is twice the number after the last word of the length before.
 PrefixCode::Word slowly(const Lengths& lengths, std::uint64_t bits) {
     std::uint64_t first = 0;
     for (unsigned length = 1; length <= 20; ++length) {
@@ -38,7 +38,7 @@ void expect_slow_code(const Lengths& lengths, std::mt19937_64& random) {
     PrefixCode code;
     code.build(lengths);
     for (int i = 0; i < 3000; ++i) {
-        // Ones in front come to the longest words.
+        // Leading ones lead to the longest words.
         const auto ones = static_cast<unsigned>(random() % 24);
         std::uint64_t bits = random() >> ones;
         if (ones > 0) bits |= ~std::uint64_t{0} << (64 - ones);
@@ -60,7 +60,7 @@ TEST(PrefixCode, ProperCodes) {
     expect_slow_code({1, 2, 2}, random);
     expect_slow_code({3, 3, 3, 3, 3, 3, 3, 3}, random);
     expect_slow_code(Lengths(256, 8), random);
-    // A comb: the longest words that there are.
+    // A comb: it has the longest possible words.
     expect_slow_code({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 20},
                      random);
     expect_slow_code({20, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1},
@@ -80,7 +80,7 @@ TEST(PrefixCode, LengthsThatLeaveWordsUnused) {
     }
 }
 
-// More words than their lengths have room for: those of longer ones are out of reach.
+// There are more words than fit, so those of longer lengths cannot be reached.
 TEST(PrefixCode, LengthsThatAreTooShort) {
     std::mt19937_64 random(3);
     expect_slow_code({1, 1, 1}, random);

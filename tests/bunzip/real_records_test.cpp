@@ -1,4 +1,5 @@
-// Every record of every real volume, on each path: what libbz2 gives, byte by byte.
+// Decompresses every record of every real volume on each path and compares it with libbz2, byte by
+// byte.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -29,7 +30,7 @@ Bytes bytes_of_file(const fs::path& path) {
     return inflated;
 }
 
-// A file of one bzip2 stream, or of LDM records.
+// Returns the streams of a file, which is one bzip2 stream or LDM records.
 std::vector<std::span<const std::byte>> streams_of(const Bytes& file) {
     const std::span<const std::byte> bytes = file;
     if (level2::is_bzip2(bytes)) return {bytes};

@@ -11,7 +11,7 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
-// As the format says it; the last of `packed` is what follows the block.
+// Expands as the format describes it; the last byte of `packed` follows the block.
 Octets slowly(const Octets& packed) {
     Octets out;
     std::size_t alike = 0;
@@ -62,7 +62,7 @@ TEST_P(RunExpanderOf, AnyBytesInAnyPieces) {
     std::mt19937 random(5);
     for (int round = 0; round < 400; ++round) {
         Octets packed(1 + random() % 3000);
-        // Few kinds of bytes make many runs, also behind one another and of their own count.
+        // Few kinds of bytes give many runs, also adjacent ones and runs of their own count byte.
         const auto kinds = static_cast<unsigned>(1 + random() % 6);
         for (std::uint8_t& byte : packed)
             byte = static_cast<std::uint8_t>(random() % kinds + random() % 50 / 49 * 200);

@@ -26,7 +26,8 @@ class BitWriter {
     std::size_t used_ = 0;
 };
 
-// The words of a canonical code, also of lengths that make none: cut to their length then.
+// Returns the words of a canonical code. If the lengths do not form a code, words are cut to their
+// length.
 std::vector<std::uint32_t> words_of(std::span<const std::uint8_t> lengths) {
     std::vector<std::uint32_t> words(lengths.size());
     std::uint32_t word = 0;
@@ -97,7 +98,7 @@ void put_block(BitWriter& to, const BlockPlan& block) {
     put_symbols(to, block);
 }
 
-// Bytes that decide, one behind the other; zeros when they are used up.
+// The bytes that decide, one after the other; zeros after the last one.
 class Choices {
   public:
     explicit Choices(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -115,7 +116,7 @@ class Choices {
     std::span<const std::byte> bytes_;
 };
 
-// Pieces repeated: what runs, periods and random contents are made of.
+// Repeats pieces, which gives runs, periods and random contents.
 Bytes contents_from(Choices& choices) {
     const std::size_t most = choices.byte() % 16 == 0 ? 300'000 : 20'000;
     Bytes bytes;
@@ -137,7 +138,7 @@ std::vector<std::uint8_t> lengths_from(Choices& choices, std::size_t symbols) {
     std::vector<std::uint8_t> lengths;
     const unsigned kind = choices.byte() % 4;
     for (std::size_t i = 0; i < symbols; ++i) {
-        // All alike; a comb up to the longest; any; nearly alike.
+        // All equal; a comb up to the longest; random; nearly equal.
         const auto even = static_cast<unsigned>(std::bit_width(symbols - 1));
         const unsigned comb = std::min<unsigned>(20, static_cast<unsigned>(i) + 1);
         const unsigned length = kind == 0   ? even
@@ -189,7 +190,7 @@ Bytes bytes_of(std::string_view text) {
 Bytes compressed(std::span<const std::byte> bytes, int level) {
     Bytes out(bytes.size() + bytes.size() / 100 + 600);
     auto size = static_cast<unsigned>(out.size());
-    // libbz2 only reads what it compresses, and takes no null for nothing.
+    // libbz2 does not write to its input, and refuses a null pointer even for zero bytes.
     char nothing = 0;
     auto* const from =
         bytes.empty() ? &nothing : const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
@@ -211,7 +212,7 @@ LibraryOutcome decompressed(std::span<const std::byte> stream, std::size_t limit
     int code = BZ_OK;
     for (;;) {
         const std::size_t made = outcome.bytes.size();
-        // Room for one more says whether there is one more.
+        // Room for one more byte shows whether there is one.
         outcome.bytes.resize(std::min(limit + 1, made + 65'536));
         bz.next_out = reinterpret_cast<char*>(outcome.bytes.data() + made);
         const auto room = static_cast<unsigned>(outcome.bytes.size() - made);
@@ -276,7 +277,7 @@ Bytes stream_from(std::span<const std::byte> input) {
         return stream;
     }
     const int level = 1 + static_cast<int>(choices.byte() % 9);
-    // Up to three changes, where the stream and they are.
+    // Makes up to three changes in the places that the bytes say.
     std::map<unsigned, std::byte> changes;
     if (kind == 2) {
         for (unsigned i = choices.byte() % 4; i > 0; --i)

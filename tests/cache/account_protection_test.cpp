@@ -1,5 +1,5 @@
-// Who is protected, up to how much, and in which order grids go: the promises of
-// stormcellar/cache/budget.h.
+// Tests which grids are protected, up to what size, and in which order grids are evicted: the
+// promises of stormcellar/cache/budget.h.
 #include <algorithm>
 #include <random>
 
@@ -19,7 +19,7 @@ using ::testing::Optional;
 
 const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
-// Times in minutes after noon.
+// Times are in minutes after noon.
 GridName name(const std::string& domain, int minute) {
     return {domain, level2::Moment::ref, noon + minutes{minute}};
 }
@@ -116,7 +116,7 @@ TEST_F(AccountProtectionTest, PinnedGridsAreNotCountedAmongTheProtected) {
     EXPECT_THAT(all_that_may_go(20), IsEmpty());
 }
 
-// A grid of more than half of the budget, or beside pins.
+// If a grid is larger than half of the budget, or pinned grids leave too little room.
 TEST_F(AccountProtectionTest, TheNewestOfAKnownStationTakesProtectedOnesAsALastResort) {
     put("KTLX", 0, 10);
     put("KINX", 1, 10);
@@ -143,7 +143,7 @@ TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
     EXPECT_THAT(account_.down_to("", 30, 100),
                 ElementsAre(name("XAAA", 100), name("XAAA", 101), name("XAAA", 102)));
     EXPECT_THAT(account_.down_to("", 0, 100, {}, Reach::others).size(), 3U);
-    // Even history that is older than theirs.
+    // Even for a grid that is older than theirs.
     EXPECT_THAT(*room(name("KTLX", 1), 10), ElementsAre(name("XAAA", 100)));
     EXPECT_TRUE(room(name("KTLX", -1), 10)) << "the others would go before it";
 }
@@ -177,7 +177,7 @@ TEST_F(AccountProtectionTest, OthersHoldATenthOfTheBudgetTogether) {
     account_.reserve("XCCC", 20);
     EXPECT_EQ(account_.used_by_others(), 120U);
     account_.release("XCCC", 20);
-    // Of a percentage it is the tenth of what that is of the file system.
+    // For a budget in percent, it is a tenth of that share of the file system.
     budgets_.total.bytes.reset();
     EXPECT_EQ(account_.others_limit(budgets_), std::nullopt);
     budgets_.total.file_system_percent = 50;
@@ -193,7 +193,7 @@ TEST_F(AccountProtectionTest, OthersOutliveNobodysProtection) {
     budgets_.protected_for = hours{12};
     put("XAAA", 0, 10, noon + hours{12});
     put("XBBB", -60 * 24, 10, noon + hours{12} + minutes{1});
-    put("XCCC", 1, 10, noon + hours{24 * 365});  // by a clock that was wrong
+    put("XCCC", 1, 10, noon + hours{24 * 365});  // written when a clock was wrong
     account_.put(name("XDDD", 2), {10, noon, true});
     put("KTLX", 3, 10, noon);
     EXPECT_THAT(account_.outlived(budgets_, 100), ElementsAre(name("XAAA", 0), name("XCCC", 1)));
@@ -239,7 +239,7 @@ struct SlowGrid {
     bool newest = false;
 };
 
-// The choice as stormcellar/cache/budget.h says it, the slow way.
+// The choice as stormcellar/cache/budget.h describes it, made slowly.
 std::vector<GridName> slow_choice(const std::map<GridName, GridFacts>& grids, std::uint64_t target,
                                   std::uint64_t space) {
     std::vector<SlowGrid> going, protected_ones;
@@ -288,7 +288,7 @@ TEST_F(AccountProtectionTest, AgreesWithTheSlowWayOverRandomChanges) {
     int lapses = 0;
     for (int step = 0; step < 3000; ++step) {
         const auto which = static_cast<std::size_t>(draw(static_cast<int>(domains.size())));
-        // Times of their own, so that no two grids are equally old.
+        // Each grid has a different time, so that no two grids are equally old.
         const GridName grid = name(
             domains[which], draw(20) * static_cast<int>(domains.size()) + static_cast<int>(which));
         if (draw(3) == 0) {

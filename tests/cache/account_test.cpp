@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 
 const UtcTime account_noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
-// Times in minutes after noon.
+// Times are in minutes after noon.
 GridName grid_named(const std::string& domain, int minute) {
     return {domain, level2::Moment::ref, account_noon + minutes{minute}};
 }
@@ -51,7 +51,8 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     budgets_.domains["B"].bytes = 45;
     EXPECT_FALSE(account_.fits("B", 10, budgets_));
     EXPECT_TRUE(account_.fits("B", 0, budgets_));
-    // Its own budget asks for 5 bytes, that of all for 10: what goes for one counts for the other.
+    // The group's own budget needs 5 bytes, the total one 10: what is evicted for one counts for
+    // the other.
     EXPECT_THAT(*room(grid_named("B", 9), 10), ElementsAre(grid_named("B", 1)));
     EXPECT_THAT(*room(grid_named("B", 9), 20), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
     EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
@@ -69,7 +70,7 @@ TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
     budgets_.total.bytes = 60;
     EXPECT_THAT(*room(grid_named("C", 3), 10), ElementsAre(grid_named("A", 0)));
     EXPECT_FALSE(room(grid_named("C", 3), 11)) << "nothing else may go";
-    // The newest stays until a newer one stands.
+    // The newest stays until there is a newer one.
     EXPECT_THAT(*room(grid_named("B", 3), 10), ElementsAre(grid_named("A", 0)));
 }
 
@@ -81,7 +82,7 @@ TEST_F(AccountTest, MakesRoomForOldGridsOnlyFromOlderOnes) {
     EXPECT_FALSE(room(grid_named("A", 5), 10)) << "it would be the first to go";
     EXPECT_THAT(*room(grid_named("A", 15), 10), ElementsAre(grid_named("A", 10)));
     EXPECT_FALSE(room(grid_named("A", 15), 20));
-    // But the only grid of a domain is its newest, however old.
+    // But the only grid of a domain is its newest one, however old.
     EXPECT_THAT(*room(grid_named("B", -500), 10), ElementsAre(grid_named("A", 10)));
 }
 
@@ -128,7 +129,7 @@ TEST_F(AccountTest, ReservedBytesCount) {
     EXPECT_EQ(account_.used(), 20U);
 }
 
-// DESIGN 5: "Rolling by age counts from a domain's newest volume, not from the clock".
+// Age counts from the newest volume of a domain, not from the clock.
 TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     for (const int minute : {0, 30, 60, 90})
         put("A", minute);
@@ -144,12 +145,12 @@ TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     EXPECT_TRUE(account_.is_expired(grid_named("A", 69), budgets_));
     EXPECT_FALSE(account_.is_expired(grid_named("A", 70), budgets_));
     EXPECT_FALSE(account_.is_expired(grid_named("C", -9000), budgets_));
-    // The time of the clock plays no part.
+    // The time of the clock does not matter.
     account_.set_now(account_noon + hours{24 * 3650});
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
 }
 
-// DESIGN 5: "stamps over 10 minutes in the future do not count".
+// Times more than 10 minutes in the future do not count.
 TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.set_now(account_noon);
     budgets_.total.age = minutes{60};
@@ -161,7 +162,7 @@ TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.put(grid_named("A", 60 * 24 * 365), {10, account_noon + minutes{1}, false});
     EXPECT_EQ(account_.newest("A"), account_noon + minutes{10});
     EXPECT_THAT(account_.expired("A", budgets_, 100), IsEmpty());
-    // They are as old as their files, so they roll with the others, and protect nothing.
+    // They are as old as their files, so they are evicted with the others and protect nothing.
     EXPECT_TRUE(account_.is_newest(grid_named("A", 10)));
     EXPECT_THAT(account_.down_to("A", 0, 100),
                 ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11),
@@ -192,7 +193,7 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     EXPECT_EQ(account_.newest("northeast"), account_noon + minutes{60});
     EXPECT_THAT(account_.down_to("northeast", 0, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0)));
-    // Of a part that went silent not even the newest outlives the age.
+    // Of a part that fell silent, not even the newest grid outlives the age.
     budgets_.domains["northeast"].age = minutes{30};
     EXPECT_THAT(account_.expired("northeast", budgets_, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0), grid_named("northeast.KOKX", 5)));
@@ -216,7 +217,7 @@ TEST_F(AccountTest, AFullDiskTakesTheOldestWhereABudgetLimitsSpace) {
         << "only what is older";
 }
 
-// A pinned grid that is written again is no older one's rival: it stays anyway.
+// A pinned grid that is written again does not compete with older ones: it stays anyway.
 TEST_F(AccountTest, AGridToStayMayTakeTheRoomOfNewerOnes) {
     put("A", 0, 10, true);
     put("A", 1);
@@ -230,7 +231,7 @@ TEST_F(AccountTest, AGridToStayMayTakeTheRoomOfNewerOnes) {
     EXPECT_TRUE(account_.is_expired(grid_named("A", 1), budgets_));
 }
 
-// Sums and choices against the obvious way, over random changes.
+// Compares sums and choices with an obvious implementation, over random changes.
 TEST_F(AccountTest, AgreesWithAListThatIsSortedEachTime) {
     std::mt19937 random(7);
     const auto draw = [&](int end) {

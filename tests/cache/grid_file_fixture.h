@@ -1,4 +1,4 @@
-// tests/cache/grid_file_fixture.h -- a small grid's file, written, altered and opened.
+// tests/cache/grid_file_fixture.h -- the file of a small grid, which tests write, alter and open.
 #pragma once
 
 #include <cstring>
@@ -37,7 +37,7 @@ class GridFileTest : public ::testing::TestWithParam<int> {
         const grid::BrickGrid made = bricks(code_bytes);
         return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view());
     }
-    // Why it is not opened; `empty` where it is.
+    // Returns why the file cannot be opened; `empty` if it can.
     [[nodiscard]] ErrorCode opened() const {
         const auto file = GridFile::open(path_);
         return file ? ErrorCode::empty : file.error().code;
@@ -47,7 +47,7 @@ class GridFileTest : public ::testing::TestWithParam<int> {
         EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
         return opened();
     }
-    // A good file whose header is changed on purpose, sealed again.
+    // Returns a valid file with a changed header and a matching checksum.
     template <class Change>
     [[nodiscard]] ErrorCode opened_with_header(std::vector<std::byte> bytes, Change change) const {
         format::FileHeader header;

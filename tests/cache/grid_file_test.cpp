@@ -144,7 +144,7 @@ TEST_F(GridFileTest, AGridThatWasNotAuditedHasNoRows) {
     EXPECT_TRUE(file->description().provenance.audit.empty());
 }
 
-// Whoever writes what no audit can give writes a file that nobody opens.
+// A file with audit values that are impossible is written, but nobody opens it.
 TEST_F(GridFileTest, AnImpossibleAuditIsCorrupt) {
     const auto opened_with = [&](auto change) {
         grid::Grid grid = testing::small_grid();
@@ -185,7 +185,7 @@ TEST_F(GridFileTest, SameGridGivesTheSameBytes) {
     EXPECT_EQ(bytes_of(path_), first);
 }
 
-// One bit of each byte before the codes: the checksum, or what it protects, has changed.
+// One bit of each byte before the codes: either the checksum or what it protects has changed.
 TEST_F(GridFileTest, EveryFlippedByteBeforeTheCodesIsRefused) {
     ASSERT_TRUE(write(real_file_system()));
     auto bytes = bytes_of(path_);

@@ -1,4 +1,4 @@
-// Files that another program cuts while they are mapped (cache/map_guard.h).
+// Tests files that another program cuts while they are mapped (cache/map_guard.h).
 #include "cache/map_guard.h"
 
 #include <chrono>
@@ -30,8 +30,8 @@ class MapGuard : public ::testing::Test {
                                     bricks.view()));
         return path;
     }
-    // Only one page and what lies before it stays: the first place of codes that is gone is read
-    // through the map, however the machine's pages lie.
+    // Only the first page remains, so that the first missing code is read through the map whatever
+    // the page size of the machine is.
     static void cut(const fs::path& path) { fs::resize_file(path, 4096); }
 
     testing::TemporaryDirectory directory_;
@@ -75,7 +75,7 @@ TEST_F(MapGuard, AFileThatHasItsSizeAgainWasCutAllTheSame) {
     EXPECT_FALSE(file->verify());
 }
 
-// More than the registry's first block, each in its place.
+// More than fit into the registry's first block.
 TEST_F(MapGuard, EachOfManyMapsIsGuarded) {
     install_map_guard();
     const fs::path kept = write("kept.scg");
@@ -118,7 +118,7 @@ TEST_F(MapGuard, ManyThreadsMeetCutFilesAtOnce) {
         thread.join();
 }
 
-// The child is another program that cuts the file at some moment of our reading.
+// The child acts as another program that cuts the file at some moment while we read it.
 TEST_F(MapGuard, AnotherProcessCutsTheFileWhileItIsRead) {
     install_map_guard();
     const fs::path path = write("a.scg");
@@ -140,12 +140,12 @@ TEST_F(MapGuard, AnotherProcessCutsTheFileWhileItIsRead) {
     EXPECT_EQ(values_in(*file), 0U);
 }
 
-// Death tests run in a process of their own, started afresh.
+// Death tests run in a new process of their own.
 class MapGuardDeathTest : public MapGuard {
   protected:
     void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
 
-    // Reads beyond the end of a file through a map that is none of ours.
+    // Reads beyond the end of a file through a map that is not registered.
     void read_a_foreign_map() {
         const fs::path path = directory_ / "foreign";
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);

@@ -1,4 +1,4 @@
-// Files whose bricks are packed.
+// Tests files with packed bricks.
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -40,7 +40,7 @@ TEST_P(PackedGridFile, HoldsTheSameCellsInLessSpace) {
 }
 INSTANTIATE_TEST_SUITE_P(CodeBytes, PackedGridFile, ::testing::Values(1, 2));
 
-// Those before the codes are guarded as in every file.
+// The bytes before the codes are guarded as in every file.
 TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
     ASSERT_TRUE(pack(real_file_system()));
     const auto bytes = bytes_of(path_);

@@ -6,8 +6,8 @@
 
 namespace stormcellar::testing {
 
-// 40 x 24 x 18 cells: 3 x 2 x 2 bricks. Values, folded, no echo and not seen cells; some bricks
-// are uniform, some hold states alone, some are stored.
+// 40 x 24 x 18 cells, which are 3 x 2 x 2 bricks. Cells are values, folded, no echo and not seen.
+// Some bricks are uniform, some have states alone, some are stored.
 [[nodiscard]] grid::Grid small_grid();
 
 }  // namespace stormcellar::testing

@@ -17,11 +17,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t sector = 512;
 
-// Ours, with SQLite's own file right behind it in memory.
+// Our file, followed in memory by SQLite's own.
 struct OpenFile {
     sqlite3_file base;
     PowerCutVfs* disk;
-    char* path;  // owned; null for temporary files, which are nobody's business
+    char* path;  // owned; null for temporary files, which are not tracked
     bool sync_directory;
 };
 constexpr std::size_t own_bytes = (sizeof(OpenFile) + 15) / 16 * 16;
@@ -94,7 +94,7 @@ int check_lock(sqlite3_file* file, int* out) {
 }
 int control(sqlite3_file* file, int operation, void* argument) {
     if (operation == SQLITE_FCNTL_SIZE_HINT || operation == SQLITE_FCNTL_CHUNK_SIZE) {
-        return SQLITE_OK;  // hints that would change the file past us
+        return SQLITE_OK;  // ignores hints that would change the file without our knowledge
     }
     return methods(file).xFileControl(real(file), operation, argument);
 }
@@ -133,7 +133,7 @@ namespace {
 PowerCutVfs& disk_of(sqlite3_vfs* vfs) {
     return *static_cast<PowerCutVfs*>(vfs->pAppData);
 }
-// SQLite's own stands behind ours in the list of all.
+// SQLite's own VFS comes after ours in the list of all.
 sqlite3_vfs* below(sqlite3_vfs* vfs) {
     return vfs->pNext;
 }
@@ -145,7 +145,7 @@ int open_file(sqlite3_vfs* vfs, const char* path, sqlite3_file* file, int flags,
     if (is_new && (flags & SQLITE_OPEN_CREATE) != 0 && !opened->disk->may_go_on()) {
         return SQLITE_CANTOPEN;
     }
-    if (path != nullptr) opened->disk->file(path);  // as it stands before
+    if (path != nullptr) opened->disk->file(path);  // records it as it was before
     const int result = below(vfs)->xOpen(below(vfs), path, real(file), flags, out_flags);
     if (result != SQLITE_OK) return result;
     opened->base.pMethods = &our_methods;
@@ -155,7 +155,7 @@ int open_file(sqlite3_vfs* vfs, const char* path, sqlite3_file* file, int flags,
     if (is_new) {
         PowerCutVfs::File& made = opened->disk->file(path);
         if (!made.exists && !made.name_synced) {
-            made.changes = {{0, {}, 0}};  // the disk still has the one that was deleted
+            made.changes = {{0, {}, 0}};  // the disk still has the deleted one
             made.name_synced = true;
         } else if (!made.exists) {
             made = {{}, {}, true, false};
@@ -189,7 +189,7 @@ int full_path(sqlite3_vfs* vfs, const char* path, int count, char* out) {
 
 PowerCutVfs::PowerCutVfs() : vfs_(std::make_unique<Vfs>()) {
     sqlite3_vfs* const own = sqlite3_vfs_find(nullptr);
-    vfs_->base = *own;  // randomness, time and the like
+    vfs_->base = *own;  // randomness, time and so on
     vfs_->base.zName = "power-cut";
     vfs_->base.szOsFile = static_cast<int>(own_bytes) + own->szOsFile;
     vfs_->base.pAppData = this;
@@ -255,7 +255,7 @@ void PowerCutVfs::power_cut(Kept kept, unsigned seed) {
             fs::remove(path);
             continue;
         }
-        // A deletion that was not kept leaves what was synced.
+        // If the deletion was not kept, the file has its synced contents.
         const std::vector<std::byte> bytes =
             file.exists ? after_cut(file, kept, random) : file.synced;
         std::ofstream(path, std::ios::binary | std::ios::trunc)

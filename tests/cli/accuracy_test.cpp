@@ -1,4 +1,4 @@
-// The program itself, as a user runs it: `stormcellar accuracy`, and the effects of `grid`.
+// Runs the program as a user does: `stormcellar accuracy`, and the effects of `grid`.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -142,7 +142,7 @@ TEST(Accuracy, PrintsALadderForARealVolume) {
     EXPECT_NE(text.str().find("</svg>"), std::string::npos);
 }
 
-// Of each step the exact rung differs from itself by nothing, the cheapest from it by something.
+// In each step the exact rung has no difference from itself, and the cheapest has some.
 TEST(Accuracy, PrintsALadderForAPictureWithItsLight) {
     STORMCELLAR_NEED_DATA();
     const ProgramResult ran = run(
@@ -243,7 +243,7 @@ TEST(Effects, MisspeltOptionsAreNamed) {
                  "horizontal_interpolation, which is off\n");
 }
 
-// Two levels, the first at this height.
+// A sounding of two levels, the first at this height.
 std::string sounding_from(const testing::TemporaryDirectory& directory, int height_m) {
     const std::string path = (directory.path() / "own.csv").string();
     std::ofstream(path) << "height_m,refractivity\n"
@@ -252,7 +252,7 @@ std::string sounding_from(const testing::TemporaryDirectory& directory, int heig
     return path;
 }
 
-// 2026-11-21: a sounding was read and not used.
+// 2026-11-21: a sounding was read but not used.
 TEST(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
     STORMCELLAR_NEED_DATA();
     const testing::TemporaryDirectory directory;
@@ -307,7 +307,7 @@ TEST(Effects, ASoundingFarAboveTheAntennaIsNoted) {
     EXPECT_EQ(noted(880, grid), "");
 }
 
-// 2026-11-21: some were failed work, some bad usage.
+// 2026-11-21: some of these were reported as failed work, some as bad usage.
 TEST(Effects, AProfileThatIsNoneIsBadUsage) {
     const testing::TemporaryDirectory directory;
     const auto written = [&](const std::string& name, const std::string& text) {

@@ -17,7 +17,7 @@ class KeptFramesTest : public ::testing::Test {
         std::ofstream(directory_ / name) << text;
         return directory_ / name;
     }
-    // 400 bytes of pixels; the red one says which drawing it was.
+    // The picture has 400 bytes of pixels; its red channel is the number of the drawing.
     Result<render::Image> frame(DrawnFrames& kept, const fs::path& path,
                                 const render::Scene& scene = {}) {
         return kept.frame(path, scene, [this]() -> Result<render::Image> {
@@ -54,7 +54,7 @@ TEST_F(KeptFramesTest, WhatDiffersIsDrawnAnew) {
     scene.pixel_tolerance = 0.01;
     (void)frame(kept, a, scene);
     EXPECT_EQ(drawn_, 5);
-    fs::rename(grid("new"), a);  // replaced, as the store does it
+    fs::rename(grid("new"), a);  // replaced by rename, as the store does it
     (void)frame(kept, a, scene);
     EXPECT_EQ(drawn_, 6);
     grid("a", "another length");

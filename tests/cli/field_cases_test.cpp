@@ -1,4 +1,4 @@
-// Small inputs that failed once (../shared/data/cases), each against what its README calls right.
+// Tests small inputs that failed once (../shared/data/cases) against what its README calls right.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -58,7 +58,8 @@ TEST_F(FieldCases, RadialsMayNameTheirStationInLowerCase) {
     EXPECT_EQ(lower["sweeps"], whole["sweeps"]);
 }
 
-// One volume makes no frame, as two have to lie about it: that is said, and nothing crashes.
+// One volume makes no frame, since two must be near its instant. This is reported, and nothing
+// crashes.
 TEST_F(FieldCases, AMosaicAboutACenterNeedsNoStationOfTheTable) {
     const std::string catalog = out("catalog");
     for (const auto& [drop, status] :
@@ -188,7 +189,7 @@ TEST_F(FieldCases, ChunksNamedByTheirLdmKeyAreOneVolume) {
     EXPECT_EQ(volumes[0]["n_radials"], 360);
     EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json", "--rejected"}).size(), 1U)
         << "the other chunks have no line of their own";
-    // One alone, under a name that says nothing, is told from a volume.
+    // A single chunk under a meaningless name is distinguished from a volume.
     fs::create_directory(directory_ / "drop");
     fs::create_directory(directory_ / "other");
     fs::copy_file(in("9-ldm-key-chunk-names/drop/L2-BZIP2_KLOT_20201019054806_34_2_I_V06_0"),

@@ -1,4 +1,4 @@
-// What the options of `stormcellar grid` ask for.
+// Tests how the options of `stormcellar grid` are interpreted.
 #include "cli/grid/grid_request.h"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// The program itself, as a user runs it: what it prints and how it ends.
+// Runs the program as a user does, and tests what it prints and how it ends.
 #include <filesystem>
 #include <fstream>
 
@@ -26,7 +26,7 @@ class InfoTest : public ::testing::Test {
         std::ofstream(path, std::ios::binary) << text;
         return path;
     }
-    // One line on stderr that has all these parts, nothing on stdout, exit 1.
+    // Expects one line on stderr with all of these parts, nothing on stdout, and exit status 1.
     static void expect_refused(const ProgramResult& ran, const std::vector<std::string>& parts) {
         EXPECT_EQ(ran.status, 1);
         EXPECT_EQ(ran.out, "");
@@ -154,8 +154,8 @@ TEST_F(InfoTest, TheTableHasALineForEachSweep) {
     EXPECT_NE(ran.out.find("68 sweeps, 13623 radials; partial\n  volume 1  from sweep 0 on"),
               std::string::npos)
         << ran.out;
-    // Radials are missing in every sweep of this file: eight are named, the others counted;
-    // half of them lack their last radial; and the volumes but the last are given up.
+    // Radials are missing in every sweep of this file: eight are named, the others counted. Half of
+    // the sweeps lack their last radial, and all volumes but the last are discarded.
     const int facts = 12, blank_and_heading = 2, further_volumes = 3, blank_and_problems = 12;
     EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), 0x0A),
               facts + blank_and_heading + further_volumes + 68 + blank_and_problems)

@@ -1,4 +1,4 @@
-// Archives, directories and standard input, wherever a command takes raw files.
+// Tests archives, directories and standard input wherever a command takes raw files.
 #include "cli/shared/input_files.h"
 
 #include <filesystem>
@@ -135,7 +135,7 @@ TEST_F(InputFilesTest, AnArchiveIsReplayedMemberByMember) {
                     read_file(real(file)).value());
     }
     fs::create_directory(directory_ / "chunks");
-    // What cannot come in chunks is named, and the rest is played.
+    // Volumes that cannot be sent in chunks are named, and the others are replayed.
     const std::string in_records =
         (*testing::data_directory() / "volumes/KLBB20160601_150025_V06").string();
     const ProgramResult chunks =

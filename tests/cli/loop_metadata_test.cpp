@@ -1,4 +1,4 @@
-// What the files of loops say of themselves.
+// Tests the metadata in the files of loops.
 #include <map>
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The blocks of the first comment of a GIF.
+// Returns the blocks of the first comment of a GIF.
 std::string gif_comment(const std::string& path) {
     const auto bytes = *read_file(path);
     const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -48,7 +48,7 @@ TEST_F(Loop, EveryFormatSaysWhatItShowsAndHow) {
         for (const auto& [keyword, text] : png_texts(out(png)))
             texts[png] += keyword + ": " + text + "\n";
         if (std::string(png) == "a/frame_0002.png") continue;
-        EXPECT_EQ(png_texts(out(png))["Stations"], "");  // this grid names none
+        EXPECT_EQ(png_texts(out(png))["Stations"], "");  // this grid has none
     }
     for (const auto& [name, text] : texts) {
         SCOPED_TRACE(name);
@@ -85,7 +85,7 @@ TEST_F(Loop, FramesOfADamagedGridAreNotCounted) {
     EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("Frames: 2\n"));
 }
 
-// Whatever is in the grids, colours mean the same in each frame.
+// Whatever is in the grids, colors mean the same in each frame.
 
 }  // namespace
 }  // namespace stormcellar

@@ -1,5 +1,5 @@
-// The program itself, as a user runs it: `stormcellar grid` of several files, and frames scored on
-// volumes held out.
+// Runs the program as a user does: `stormcellar grid` for several files, and frames compared with
+// volumes that were held out.
 #include <filesystem>
 #include <map>
 
@@ -44,7 +44,7 @@ TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
     EXPECT_EQ(one["cells"], other["cells"]);
     EXPECT_EQ(one["time"], other["time"]);
     EXPECT_GT(one["cells"]["value"], 1000);
-    // Each sees what it sees alone, on the same columns.
+    // Each gives what it gives alone, on the same columns.
     const std::vector<std::string> same_columns = {"--center", "42.5,-75", "--extent-km",
                                                    "640,640"};
     const auto both = grid({real(bgm), real(enx)}, same_columns);
@@ -143,7 +143,8 @@ TEST_F(Mosaic, ALadderShowsWhatAFrameCosts) {
     ASSERT_EQ(steps["codes"].size(), 2U);
     for (const auto& [step, rows] : steps) {
         EXPECT_EQ(rows.back()["value_p99_db"], 0) << step;
-        // With one site both rules of overlap are the same: whichever was faster.
+        // With one site, both rules of overlap give the same result, so the faster one is on the
+        // front.
         EXPECT_TRUE(step == "overlap" || rows.back()["pareto"]) << step;
     }
     EXPECT_GT(steps["time"][0]["value_rms_db"], steps["time"][1]["value_rms_db"]);

@@ -1,4 +1,4 @@
-// What tests/packaging/check-reference compares with --help is looked at here in the small.
+// A small version of what tests/packaging/check-reference compares with --help.
 #include "cli/reference/reference.h"
 
 #include <CLI/CLI.hpp>
@@ -58,7 +58,7 @@ TEST_F(Reference, HoldsWhatTheParserKnows) {
     EXPECT_EQ(option("--spacing").group, "The grid");
     EXPECT_THROW((void)option("--secret"), std::runtime_error);
     EXPECT_THROW((void)option("--help"), std::runtime_error);
-    // Groups stand together, behind what has none, though --scene came first.
+    // Groups follow the options without a group, although --scene came first.
     EXPECT_EQ(reference_.inner[0].options.front().names.front(), "-o");
     EXPECT_EQ(reference_.inner[0].options.back().names.front(), "--spacing");
 }

@@ -1,4 +1,4 @@
-// stormcellar accuracy --compare-sites, run as a user runs it, on files of two simulated radars.
+// Runs `stormcellar accuracy --compare-sites` as a user does, on files of two simulated radars.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -53,7 +53,7 @@ TEST_F(SitePairs, AFaultIsMeasuredAndNamed) {
     EXPECT_THAT(printed.out, Not(HasSubstr("Not told")));
 }
 
-// One volume of each site: no motion, so no clock.
+// With one volume of each site there is no motion, so the clock cannot be judged.
 TEST_F(SitePairs, WhatCannotBeToldSaysWhy) {
     auto files = testing::write_two_radars(directory_.path(), 0);
     files.resize(2);
@@ -83,7 +83,7 @@ TEST_F(SitePairs, BadUsageIsSaid) {
     EXPECT_THAT(velocity.err, HasSubstr("compared by REF"));
 }
 
-// Seven sites of one night: too little echo in common for most, and no program that fails.
+// Seven sites of one night: most pairs have too little common echo, and the program does not fail.
 TEST_F(SitePairs, OfRealSitesEachPairHasARow) {
     STORMCELLAR_NEED_DATA();
     std::vector<std::filesystem::path> files;

@@ -1,4 +1,4 @@
-// `stormcellar status` against the real daemon, against nobody, and against who is no daemon.
+// Tests `stormcellar status` with the real daemon, with none, and with a program that is no daemon.
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -30,7 +30,7 @@ testing::ProgramResult status(std::vector<std::string> arguments) {
     return testing::run_program(STORMCELLAR_PROGRAM, arguments);
 }
 
-// The daemon is there once it answers.
+// The daemon is ready once it answers.
 bool wait_until_it_answers(const fs::path& state) {
     for (int i = 0; i < 1000; ++i) {
         if (status({"--state", state}).status == 0) return true;
@@ -82,7 +82,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     EXPECT_TRUE(document["source"]["age_s"].is_number());
     EXPECT_EQ(document["state"], "running") << "as it was last said";
     EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 1);
-    // The socket that it left is no hindrance.
+    // The socket that it left does no harm.
     daemon.start();
     EXPECT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
@@ -98,7 +98,7 @@ TEST(Status, ASocketElsewhereIsFound) {
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
 }
 
-// Files are taken in without it, but the service does not call itself ready.
+// Files are ingested without it, but the service does not report that it is ready.
 TEST(Status, TheDaemonStartsWithoutItsSocket) {
     RunningDaemon daemon;
     write_file(daemon.drop() / "junk", "no radar data");
@@ -184,7 +184,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     add_loops(document, {});
     EXPECT_EQ(document, none);
 
-    // The daemon's configuration names two; one of them is not in the file.
+    // The daemon's configuration names two loops; one of them is not in the file.
     write_file(file, keeper.dump());
     const json two = {
         {"loops",
@@ -200,7 +200,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     add_loops(document, directory / "nothing");
     EXPECT_EQ(document, two) << "as the daemon has it";
 
-    // One that was killed says what it said last; its loops run no more.
+    // A killed keeper leaves its last status; its loops no longer run.
     keeper["loops"]["each"][0]["running"] = true;
     for (const json& pid : {json(-1), json(0), json("x"), json(0x7FFFFFF0)}) {
         keeper["pid"] = pid;
@@ -230,7 +230,7 @@ TEST(StatusLoops, StandBesideWhatTheDaemonAnswers) {
     EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
 }
 
-// Answers the first who asks with what it is told, and goes.
+// Answers the first client with this text, and then ends.
 ErrorCode code_of_answer(const std::string& answer) {
     const testing::TemporaryDirectory directory;
     const fs::path path = directory / "s";
@@ -276,7 +276,7 @@ TEST(AskSocket, WhoIsNoDaemonIsSeen) {
     EXPECT_EQ(ask_socket("/" + std::string(200, 'x')).error().code, ErrorCode::io);
 }
 
-// 2026-11-25: --json wrote names as they are, and a terminal obeyed U+009B and U+202E in them.
+// 2026-11-25: --json printed names unescaped, and a terminal obeyed U+009B and U+202E in them.
 TEST(Status, JsonIsAsciiAndSaysTheSame) {
     const testing::TemporaryDirectory directory;
     const std::string name = "a\u009B31m\u202E\u2028\u00E9";

@@ -1,4 +1,4 @@
-// stormcellar synth and replay, run as a user runs them.
+// Runs `stormcellar synth` and `replay` as a user does.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -174,7 +174,7 @@ TEST_F(Synth, ReplayNamesMistakes) {
     EXPECT_THAT(faults.err, HasSubstr("faults: there is no 'lose'"));
 }
 
-// 2026-11-22: it said nothing of how long it would take or wait, and printed no document.
+// 2026-11-22: it did not report how long it would take or wait, and printed no document.
 TEST_F(Synth, AReplayThatWaitsSaysSoAndAnInterruptedOneWhatWasDone) {
     synthesise();
     fs::create_directory(at("drop"));

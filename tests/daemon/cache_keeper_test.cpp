@@ -35,7 +35,7 @@ class RollingSink final : public Sink {
 
 class CacheKeeperTest : public ::testing::Test {
   protected:
-    // Polls at one time until the roll that runs has ended and was taken.
+    // Polls at one time until the current roll has ended and was taken.
     std::optional<cache::StoreUsage> take(int rolls) {
         while (sink_.rolls < rolls)
             std::this_thread::sleep_for(milliseconds{1});

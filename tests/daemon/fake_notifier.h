@@ -1,4 +1,4 @@
-// tests/daemon/fake_notifier.h -- remembers what the service manager would be told.
+// tests/daemon/fake_notifier.h -- records what the service manager would be told.
 #pragma once
 
 #include <mutex>
@@ -23,7 +23,7 @@ class FakeNotifier final : public Notifier {
         return sent_;
     }
 
-    std::optional<std::chrono::microseconds> period;  // set before it is used
+    std::optional<std::chrono::microseconds> period;  // set before first use
 
   private:
     mutable std::mutex mutex_;

@@ -14,10 +14,11 @@ using std::chrono::seconds;
 constexpr FileStamp small{1, 100, 5};
 constexpr FileStamp large{1, 200, 6};
 
-// A disk of stamps, and a clock that moves a second at a time.
+// A disk of stamps, and a clock that advances a second at a time.
 class Growing : public ::testing::Test {
   protected:
-    // Moves to t0 + `second` and gives what is due there: "a" or "a!" when it shall be finished.
+    // Advances to t0 + `second` and returns the files that are due: "a", or "a!" if it is to be
+    // finished.
     std::string due_at(int second) {
         std::string text;
         const auto look = [this](const std::filesystem::path& path) -> FileFound {
@@ -75,7 +76,7 @@ TEST_F(Growing, AnIncompleteFileThatGrowsIsReadAgainWhenItRests) {
     disk_["a"] = large;
     EXPECT_EQ(due_at(26), "") << "just changed";
     EXPECT_EQ(due_at(27), "a");
-    // The quiet time begins anew with the next reading.
+    // The quiet time starts again with the next reading.
     files_.add_incomplete("a", large, t0 + seconds{28});
     EXPECT_EQ(due_at(57), "");
     EXPECT_EQ(due_at(58), "a!");
@@ -111,7 +112,7 @@ TEST_F(Growing, AnEmptyNewFileHasTheWholeQuietTime) {
     EXPECT_EQ(due_at(30), "a");
 }
 
-// Descriptors ran out: that is no reason to forget it.
+// If there are no descriptors left, the file must not be forgotten.
 TEST_F(Growing, AFileThatCannotBeLookedAtNowStays) {
     files_.add_incomplete("a", small, t0);
     disk_["a"] = small;
@@ -129,7 +130,7 @@ TEST_F(Growing, AFileThatVanishesIsForgotten) {
     EXPECT_FALSE(files_.next_time());
 }
 
-// No event may have come, and a volume may wait in its name.
+// There may have been no event, and a volume may wait under this name.
 TEST_F(Growing, AnIncompleteFileThatVanishesIsDue) {
     files_.add_incomplete("a", small, t0);
     EXPECT_EQ(due_at(1), "a");

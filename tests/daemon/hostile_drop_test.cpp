@@ -1,6 +1,6 @@
-// The real program on a drop directory that means harm: every refusal has its reason in the log or
-// the status, good volumes beside are gridded, and nothing outside of the configured directories is
-// read or written.
+// Runs the real program on a hostile drop directory. Every refusal has its reason in the log or the
+// status, good volumes are gridded, and nothing outside of the configured directories is read or
+// written.
 #include "tests/daemon/hostile_drop.h"
 
 #include <array>
@@ -27,7 +27,7 @@ namespace wire = level2::wire;
 using nlohmann::json;
 using wire::Bytes;
 
-// When a file was read last, written last and changed last, and its size.
+// The times of the last read, write and change of a file, and its size.
 using Facts = std::array<std::int64_t, 4>;
 Facts facts_of(const fs::path& path) {
     struct stat facts {};
@@ -44,7 +44,7 @@ std::map<fs::path, Facts> facts_below(const fs::path& directory) {
     return all;
 }
 
-// Read long ago, so that the next reading is noted even where few are (relatime).
+// Sets an old access time, so that the next read is recorded even with relatime.
 void forget_reading(const fs::path& path) {
     const std::array<timespec, 2> times = {timespec{1'000'000'000, 0}, timespec{1'600'000'000, 0}};
     ASSERT_EQ(::utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
@@ -58,7 +58,8 @@ void make_socket(const fs::path& path) {
     ::close(socket);
 }
 
-// Everything that may stand in a directory and is neither file nor directory. Gives the names.
+// Makes everything that can exist in a directory and is neither file nor directory. Returns the
+// names.
 std::vector<std::string> make_oddities(const fs::path& in, const fs::path& outside) {
     fs::create_directories(in);
     fs::create_symlink(outside / "KTLX_volume", in / "to-a-file");
@@ -73,7 +74,7 @@ std::vector<std::string> make_oddities(const fs::path& in, const fs::path& outsi
     std::vector<std::string> names = {"to-a-file", "to-a-directory", "dangling", "loop-a", "loop-b",
                                       "upwards",   "memory",         "fifo",     "socket"};
     if (::mknod((in / "device").c_str(), S_IFCHR | 0666, makedev(1, 5)) == 0)
-        names.emplace_back("device");  // of zeros without end
+        names.emplace_back("device");  // an endless source of zeros
     if (::mknod((in / "disk").c_str(), S_IFBLK | 0666, makedev(7, 0)) == 0)
         names.emplace_back("disk");
     return names;
@@ -109,7 +110,7 @@ TEST_F(HostileDrop, LinksFifosSocketsAndDevicesAreNamedAndNeverOpened) {
     EXPECT_EQ(log.find(line), log.rfind(line)) << "said once, not with each scan";
 }
 
-// Somebody exchanges a directory for a link to another one, thousands of times.
+// Somebody replaces a directory by a link to another one, thousands of times.
 TEST_F(HostileDrop, NamesThatAreSwappedForLinksLeadNowhere) {
     put(drop() / "day/KTLX_a", volume());
     put(outside() / "KTLX_a", volume(3));
@@ -135,7 +136,7 @@ TEST_F(HostileDrop, NamesThatAreSwappedForLinksLeadNowhere) {
     EXPECT_EQ(facts_below(outside()).size(), before.size());
 }
 
-// One that is looked at again each second, under a name that leads elsewhere by then.
+// A growing file is looked at again each second, and its path then leads elsewhere.
 TEST_F(HostileDrop, AGrowingFileWhoseDirectoryBecomesALinkIsNotReadOn) {
     const Bytes messages = wire::radial_messages(2, 360);
     Bytes plain = wire::archive_header();
@@ -225,7 +226,7 @@ TEST_F(HostileDrop, NamesForgeNoLine) {
     }
 }
 
-// As another user than the one who owns the files: root may read everything.
+// Runs as a user who does not own the files, because root may read everything.
 TEST_F(HostileDrop, WhatMayNotBeReadIsNamedAndTakenOnceItMay) {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can run it as a user without rights";
     put(drop() / "KTLX_closed", volume());

@@ -1,4 +1,4 @@
-// The real program on files and directories that would take all memory or time: huge ones, and
+// Runs the real program on files and directories that could take all memory or time: huge ones, and
 // small ones that unpack to as much.
 #include <thread>
 
@@ -47,7 +47,7 @@ TEST_F(HostileSizes, HugeSparseFilesAreRefusedBySize) {
     EXPECT_EQ(daemon_.terminate(), 0);
 }
 
-// The largest that is read: all zeros, and a volume with zeros behind.
+// The largest that is still read: all zeros, and a volume followed by zeros.
 TEST_F(HostileSizes, SparseFilesBelowTheLimitAreReadAndStayBounded) {
     for (int i = 0; i < 4; ++i) {
         const fs::path path = drop() / ("KTLX_" + std::to_string(i));
@@ -146,7 +146,7 @@ TEST_F(HostileSizes, BombsOfGzipAndCompressAreRejected) {
     EXPECT_EQ(daemon_.terminate(), 0);
 }
 
-// A directory in a directory, and so on; the directory's name is "d".
+// A directory in a directory, and so on; each is named "d".
 void make_deep(const fs::path& top, int depth) {
     int at = ::open(top.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
     for (int i = 0; i < depth; ++i) {
@@ -158,7 +158,7 @@ void make_deep(const fs::path& top, int depth) {
     ::close(at);
 }
 
-// Whoever removes it by descending runs out of descriptors; rm does not.
+// Removing it recursively with open directories would run out of descriptors; rm does not.
 void remove_deep(const fs::path& top) {
     ASSERT_EQ(testing::run_program("/bin/rm", {"-rf", top.native()}).status, 0);
 }

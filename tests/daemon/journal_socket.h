@@ -1,5 +1,5 @@
 // tests/daemon/journal_socket.h -- the journal's end of its socket, and a reader of its entries
-// that is written after the protocol's description and knows nothing of our writer.
+// that follows the description of the protocol and is independent of our writer.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace stormcellar::daemon {
 
 using JournalFields = std::map<std::string, std::string>;
 
-// None where the bytes break the protocol.
+// Returns none if the bytes break the protocol.
 inline std::optional<JournalFields> read_journal_entry(const std::string& bytes) {
     JournalFields fields;
     std::size_t at = 0;
@@ -71,10 +71,10 @@ class JournalSocket {
     ~JournalSocket() { ::close(descriptor_); }
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    // Whether the last entry came as a file.
+    // Returns true if the last entry came as a file.
     [[nodiscard]] bool was_file() const { return was_file_; }
 
-    // The bytes of the next entry; none when none is there.
+    // Returns the bytes of the next entry; none if there is none.
     std::optional<std::string> receive() {
         pollfd source{descriptor_, POLLIN, 0};
         if (::poll(&source, 1, 0) <= 0) return std::nullopt;
@@ -104,7 +104,7 @@ class JournalSocket {
     }
 
   private:
-    // As the journal does: what somebody could still change it does not take.
+    // Like the journal, refuses a file that somebody could still change.
     static std::optional<std::string> read_sealed(int file) {
         constexpr int needed = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
         if ((::fcntl(file, F_GET_SEALS) & needed) != needed) return std::nullopt;

@@ -60,8 +60,8 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
         << "a new minute";
 }
 
-// Names are the feed's to choose: 100,000 of them make no more lines, and take no more memory,
-// than a few do. An hour of it, each line once a minute.
+// A feed can use any names. 100,000 of them cause no more lines and take no more memory than a few.
+// Simulates an hour, with each line once a minute.
 TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
     LineLimiter limiter;
     std::uint64_t written = 0;
@@ -90,7 +90,7 @@ TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
     EXPECT_EQ(held_back, minutes * a_minute - shown) << "none is lost uncounted";
 }
 
-// 2026-11-25: where invented names had filled the places, all other stations counted as one.
+// 2026-11-25: once invented names had filled the places, all other stations counted as one.
 TEST(LineLimiter, InventedSubjectsTakeNoLinesFromOthers) {
     LineLimiter limiter;
     for (std::size_t i = 0; i < 2 * LineLimiter::most_subjects; ++i)
@@ -111,8 +111,8 @@ TEST(LineLimiter, TheGravestOfWhatIsHeldBackCounts) {
     EXPECT_EQ(held[0].severity, Severity::warning);
 }
 
-// The heaviest feed there is: 160 sites, a volume every four minutes each, and a backlog of one of
-// them.
+// The heaviest feed possible: 160 sites with a volume every four minutes each, and a backlog of one
+// of them.
 TEST(LineLimiter, AFeedAsItShouldBeIsNotHeldBack) {
     LineLimiter limiter;
     for (int second = 0; second < 3600; ++second) {

@@ -1,4 +1,4 @@
-// The daemon carries what ingest needs and nothing more: no renderer, no video, no netCDF.
+// The daemon links what ingest needs and nothing more: no renderer, no video, no netCDF.
 #include <sstream>
 #include <string>
 #include <vector>

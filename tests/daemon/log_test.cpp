@@ -42,15 +42,15 @@ class LogTest : public ::testing::Test {
         set_up_logging("info");
         ::unsetenv("JOURNAL_STREAM");
     }
-    // How many entries have come.
+    // Returns how many entries have arrived.
     int count() {
         int entries = 0;
         while (socket_->receive())
             ++entries;
         return entries;
     }
-    // How many entries have come of so many lines, read as they come: a socket may hold no more
-    // than ten.
+    // Returns how many entries arrive for this many lines. They are read as they arrive, because a
+    // socket may hold no more than ten.
     int count_of(int lines, const std::function<void(int)>& log_line) {
         int entries = 0;
         for (int i = 0; i < lines; ++i) {
@@ -153,7 +153,7 @@ TEST_F(LogTest, OfALoopTheLoopIsNamed) {
     EXPECT_EQ(fields->at("PRIORITY"), "6") << "of the lines that it stands for";
 }
 
-// Who asks for them wants them all.
+// People who switch on debugging want all lines.
 TEST_F(LogTest, LinesForDebuggingAreNotHeldBack) {
     begin("debug");
     for (int i = 0; i < 300; ++i) {

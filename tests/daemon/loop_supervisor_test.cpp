@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 
 class LoopKeeperTest : public ::testing::Test {
   protected:
-    // A program that stands for stormcellar. It first adds a line "start PID ARGUMENTS" to `log`.
+    // Makes a program in place of stormcellar. It first adds a line "start PID ARGUMENTS" to `log`.
     fs::path program(const std::string& body) {
         const fs::path path = directory_ / "program";
         write_file(path, "#!/bin/sh\necho start $$ \"$*\" >>" + log().native() + "\n" + body);
@@ -88,7 +88,7 @@ TEST_F(LoopKeeperTest, AProgramThatIsNotThereIsSaid) {
     EXPECT_FALSE(states_[0].is_running);
     EXPECT_THAT(states_[0].last_problem, HasSubstr("No such file or directory"));
     EXPECT_EQ(states_[0].restarts, 0U);
-    // It may come later.
+    // It may appear later.
     fs::rename(program(for_ever), directory_ / "none");
     EXPECT_TRUE(wait_for([&] { return states_[0].is_running; }));
 }
@@ -102,7 +102,7 @@ TEST_F(LoopKeeperTest, AKilledLoopIsStartedAgain) {
     EXPECT_EQ(states_[0].last_problem, "signal 9");
 }
 
-// 2026-11-22: "signal 9: note: no grid ...; waiting for one" minutes after that note.
+// 2026-11-22: "signal 9: note: no grid ...; waiting for one" was logged minutes after that note.
 TEST_F(LoopKeeperTest, AnOldLineIsNoReasonOfAnEnd) {
     keep(program(
         "echo 'note: waiting' >&2\nsleep 0.2\necho '{\"frames\": 3}'\nsleep 0.2\nexit 7\n"));
@@ -180,7 +180,7 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
     EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
 }
 
-// The watchdog goes by this: between its turns the thread rests, however long.
+// The watchdog depends on this: the thread rests between its turns, however long.
 TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     keep(program("sleep 100\n"));
     EXPECT_FALSE(keeper_->pulse().since()) << "no loops, no thread that could hang";
@@ -189,7 +189,7 @@ TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); }));
 }
 
-// Told of news in the middle of its turn, it is held there.
+// The thread is blocked in the middle of its turn, when it reports news.
 TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
     std::atomic<bool> hangs = true;
     keeper_ = std::make_unique<LoopSupervisor>(

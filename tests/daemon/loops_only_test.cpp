@@ -1,4 +1,4 @@
-// Loops kept by a process of their own: stormcellard --loops-only beside stormcellard --no-loops.
+// Tests loops in a process of their own: stormcellard --loops-only beside stormcellard --no-loops.
 #include <csignal>
 #include <filesystem>
 #include <map>
@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr const char* its_status = "loops/status.json";
 
-// One loop of a cache that another daemon fills.
+// A loop of a cache that another daemon fills.
 class LoopsOnly : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -36,7 +36,8 @@ class LoopsOnly : public ::testing::Test {
         return "[[loop]]\nname = \"binghamton\"\nscene = \"scene.toml\"\ndomain = \"KBGM\"\n"
                "outputs = [\"out/kbgm.webp\"]\n";
     }
-    // Whether it answers so within 20 s: it looks at the others' file every few seconds.
+    // Returns true if the metric has this line within 20 s; the daemon reads the file every few
+    // seconds.
     static bool has_metric(const RunningDaemon& daemon, const std::string& line) {
         const fs::path socket = daemon.root() / "state/status.sock";
         for (int i = 0; i < 200; ++i) {

@@ -41,7 +41,7 @@ class Loops : public ::testing::Test {
     void drop(const std::string& name) {
         fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, daemon_.drop() / name);
     }
-    // Of the loop that was started last.
+    // Returns the process of the loop that was started last.
     pid_t process() const {
         const std::string log = daemon_.log();
         const std::size_t at = log.rfind("started, process ");
@@ -111,7 +111,7 @@ TEST_F(Loops, ALoopThatDiesIsStartedAgain) {
 
 TEST_F(Loops, ALoopEndsWithADaemonThatIsKilled) {
     daemon_.start(one_loop, with_program());
-    // It listens to its parent's end by the time that it waits.
+    // Once it waits, it has already asked to be ended with its parent.
     ASSERT_TRUE(daemon_.wait_for_log("waiting for one")) << daemon_.log();
     const pid_t loop = process();
     daemon_.signal(SIGKILL);
@@ -141,7 +141,7 @@ TEST_F(Loops, AReloadStartsAndStopsThem) {
     EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
 }
 
-// 2026-11-22: that a scene's file was there was all that was looked at.
+// 2026-11-22: only the existence of a scene's file was checked.
 TEST(CheckConfig, LooksIntoTheLoopsScenes) {
     const testing::TemporaryDirectory directory;
     const auto check = [&](const std::string& scene, const std::string& loop,
@@ -149,7 +149,7 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
         write_file(directory / "scene.toml", scene);
         write_file(directory / "c.toml",
                    "[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\n" + loop);
-        // `env` sets where stormcellar is.
+        // `env` sets where stormcellar is found.
         return testing::run_program("/usr/bin/env", {"PATH=" + path, STORMCELLARD, "--check-config",
                                                      "--config", (directory / "c.toml").native()});
     };

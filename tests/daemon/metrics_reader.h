@@ -1,7 +1,7 @@
 // tests/daemon/metrics_reader.h -- a strict reader of Prometheus' text format 0.0.4.
 //
-// Throws std::runtime_error with the line for whatever the format does not allow, and for what our
-// own text shall not hold: a family without HELP or TYPE, one that appears twice, a series twice.
+// It throws std::runtime_error with the line for everything that the format forbids, and for what
+// our own text must not contain: a family without HELP or TYPE, a family twice, a series twice.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace stormcellar::daemon {
 
 struct MetricFamily {
     std::string type, help;
-    // By the whole of what stands before the value, labels sorted: NAME{a="x",b="y"}.
+    // By the name with its sorted labels: NAME{a="x",b="y"}.
     std::map<std::string, double> samples;
 };
 

@@ -1,4 +1,4 @@
-// tests/daemon/notify_socket.h -- a service manager's end of sd_notify.
+// tests/daemon/notify_socket.h -- the service manager's end of sd_notify.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class NotifySocket {
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-    // The next message; empty when none comes within the time.
+    // Returns the next message; empty if none comes within the time.
     std::string receive(int within_ms = 100) {
         pollfd source{descriptor_, POLLIN, 0};
         if (::poll(&source, 1, within_ms) <= 0) return {};

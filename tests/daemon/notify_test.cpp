@@ -68,7 +68,7 @@ TEST(Watchdog, DoesNothingWhenThereIsNone) {
     EXPECT_FALSE(watchdog.next_time());
 }
 
-// Also where there is no watchdog: whoever looks at the log shall know.
+// Also without a watchdog, so that the log shows it.
 TEST(Watchdog, AHangIsNamedOnce) {
     for (const auto period :
          {std::optional<microseconds>{seconds{8}}, std::optional<microseconds>{}}) {

@@ -47,7 +47,7 @@ TEST_F(ReadyJobsTest, WhatIsLiveGoesBeforeTheBacklogWhichIsNewestFirst) {
     EXPECT_EQ(all(), "live newer older older-too");
 }
 
-// Of what had to give its place in the queue a scan tells again and again.
+// A scan reports again and again the files that gave up their places in the queue.
 TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
     for (int i = 0; i < 10; ++i) {
         ReadyJobs::Key found = live("KAAA", 1000 + i);
@@ -61,7 +61,7 @@ TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
               "found found found found found found found found");
 }
 
-// Under a flood of live files what stood there before a restart would wait for its end.
+// Otherwise, files from before a restart would wait until a flood of live files ends.
 TEST_F(ReadyJobsTest, TheBacklogOfKnownStationsDoesNotStandStill) {
     add(backlog(50, "KTLX"), "old");
     add(backlog(50), "others");
@@ -129,7 +129,8 @@ TEST_F(ReadyJobsTest, ClassesHaveTheirTurnsAndNoneStandsStill) {
     std::string kinds;
     for (int i = 0; i < 26; ++i)
         kinds += next().front();
-    const std::string round = "ooooooooffffo";  // eight that go on, four fresh, one of the others
+    // eight that are going on, four fresh, one of the others
+    const std::string round = "ooooooooffffo";
     EXPECT_EQ(kinds, round + round);
     EXPECT_EQ(next(), "on16") << "the next round";
 }
@@ -162,12 +163,12 @@ TEST_F(ReadyJobsTest, WhoMayNotBeginIsPassedOver) {
     EXPECT_EQ(next(), "a");
 }
 
-// However the jobs come, no station is served twice while another one waits.
+// In whatever order jobs come, no station is served twice while another one waits.
 TEST_F(ReadyJobsTest, NoStationIsServedTwiceWhileAnotherWaits) {
     std::mt19937 random(7);
     std::map<std::string, int> waiting;
     const std::array<std::string, 5> stations = {"KAAA", "KBBB", "KCCC", "KDDD", "KEEE"};
-    std::map<std::string, int> passed;  // how often others were served since it waits
+    std::map<std::string, int> passed;  // how often others were served while it waits
     for (const std::string& station : stations)
         passed[station] = 0;
     int served = 0;

@@ -1,4 +1,4 @@
-// What went is looked for and, long after, forgotten: when, and what is said of it.
+// Tests when missing files are looked for and, much later, forgotten, and what is logged.
 #include "daemon/care/row_keeper.h"
 
 #include <atomic>
@@ -47,7 +47,7 @@ class RowKeeperTest : public ::testing::Test {
                        {.journal = journal_.path(), .clock = std::chrono::steady_clock::now});
     }
     void TearDown() override { set_up_logging("info"); }
-    // Until it has looked so often.
+    // Waits until it has looked this often.
     void look(int looks, milliseconds gone_rows_kept_for = {}) {
         for (int i = 0; i < 10'000 && sink_.looks < looks; ++i) {
             keeper_.look(now_, gone_rows_kept_for);
@@ -59,7 +59,7 @@ class RowKeeperTest : public ::testing::Test {
         for (int i = 0; i < 10'000 && keeper_.pulse().since(); ++i)
             std::this_thread::sleep_for(milliseconds{1});
     }
-    // The next line of the log; "" where none comes.
+    // Returns the next line of the log; "" if none comes.
     std::string next_line() {
         for (int i = 0; i < 10'000; ++i) {
             if (const auto fields = journal_.receive_fields()) return fields->at("MESSAGE");

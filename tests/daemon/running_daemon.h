@@ -1,7 +1,7 @@
-// tests/daemon/running_daemon.h -- the real stormcellard on directories of its own.
+// tests/daemon/running_daemon.h -- runs the real stormcellard on directories of its own.
 //
-// root/drop, root/state, root/cache and root/stormcellard.toml; its log goes to root/log. The
-// process is killed when the object goes.
+// They are root/drop, root/state, root/cache and root/stormcellard.toml; the log goes to root/log.
+// The process is killed when the object is destroyed.
 #pragma once
 
 #include <chrono>
@@ -27,20 +27,21 @@ class RunningDaemon {
     RunningDaemon& operator=(const RunningDaemon&) = delete;
     ~RunningDaemon();
 
-    // `more` is added to the configuration, which names the paths, `options` to the command line;
-    // throws when it cannot start.
+    // `more` is added to the configuration, which names the paths, and `options` to the command
+    // line. Throws if the program cannot be started.
     void start(const std::string& more = {},
                const std::map<std::string, std::string>& environment = {},
                const std::vector<std::string>& options = {});
-    // Started by this program, which must become it (setpriv, unshare); before start().
+    // Starts it through this program, which must become it (setpriv, unshare). Call it before
+    // start().
     void run_under(std::vector<std::string> program) { under_ = std::move(program); }
     [[nodiscard]] pid_t id() const { return child_; }
-    // The most memory that it has had resident; -1 where that cannot be read.
+    // Returns its peak resident memory; -1 if it cannot be read.
     [[nodiscard]] long peak_mib() const;
     void signal(int number) const;
-    // The exit status, or minus the signal that ended it. Throws after 60 s.
+    // Returns the exit status, or minus the signal that ended it. Throws after 60 s.
     int wait();
-    // The same at once; none while it runs.
+    // Returns the same at once; none while it runs.
     std::optional<int> ended();
     int terminate();
 
@@ -49,9 +50,9 @@ class RunningDaemon {
     [[nodiscard]] std::filesystem::path catalog() const { return root_ / "state/catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return root_ / "cache"; }
     [[nodiscard]] std::string log() const;
-    // Null when there is none yet. `name`: below root/state.
+    // Returns null if there is none yet. `name` is below root/state.
     [[nodiscard]] nlohmann::json status(const std::string& name = "status.json") const;
-    // False when it does not come true within a minute.
+    // Returns false if it does not become true within a minute.
     bool wait_for(const std::function<bool(const nlohmann::json&)>& status,
                   const std::string& name = "status.json") const;
     bool wait_for_log(const std::string& text) const;

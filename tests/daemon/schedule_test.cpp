@@ -144,7 +144,7 @@ Job job_of(const std::string& path, const std::string& station, Urgency urgency 
     return made;
 }
 
-// 2026-11-25: files that could not be taken in filled the queue, and what came was refused.
+// 2026-11-25: files that could not be ingested filled the queue, and new files were refused.
 TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
     Schedule schedule(4);
     for (int i = 0; i < 4; ++i) {
@@ -158,11 +158,11 @@ TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
         EXPECT_EQ(schedule.offer(job("good" + std::to_string(i))), Offered::queued);
     EXPECT_EQ(schedule.offer(job("more")), Offered::refused);
     EXPECT_EQ(schedule.waiting_count(), 4U);
-    // No more wait so than the bound: what fails now is forgotten.
+    // No more than this may wait; a job that fails now is forgotten.
     const auto running = schedule.next(t0);
     EXPECT_FALSE(schedule.retry(*running, t0));
     EXPECT_EQ(schedule.running_count(), 0U);
-    // When their time has come they are jobs as all others.
+    // Once their time has come, they are like other jobs.
     for (int i = 0; i < 7; ++i)
         EXPECT_TRUE(schedule.next(t0 + seconds{1})) << i;
     EXPECT_EQ(schedule.retrying_count(), 0U);
@@ -185,8 +185,8 @@ TEST(Schedule, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_EQ(schedule.waiting_count(), 6U);
 }
 
-// 2026-11-25: at the bound a flood in the names of all stations left none but old jobs of each:
-// what had just come gave its place to the next.
+// 2026-11-25: at the limit, a flood in the names of all stations left only old jobs of each: a new
+// job took the place of the newest one.
 TEST(Schedule, AtTheBoundWhatWouldBeServedLastGivesWay) {
     Schedule schedule(4);
     const auto job_at = [](const char* path, std::int64_t newest_ns, bool is_begun = false) {
@@ -254,7 +254,7 @@ TEST(Schedule, AHoldConcernsEveryJob) {
     EXPECT_TRUE(schedule.next(t0 + seconds{4}));
 }
 
-// Against the obvious: a list that is searched.
+// Compares with an obvious implementation: a list that is searched.
 TEST(Schedule, AgreesWithAPlainListUnderRandomUse) {
     std::mt19937 random(20261121);
     Schedule schedule(8);
@@ -344,7 +344,7 @@ TEST(Schedule, SaysWhenTheNextIsToBeRegistered) {
     EXPECT_FALSE(schedule.next_unregistered_time());
 }
 
-// One that failed and has waited for its next try is not one that nobody had time for.
+// A job that failed and waited for its next try was not waiting for a free worker.
 TEST(Schedule, ARetryWaitsSinceItsTime) {
     Schedule schedule(10);
     schedule.offer(job("a", 1), t0);

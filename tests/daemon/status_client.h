@@ -1,4 +1,4 @@
-// tests/daemon/status_client.h -- somebody who asks for the status, as badly as the test wants.
+// tests/daemon/status_client.h -- a client that asks for the status, as badly as a test wants.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +19,11 @@ class StatusClient {
     ~StatusClient();
 
     [[nodiscard]] bool is_connected() const { return descriptor_ >= 0; }
-    // False when the other side has ended it.
+    // Returns false if the other side has closed the connection.
     bool send(const std::string& text) const;
-    // All up to the end of the connection; none when it does not end within 20 s.
+    // Returns everything up to the end of the connection; none if it does not end within 20 s.
     [[nodiscard]] std::optional<std::string> read_to_end() const;
-    // Sends and reads; "" when nothing comes.
+    // Sends and reads; returns "" if nothing comes.
     [[nodiscard]] std::string ask(const std::string& request) const;
 
   private:
@@ -31,9 +31,9 @@ class StatusClient {
     int descriptor_ = -1;
 };
 
-// "GET PATH" as HTTP/1.0.
+// Returns "GET PATH" as HTTP/1.0.
 [[nodiscard]] std::string get(const std::string& path);
-// What follows the headers.
+// Returns what follows the headers.
 [[nodiscard]] std::string body_of(const std::string& answer);
 
 }  // namespace stormcellar::daemon

@@ -1,4 +1,4 @@
-// What is asked for is answered, and nobody who asks badly keeps others from it.
+// Requests are answered, and badly behaved clients do not keep others from being answered.
 #include "daemon/status/status_server.h"
 
 #include <atomic>
@@ -35,7 +35,7 @@ class StatusServerTest : public ::testing::Test {
                 .freshness = milliseconds{0},
                 .most_connections = 8};
     }
-    // For clients that are to be cut off soon.
+    // for clients that are to be cut off soon
     [[nodiscard]] StatusServerOptions impatient() const {
         StatusServerOptions options = quick();
         options.longest_connection = milliseconds{300};
@@ -50,7 +50,7 @@ class StatusServerTest : public ::testing::Test {
     [[nodiscard]] std::string ask(const std::string& request) const {
         return StatusClient::at_path(path()).ask(request);
     }
-    // On a busy machine one who asks well may be cut off too.
+    // On a busy machine, well-behaved clients may be cut off as well.
     [[nodiscard]] bool answers() const {
         for (int i = 0; i < 100; ++i)
             if (body_of(ask(get("/metrics"))) == metrics_) return true;
@@ -62,8 +62,8 @@ class StatusServerTest : public ::testing::Test {
     std::atomic<int> rendered_ = 0;
 };
 
-// The watchdog sees who answers when it stands still in the middle of an answer, and not when it
-// waits for a question.
+// The watchdog must see a server that hangs in the middle of an answer, but not one that waits for
+// a request.
 TEST_F(StatusServerTest, IsSeenToHang) {
     std::atomic<bool> hangs = true;
     const StatusServer server(quick(), [&](StatusPage) {
@@ -79,7 +79,7 @@ TEST_F(StatusServerTest, IsSeenToHang) {
         for (int i = 0; i < 100 && hangs; ++i)
             (void)ask(get("/metrics"));
     });
-    // Two looks that see the same step are one at which it stands.
+    // If two looks see the same step, the thread hangs in it.
     std::optional<SteadyTime> since;
     for (int i = 0; i < 1000; ++i) {
         const auto first = server.pulse().since();
@@ -104,7 +104,7 @@ bool says_how_to_take_it(const std::string& answer) {
            answer.find("X-Content-Type-Options: nosniff\r\n") != std::string::npos;
 }
 
-// A port that nobody has, this moment.
+// Returns a port that is free at this moment.
 int free_port() {
     const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -207,7 +207,7 @@ TEST_F(StatusServerTest, MoreConnectionsThanThereMayBeWaitTheirTurn) {
     EXPECT_TRUE(answers()) << "once the silent ones were cut off";
 }
 
-// 2026-11-22: until the silent ones were cut off, 10 s later, nobody was answered.
+// 2026-11-22: nobody was answered until silent connections were cut off 10 s later.
 TEST_F(StatusServerTest, SilentConnectionsMakeRoomForWhoAsks) {
     StatusServerOptions options = quick();
     options.longest_connection = std::chrono::hours{1};
@@ -229,7 +229,7 @@ TEST_F(StatusServerTest, BrokenRequestsAndHastyGoodbyesChangeNothing) {
           std::string{"GET /metrics HTTP/1.0\r\nContent-Length: -1\r\n\r\n"},
           std::string{
               "GET /metrics HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"}}) {
-        StatusClient::at_path(path()).send(request);  // and gone
+        StatusClient::at_path(path()).send(request);  // and closes the connection
         EXPECT_TRUE(StatusClient::at_path(path()).is_connected());
         (void)ask(request);
     }
@@ -269,7 +269,7 @@ TEST_F(StatusServerTest, ThePortIsOfThisMachineAlone) {
     EXPECT_EQ(all.find("00000000" + port), std::string::npos);
 }
 
-// 2026-11-25: a page of the web that gives its name this machine's address (DNS rebinding) was
+// 2026-11-25: a web page whose host name had the address of this machine (DNS rebinding) was
 // answered, and its browser let it read the answer.
 TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     StatusServerOptions options = quick();
@@ -297,7 +297,7 @@ TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     EXPECT_EQ(rendered_, 5) << "no page was made for those who were refused";
 }
 
-// 2026-11-25: nothing kept a browser from storing an answer, or from taking it for another type.
+// 2026-11-25: nothing kept a browser from storing an answer, or from guessing another type.
 TEST_F(StatusServerTest, EveryAnswerSaysHowItIsToBeTaken) {
     const StatusBoard empty;
     const StatusServer server(quick(), pages_of(empty));
@@ -308,7 +308,7 @@ TEST_F(StatusServerTest, EveryAnswerSaysHowItIsToBeTaken) {
     }
 }
 
-// Connections to the port that say nothing, all asked for before anybody takes one.
+// Opens silent connections to the port, all of them before any is accepted.
 std::vector<Descriptor> silent_connections(int port, int count) {
     std::vector<Descriptor> all;
     for (int i = 0; i < count; ++i) {
@@ -327,9 +327,9 @@ std::ptrdiff_t open_descriptors() {
     return std::distance(begin(all), end(all));
 }
 
-// 2026-11-25: the kernel kept 16 of them for the server, and dropped what came behind, which tried
-// again after 1 s and after 3 s. And once as many as may be were there, the server slept although
-// those that it had cut made room.
+// 2026-11-25: the kernel queued 16 of them for the server and dropped the others, which tried again
+// after 1 s and after 3 s. And once the limit was reached, the server slept although the
+// connections that it had cut made room.
 TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     constexpr int silent = 200;
     StatusServerOptions options = quick();
@@ -345,7 +345,7 @@ TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     const auto ask_it = [&] {
         return StatusClient::at_port(false, options.http_port).ask(get("/metrics"));
     };
-    // The server's thread is at a page while they come.
+    // The server's thread is making a page while they arrive.
     auto first = std::async(std::launch::async, ask_it);
     while (!is_at_a_page)
         std::this_thread::sleep_for(milliseconds{1});
@@ -365,7 +365,7 @@ TEST_F(StatusServerTest, ASocketOfAKilledDaemonIsTakenOver) {
     {
         auto left = ListeningSocket::at_path(path());
         ASSERT_TRUE(left) << left.error().message;
-        std::filesystem::rename(path(), directory_ / "kept");  // it is not removed at the end
+        std::filesystem::rename(path(), directory_ / "kept");  // so it is not removed at the end
     }
     std::filesystem::rename(directory_ / "kept", path());
     const StatusServer server(quick(), render());

@@ -1,4 +1,4 @@
-// tests/daemon/steady_start.h -- the steady time at which tests with made times begin.
+// tests/daemon/steady_start.h -- the steady time at which tests with their own times begin.
 #pragma once
 
 #include <chrono>

@@ -65,7 +65,7 @@ TEST(TreeWalk, LeavesOutLinksFifosAndTemporaryNames) {
     EXPECT_EQ(seen->others, (std::set<std::string>{"fifo", "link", "linked"}));
 }
 
-// What appears deep down is found by a walk of its own, and lies as deep as ever.
+// A directory that appears deep down is found by a walk of its own, and its depth still counts.
 TEST(TreeWalk, DepthCountsFromWhereItIsSaidTo) {
     const testing::TemporaryDirectory directory;
     fs::create_directories(directory / "a/b");

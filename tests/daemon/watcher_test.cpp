@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Remembers what was said, as "closed NAME" and so on, names relative to the drop directory.
+// Records the calls as "closed NAME" and so on, with names relative to the drop directory.
 class Notes final : public WatchListener {
   public:
     explicit Notes(fs::path drop) : drop_(std::move(drop)) {}
@@ -48,7 +48,7 @@ class Notes final : public WatchListener {
     [[nodiscard]] bool has(const std::string& line) const {
         return std::find(said.begin(), said.end(), line) != said.end();
     }
-    // The files that were reported to be taken, however that was.
+    // Returns the files that were reported to be ingested, in whatever way.
     [[nodiscard]] std::set<std::string> taken() const {
         std::set<std::string> names;
         for (const std::string& line : said) {
@@ -78,7 +78,7 @@ class RealWatcher : public ::testing::Test {
         watcher_ = std::make_unique<Watcher>(drop(), *events_, notes_);
     }
     [[nodiscard]] fs::path drop() const { return directory_.path(); }
-    // Handles all events that come until there were none for a moment.
+    // Handles all events until there are none for a moment.
     void settle() {
         pollfd source{events_->descriptor(), POLLIN, 0};
         while (::poll(&source, 1, 50) > 0)
@@ -119,7 +119,8 @@ TEST_F(RealWatcher, WhatComesDuringAScanIsSeenBeforeItsEnd) {
     EXPECT_GT(notes_.said.end() - closed, count / 2) << "half of the scan came after it";
 }
 
-// 2026-11-25: a tree of 10,000 directories that was renamed again and again took all of the thread.
+// 2026-11-25: a tree of 10,000 directories that was renamed again and again took all the time of
+// the thread.
 TEST_F(RealWatcher, DirectoriesThatComeAndGoTooFastAreLeftToTheNextScan) {
     for (int i = 0; i < 5000; ++i)
         fs::create_directories(drop() / "tree0" / std::to_string(i));
@@ -207,7 +208,7 @@ TEST_F(RealWatcher, NeverReportsLinksFifosAndDirectories) {
         << "scans say so too";
 }
 
-// Directories come and are filled at once by another thread, faster than watches can be set.
+// Another thread makes and fills directories faster than watches can be set.
 TEST_F(RealWatcher, MissesNothingInDirectoriesThatAppear) {
     ASSERT_TRUE(watcher_->scan());
     std::set<std::string> expected;
@@ -266,7 +267,7 @@ TEST_F(RealWatcher, ForgetsADirectoryThatIsDeleted) {
     EXPECT_EQ(watcher_->directory_count(), 1U);
 }
 
-// Each directory is seen when it comes, however deep it lies by then.
+// Each directory is seen when it appears, however deep it is by then.
 TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
     ASSERT_TRUE(watcher_->scan());
     fs::path path = drop();
@@ -299,7 +300,8 @@ TEST_F(RealWatcher, AMissingDropDirectoryIsAnError) {
     EXPECT_FALSE(watcher.scan());
 }
 
-// More events than the kernel keeps: some are dropped, the watcher says so, and a scan finds all.
+// There are more events than the kernel keeps. Some are dropped, the watcher reports it, and a scan
+// finds all files.
 TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
     std::size_t queue = 0;
     std::ifstream("/proc/sys/fs/inotify/max_queued_events") >> queue;
@@ -307,7 +309,7 @@ TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
     ASSERT_TRUE(watcher_->scan());
     write_file(drop() / "a", "1");
     write_file(drop() / "b", "1");
-    // Equal events in a row are one, so the two take turns.
+    // Equal events in a row are merged, so the two alternate.
     for (std::size_t i = 0; i <= queue; ++i)
         append_to_file(drop() / (i % 2 == 0 ? "a" : "b"), "");
     write_file(drop() / "late", "1");
@@ -318,7 +320,7 @@ TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
     EXPECT_TRUE(notes_.taken().contains("late"));
 }
 
-// Events by hand, and a limit of watches.
+// Events that tests make, and a limit of watches.
 class FakeEvents final : public EventSource {
   public:
     [[nodiscard]] int descriptor() const override { return -1; }
@@ -440,7 +442,7 @@ TEST(ForcedWatcher, WritesAreToldOfFilesThatAreFollowedAndOfNoOthers) {
     EXPECT_EQ(notes.said, Lines{"grew a"});
 }
 
-// An event may be read when its file has long been gone (scour).
+// The file of an event may have been deleted long before the event is read (scour).
 TEST(ForcedWatcher, AFileThatIsGoneWhenItsEventIsReadIsNotReported) {
     const testing::TemporaryDirectory directory;
     FakeEvents events;

@@ -33,7 +33,7 @@ TEST(WorkShares, StationsWhoseFilesAreQuickAndGoodHaveAllWorkers) {
     }
 }
 
-// What its second file costs is not known before it has ended.
+// The cost of its second file is not known before it has ended.
 TEST(WorkShares, NoStationHasAllWorkersAlone) {
     WorkShares shares;
     shares.set_workers(3);
@@ -76,7 +76,7 @@ TEST(WorkShares, HeavyStationsLeaveOneWorkerToTheOthers) {
     EXPECT_FALSE(shares.may_begin("KOKX", t0));
     EXPECT_FALSE(shares.may_begin("", t0));
     EXPECT_TRUE(shares.may_begin("KBGM", t0)) << "it owes nothing";
-    // 6 s too much are paid back in 30 s.
+    // A debt of 6 s above the limit is paid back in 30 s.
     EXPECT_FALSE(shares.may_begin("KOKX", t0 + seconds{29}));
     EXPECT_TRUE(shares.may_begin("KOKX", t0 + seconds{30}));
 }

@@ -1,4 +1,4 @@
-// Which fields and axes come of which gates.
+// Tests which fields and axes result from which gates.
 #include "export/cfradial_layout.h"
 
 #include <algorithm>

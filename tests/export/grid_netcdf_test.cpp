@@ -1,4 +1,4 @@
-// What a reader finds in the file; tests/export/check_grid.py opens real ones in Python.
+// Tests what a reader finds in the file; tests/export/check_grid.py opens real ones in Python.
 #include "stormcellar/export/grid_netcdf.h"
 
 #include <cmath>
@@ -131,7 +131,7 @@ TEST_F(GridNetcdf, TheFieldIsNamedByItsMoment) {
     }
 }
 
-// 2026-11-21: means over a cell's area said that they were points.
+// 2026-11-21: means over the area of a cell were described as points.
 TEST_F(GridNetcdf, CellMethodsSayWhetherACellIsAPointOrAMean) {
     Grid grid = small_grid();
     const auto written_of = [&](const grid::Method& method) {

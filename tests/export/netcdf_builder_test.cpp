@@ -136,7 +136,7 @@ TEST(NetcdfBuilder, TheFirstFailureSticksAndIsNamed) {
     const std::lock_guard lock(library_mutex());
     NetcdfBuilder builder;
     builder.dimension("x", 3);
-    builder.dimension("x", 4);  // a name in use
+    builder.dimension("x", 4);  // the name is already used
     builder.number(NetcdfBuilder::file, "answer", 42);
     const auto bytes = builder.finish();
     ASSERT_FALSE(bytes);

@@ -1,4 +1,4 @@
-// tests/export/netcdf_reader.h -- reads a netCDF file; what is not there fails the test.
+// tests/export/netcdf_reader.h -- reads a netCDF file; a missing item fails the test.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ class Reader {
         EXPECT_EQ(nc_get_var_text(id_, variable(name), read.data()), NC_NOERR) << name;
         return read;
     }
-    // Attributes; of the file where `of` is null.
+    // Returns an attribute of a variable, or of the file if `of` is null.
     std::string text(const char* of, const char* name) {
         const int owner = of == nullptr ? NC_GLOBAL : variable(of);
         std::size_t length = 0;

@@ -1,10 +1,13 @@
-// tests/fault/aftermath.h -- what must be true once a fault is over and the daemon has caught up.
+// tests/fault/aftermath.h -- checks what must be true once a fault is over and the daemon has
+// caught up.
 //
-// One checker for every fault: each file of the drop directory stands in the catalog exactly once,
-// settled, with a reason where it is not complete; each complete volume has its whole grid in the
-// cache; every grid opens and verifies; every database is sound; nothing that was made for a while
-// is left. Looks at the files itself: of the product it uses readers alone.
-// Ask it when the daemon has stopped. Thread contract: a function without state.
+// The same check follows every fault. Each file of the drop directory is in the catalog exactly
+// once, settled, with a reason if it is not complete. Each complete volume has its whole grid in
+// the cache. Every grid opens and verifies, and every database is sound. No temporary files are
+// left. The check looks at the files itself; of the product it uses only readers. Call it when the
+// daemon has stopped.
+//
+// Threads   A function without state.
 #pragma once
 
 #include <cstddef>
@@ -23,16 +26,16 @@ struct Places {
 
 enum class Contents {
     whole_volume,  // must be complete, and its grid whole
-    part,          // must be partial or rejected with a reason; complete would be a lie
+    part,          // must be partial or rejected with a reason; complete would be wrong
     junk,          // must be rejected with a reason
 };
 
-// One volume, or what is none, as it was written into the drop directory.
+// One volume, or other contents, as written into the drop directory.
 struct Delivered {
-    std::vector<std::filesystem::path> files;  // of chunks all; absolute
+    std::vector<std::filesystem::path> files;  // absolute; all files of a volume in chunks
     Contents contents = Contents::whole_volume;
     std::string station;          // of volumes
-    std::optional<UtcTime> time;  // its start
+    std::optional<UtcTime> time;  // of the start
 };
 
 struct Aftermath {
@@ -41,14 +44,14 @@ struct Aftermath {
     std::size_t volumes = 0;      // delivered whole
     std::size_t gridded = 0;      // of these, in the cache and whole
     std::size_t grids = 0;        // in the cache, all verified
-    std::size_t with_reason = 0;  // rows that are partial or rejected and say why
+    std::size_t with_reason = 0;  // rows that are partial or rejected and give a reason
     std::size_t set_aside = 0;    // damaged databases
     std::vector<std::string> problems;
 
     [[nodiscard]] bool holds() const { return problems.empty(); }
-    // The first twenty, one a line.
+    // Returns the first twenty, one a line.
     [[nodiscard]] std::string problem_text() const;
-    // "23 files, 23 rows, ..."
+    // Returns "23 files, 23 rows, ...".
     [[nodiscard]] std::string summary() const;
 };
 

@@ -1,4 +1,4 @@
-// The checker itself: nothing to say of what is sound, and each fault named.
+// Tests the check itself: it reports nothing about a sound state, and names each fault.
 #include <fstream>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -35,7 +35,7 @@ class AftermathTest : public ::testing::Test {
         delete daemon_;
         delete delivered_;
     }
-    // A copy to be damaged; paths in the catalog stay those of the drop directory.
+    // A copy to be damaged; paths in the catalog are still those of the drop directory.
     void SetUp() override {
         places_ = daemon_->places();
         fs::copy(places_.state / "catalog", copy_ / "state/catalog", fs::copy_options::recursive);

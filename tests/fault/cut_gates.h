@@ -1,4 +1,4 @@
-// tests/fault/cut_gates.h -- volumes cut short, so that many of them are written quickly.
+// tests/fault/cut_gates.h -- shortens volumes, so that many of them can be written quickly.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace stormcellar::fault {
 
-// Leaves the first `gates` gates of each radial of each moment of 8 bits, and no others. It must
-// have so many.
+// Keeps the first `gates` gates of each radial of each moment of 8 bits, and no other moments. The
+// volume must have at least this many.
 void cut_gates(level2::Volume& volume, std::uint16_t gates);
 
 }  // namespace stormcellar::fault

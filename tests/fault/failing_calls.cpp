@@ -50,7 +50,7 @@ bool is_below(std::string_view path) {
     return false;
 }
 
-// Whether this call fails, and how: 0 for not.
+// Returns the errno with which this call must fail; 0: it must not fail.
 int fate(Kind kind, const char* call, const char* path) {
     Steering* const steer = steering();
     if (steer == nullptr || (steer->kinds & kind) == 0 || !is_below(path)) return 0;
@@ -61,7 +61,7 @@ int fate(Kind kind, const char* call, const char* path) {
     return steer->error_number;
 }
 
-// Where the descriptor leads; false where that cannot be said.
+// Finds the path of the descriptor; false if that is not possible.
 bool find_path(int descriptor, char (&path)[PATH_MAX]) {
     char link[64];
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
@@ -76,7 +76,7 @@ int fate_of(Kind kind, const char* call, int descriptor) {
     return find_path(descriptor, path) ? fate(kind, call, path) : 0;
 }
 
-// What openat() means by it.
+// Returns the path that openat() refers to.
 const char* path_below(int directory, const char* path, char (&whole)[2 * PATH_MAX]) {
     char parent[PATH_MAX];
     if (steering() == nullptr || path[0] == '/' || !find_path(directory, parent)) return path;
@@ -150,7 +150,7 @@ int ftruncate64(int file, off64_t size) noexcept {
     return what > 0 ? fail_with(what) : real(file, size);
 }
 
-// Gives the number instead of setting errno.
+// Returns the error number instead of setting errno.
 int posix_fallocate64(int file, off64_t offset, off64_t size) {
     static const auto real = next<int (*)(int, off64_t, off64_t)>("posix_fallocate64");
     const int what = fate_of(kind_truncate, "posix_fallocate64", file);

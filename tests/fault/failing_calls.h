@@ -1,10 +1,10 @@
-// tests/fault/failing_calls.h -- what steers failing_calls.so, a library that is loaded into the
+// tests/fault/failing_calls.h -- controls failing_calls.so, a library that is loaded into the
 // daemon (LD_PRELOAD) and makes its system calls fail.
 //
-// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering, mapped by both: the test may
-// change it while the daemon runs. Calls on files below one of the directories of `below` count,
-// if their kind is in `kinds`; of these the ones from `from` on (the first is 1), before `to`,
-// fail.
+// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering, which both sides map, so the
+// test may change it while the daemon runs. Calls on files below one of the directories of `below`
+// are counted if their kind is in `kinds`. Those from number `from` on (the first is 1) and before
+// `to` fail.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace stormcellar::fault {
 
 enum Kind : std::uint32_t {
-    kind_write = 1,     // write, pwrite, writev, and the same of 64 bits
+    kind_write = 1,     // write, pwrite, writev, and their variants of 64 bits
     kind_truncate = 2,  // ftruncate, posix_fallocate
     kind_sync = 4,      // fsync, fdatasync
     kind_rename = 8,
@@ -24,7 +24,8 @@ enum Kind : std::uint32_t {
     kind_remove = 128,
 };
 
-inline constexpr int short_write = -1;  // instead of an errno: half of it is written, no error
+// instead of an errno: half of it is written, without an error
+inline constexpr int short_write = -1;
 
 struct Steering {
     std::atomic<std::uint64_t> calls{0}, failed{0};
@@ -32,7 +33,7 @@ struct Steering {
     std::atomic<std::uint32_t> kinds{0};
     std::atomic<int> error_number{0};
     std::array<std::array<char, 256>, 3> below{};  // absolute; empty: none
-    std::array<char, 256> last_failed{};           // what was called on which file
+    std::array<char, 256> last_failed{};           // the last call that failed, and its file
 };
 
 }  // namespace stormcellar::fault

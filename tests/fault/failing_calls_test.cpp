@@ -1,4 +1,5 @@
-// System calls of the real program that fail, each in turn: nothing is lost, and nothing is left.
+// Makes each system call of the real program fail in turn: nothing is lost, and nothing is left
+// over.
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -23,9 +24,9 @@ struct Failure {
     const char* name;
     std::uint32_t kinds;
     int error_number;
-    bool lasts;          // until 200 ms after the first one; else one call
-    bool in_drop;        // also of the files that come
-    bool needs_restart;  // what stays meanwhile goes at the next start
+    bool lasts;          // until 200 ms after the first failure; else only one call fails
+    bool in_drop;        // also calls on the incoming files
+    bool needs_restart;  // what is left over is removed at the next start
 };
 
 void PrintTo(const Failure& failure, std::ostream* out) {
@@ -48,20 +49,21 @@ constexpr Failure failures[] = {
     {"FromEachCallOnTheDiskFails", changes | kind_remove, EIO, true, false, true},
 };
 
-// What came of failing at one call.
+// The result of failing at one call.
 struct Tried {
     std::uint64_t calls = 0, failed = 0;
-    bool ended = false;  // the daemon gave up, as at its start
+    bool ended = false;  // the daemon gave up, for example at its start
     double seconds = 0;
 };
 
 class FailingCalls : public ::testing::TestWithParam<Failure> {
   protected:
-    // One volume of each way and a file that is none: before the start two, afterwards the others.
+    // Delivers one volume of each way and a file that is none: two before the start, the others
+    // after it.
     static Tried run(std::uint64_t at);
 };
 
-// Until all is settled; true when the daemon ended instead.
+// Waits until all is settled. Returns true if the daemon ended instead.
 bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::size_t files) {
     const auto limit = Clock::now() + std::chrono::seconds{60};
     std::optional<Clock::time_point> first;
@@ -104,7 +106,7 @@ Tried FailingCalls::run(std::uint64_t at) {
     put(shipments.junk());
     Tried tried;
     tried.ended = ends_before(daemon, steering, failure.lasts, files_of(delivered));
-    if (failure.lasts || tried.ended) steering.end();  // else it may come at the stop
+    if (failure.lasts || tried.ended) steering.end();  // otherwise it might fail at the stop
     if (failure.needs_restart && !tried.ended) {
         EXPECT_EQ(daemon.stop(), 0) << daemon.log_end();
     }
@@ -122,7 +124,8 @@ Tried FailingCalls::run(std::uint64_t at) {
     return tried;
 }
 
-// In the short form so many of all calls, spread evenly; $STORMCELLAR_FAILING_TRIES sets how many.
+// The short form takes this many of all calls, spread evenly; $STORMCELLAR_FAILING_TRIES sets the
+// number.
 TEST_P(FailingCalls, NothingIsLost) {
     if (is_sanitized) GTEST_SKIP() << "no other library may be loaded before the sanitizer's";
     const std::uint64_t calls = run(UINT64_MAX).calls;

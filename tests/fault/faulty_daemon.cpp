@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Grids of 100 cells, and little patience.
+// Grids of 100 cells, and short waits.
 constexpr const char* quick =
     "[watch]\nrescan_seconds = 2\n[cache]\npercent = 0\n[ingest]\nquiet_seconds = 1\n"
     "reread_seconds = 0.05\nspacing_km = 10\nextent_km = [100, 100]\nlevels_km = [1, 3, 6]\n"
@@ -30,7 +30,7 @@ std::size_t settled_in(const fs::path& database) {
         count.executeStep();
         return static_cast<std::size_t>(count.getColumn(0).getInt64());
     } catch (const SQLite::Exception&) {
-        return 0;  // just being made, or damaged on purpose: asked again
+        return 0;  // just being made, or damaged on purpose: try again
     }
 }
 

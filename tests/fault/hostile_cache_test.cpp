@@ -1,4 +1,4 @@
-// Grids of stations that nobody knows, and the room that the cache has for them.
+// Tests grids of unknown stations, and the room that the cache has for them.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -36,7 +36,7 @@ class ProtectedNewest : public HostileCases {
     }
 };
 
-// As HostileCases configures it, but with larger grids.
+// Configured as in HostileCases, but with larger grids.
 constexpr const char* large_grids = "[ingest]\nquiet_seconds = 2\nworkers = 2\nspacing_km = 4\n";
 
 TEST_F(ProtectedNewest, GridsOfInventedSitesPushOutNoRealHistory) {

@@ -1,8 +1,8 @@
-// tests/fault/hostile_cases.h -- a daemon that is attacked in one way, and what good volumes may
+// tests/fault/hostile_cases.h -- a daemon under one kind of attack, and what good volumes may
 // expect of it meanwhile.
 //
-// Each case stopped ingest once, or took from stations that did nothing wrong; whatever is claimed,
-// the stations that are known go on as before.
+// Each case once stopped ingest, or took something from stations that did nothing wrong. Whatever
+// is claimed, known stations must go on as before.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@
 
 namespace stormcellar::fault {
 
-// What a good volume may wait beside an attack.
+// the longest wait of a good volume during an attack
 inline constexpr double prompt_s = 5.0 * testing::slow_down;
 
-// What a configuration says beyond what makes the daemon quick.
+// Additions to the configuration that makes the daemon quick.
 struct More {
     std::string watch = {}, ingest = {}, cache = {}, rest = {};
     int quiet_s = 2;
@@ -30,24 +30,24 @@ struct More {
 
 class HostileCases : public ::testing::Test {
   protected:
-    // Gives the seconds until it was ready.
+    // Returns the seconds until it was ready.
     double start(const More& more = {});
     void stop() { EXPECT_EQ(daemon_.terminate(), 0) << log_end(); }
-    // As a script does it: under a dot-name, then renamed.
+    // Writes like a script: under a dot-name, then renamed.
     void put(const std::filesystem::path& name, const Bytes& bytes);
-    // As LDM does it: under its own name.
+    // Writes like LDM: under its own name.
     void append(const std::filesystem::path& name, const Bytes& bytes);
-    // A volume that nobody could object to, of this second plus so many. Gives its time.
+    // Writes a valid volume whose time is the current second plus `plus_s`. Returns its time.
     UtcTime put_good(const std::string& station, int plus_s = 0, unsigned gates = 400);
 
-    // Seconds until it is gridded; it fails where it is not within `most_s`.
+    // Returns the seconds until it is gridded; fails if that takes more than `most_s`.
     double expect_gridded(const std::string& station, UtcTime time, double most_s = prompt_s);
     void expect_no_invented_database();
     bool rests(double most_s);
-    // Of these files those of which no row says that they were rejected, and why; empty: none.
+    // Returns those of these files that no row reports as rejected with a reason; empty: none.
     [[nodiscard]] std::string not_rejected(const std::vector<std::filesystem::path>& names) const;
 
-    // Lines of the log with this text, of this severity or of any one.
+    // Returns the number of lines of the log with this text, of this severity or of any.
     [[nodiscard]] std::size_t lines_with(const std::string& text,
                                          const std::string& severity = {}) const;
     [[nodiscard]] std::size_t complaints_about(const std::string& text) const;

@@ -1,4 +1,4 @@
-// One database that cannot be opened: the trouble of its station alone.
+// A database that cannot be opened must affect only its own station.
 #include <chrono>
 #include <thread>
 
@@ -20,7 +20,7 @@ enum class Spoilt { permission, fifo, directory };
 
 class OneDatabase : public HostileCases, public ::testing::WithParamInterface<Spoilt> {
   protected:
-    // Root may open everything, so the daemon runs as somebody else.
+    // Root may open everything, so the daemon runs as another user.
     OneDatabase() {
         if (::geteuid() != 0) return;
         EXPECT_EQ(::chown(daemon_.root().c_str(), 65534, 65534), 0);
@@ -45,7 +45,7 @@ class OneDatabase : public HostileCases, public ::testing::WithParamInterface<Sp
                 break;
         }
     }
-    // Whatever stands there now, the database does again.
+    // Makes the place accessible again, whatever is there now.
     void mend() {
         fs::remove_all(database());
         fs::copy_file(aside(), database());
@@ -80,7 +80,7 @@ TEST_P(OneDatabase, ThatCannotBeOpenedIsItsStationsTroubleAlone) {
     EXPECT_EQ(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
         << "the status still names it";
     stop();
-    // Not before: whoever reads a database as root leaves files beside it that are root's.
+    // Not earlier, because root's reader leaves files beside the database that belong to root.
     EXPECT_EQ(
         catalog_rows(daemon_.catalog()).count(daemon_.drop() / ("KTLX" + format_compact(later))),
         1U);

@@ -76,7 +76,7 @@ top_km = 10
 peak_dbz = 50
 )";
 
-// One radar's view, which then stands for all of them.
+// Observes one radar's view, which is then used for all of them.
 level2::Volume observed() {
     const auto parsed = synth::parse_scene(feed_scene, "feed");
     if (!parsed) throw std::runtime_error(parsed.error().message);
@@ -96,7 +96,7 @@ void give_to(level2::Volume& volume, std::string_view icao) {
         static_cast<std::int16_t>(station->antenna_altitude_m - volume.block->tower_height_m);
 }
 
-// Begins at `start`; its radials are spread evenly over `takes_s`.
+// Moves the volume to `start`, with its radials spread evenly over `takes_s`.
 void move_to(level2::Volume& volume, UtcTime start, double takes_s, int number) {
     const NexradTime time = nexrad_from_time(start);
     volume.header->filename = fmt::format("AR2V0006.{:03}", number);
@@ -150,7 +150,8 @@ RealFeed::~RealFeed() {
 
 void RealFeed::begin() {
     is_watched_ = true;
-    // They begin one after the other, so that at any time each is somewhere else in its volume.
+    // The starts are spread, so that at any time the stations are at different places in their
+    // volumes.
     const auto now = Clock::now();
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         const duration<double> after{period_s_ * static_cast<double>(i) /
@@ -200,7 +201,7 @@ void RealFeed::write_piece(Station& station) {
     closed_.push_back(station.volume);
 }
 
-// The piece that is due first, of all stations, each time.
+// Always writes the piece that is due first, of all stations.
 void RealFeed::write() {
     while (true) {
         const auto first = std::min_element(
@@ -223,7 +224,7 @@ void RealFeed::write() {
     }
 }
 
-// A living grid stands under the same name before, so a file is opened whenever it is another one.
+// A living grid has the same name before, so a file is opened whenever it has changed.
 void RealFeed::look_at_waiting(std::vector<std::int64_t>& seen_ns) {
     std::vector<std::pair<std::size_t, RealVolume>> waiting;
     {

@@ -1,11 +1,13 @@
-// tests/fault/hostile_feed.h -- the real stations beside an attack, and how soon they are gridded.
+// tests/fault/hostile_feed.h -- real stations during an attack, and how soon they are gridded.
 //
-// Sixteen stations of the table, each with one simulated volume after the other, all beside each
-// other: five sweeps, the lowest of 720 radials, the others of 360. They come as LDM writes them:
-// a record is appended and the file closed, again and again; every fourth station comes as one
-// file a chunk. A volume's latency is from the close of its last piece to the moment at which the
-// grid of the whole volume stands in the cache, as a reader of the cache sees it.
-// Thread contract: begin() and finish() from one thread; two threads work between them.
+// Sixteen stations of the table send simulated volumes at the same time, each one volume after the
+// other. A volume has five sweeps, the lowest with 720 radials, the others with 360. Files are
+// written as LDM does: a record is appended and the file closed, again and again; every fourth
+// station sends one file for each chunk. The latency of a volume is the time from the close of its
+// last piece to the moment at which the grid of the whole volume is in the cache, as a reader of
+// the cache sees it.
+//
+// Threads   begin() and finish() from one thread; two threads work between them.
 #pragma once
 
 #include <atomic>
@@ -32,7 +34,7 @@ namespace stormcellar::fault {
 struct RealVolume {
     std::string station;
     UtcTime time;
-    std::vector<std::filesystem::path> files;  // of chunks all
+    std::vector<std::filesystem::path> files;  // of chunks: all
     std::chrono::steady_clock::time_point closed;
     std::optional<double> latency_s;  // none: no whole grid was seen
 };
@@ -46,8 +48,8 @@ class RealFeed {
     ~RealFeed();
 
     void begin();
-    // Begins no more volumes, finishes those that have begun, and waits at most so long for their
-    // grids. Gives all that were written.
+    // Begins no more volumes, finishes those that have begun, and waits at most `most_wait_s` for
+    // their grids. Returns all volumes that were written.
     std::vector<RealVolume> finish(double most_wait_s);
     [[nodiscard]] std::size_t begun() const { return begun_; }
 

@@ -17,7 +17,7 @@ using wire::Writer;
 
 constexpr unsigned radials_per_record = 125;
 
-// What a sweep's radial says of its place in it.
+// The status of a radial within its sweep.
 enum class Mark : unsigned {
     begins_sweep = 0,
     within = 1,
@@ -153,8 +153,9 @@ Bytes plain_volume_bytes(const Claims& claims) {
 Bytes endless_bytes(Claims claims, unsigned radials, unsigned gates) {
     claims.gates = gates;
     claims.word_bits = 16;
-    claims.code = 0x0404;  // equal bytes, which are packed soonest
-    // The second record stands for all that follow: making them takes most of a test's time.
+    claims.code = 0x0404;  // equal bytes, which are packed fastest
+    // The second record is used for all that follow, because making records takes most of a test's
+    // time.
     const auto record = [&](Mark first) {
         Writer messages;
         for (unsigned radial = 0; radial < radials_per_record; ++radial)

@@ -1,8 +1,10 @@
-// tests/fault/hostile_files.h -- Level II bytes that claim whatever a test wants them to claim.
+// tests/fault/hostile_files.h -- makes Level II bytes with any claims that a test wants.
 //
-// Small files of message 31 with one moment: of any station, position, time, scale and offset, that
-// end or never end. Independent of stormcellar/level2/encode.h, which refuses to write most of
-// these. Thread contract: pure functions.
+// They are small files of message 31 with one moment: of any station, position, time, scale and
+// offset, ending or not. This is independent of stormcellar/level2/encode.h, which refuses to write
+// most of them.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <cstddef>
@@ -22,32 +24,32 @@ struct Claims {
     float latitude_deg = 0, longitude_deg = 0;
     unsigned sweeps = 1, radials = 360, gates = 100;
     unsigned word_bits = 8;
-    unsigned code = 100;     // of every gate,
-    bool is_varied = false;  // or of each radial another one
+    unsigned code = 100;     // the code of every gate,
+    bool is_varied = false;  // or a different one for each radial
     float scale = 2, offset = 66;
 };
 
-// The claims of a station of the table, with its position; throws for any other.
+// Returns the claims of a station of the table, with its position. Throws for any other.
 [[nodiscard]] Claims claims_of(std::string_view known_station, UtcTime start);
 
-// "XAAA", "XAAB" and so on, none of the table: 17,576 names.
+// Returns "XAAA", "XAAB" and so on, none of which is in the table: 17,576 names.
 [[nodiscard]] std::string invented_station(std::size_t number);
 [[nodiscard]] Claims invented_claims(std::size_t number, UtcTime start);
 
-// The 24 bytes before the first record.
+// the 24 bytes before the first record
 [[nodiscard]] Bytes file_header(const Claims& claims, int number = 1);
-// The radials of one sweep, counted from 0.
+// Returns the radials of one sweep, counted from 0.
 [[nodiscard]] Bytes sweep_messages(const Claims& claims, unsigned sweep);
-// A whole volume: the header and one record.
+// Returns a whole volume: the header and one record.
 [[nodiscard]] Bytes volume_bytes(const Claims& claims);
-// The same without compression, which is quicker to make.
+// The same without compression, which is faster to make.
 [[nodiscard]] Bytes plain_volume_bytes(const Claims& claims);
-// The header and records of one sweep that does not end: `radials` radials (a multiple of 125) of
-// `gates` gates of 16 bits. Of 1,250 and 20,000 it unpacks to 50 MB, and has some 23 kB.
+// Returns the header and records of one sweep that does not end: `radials` radials (a multiple of
+// 125) of `gates` gates of 16 bits. With 1,250 and 20,000 it has some 23 kB and unpacks to 50 MB.
 [[nodiscard]] Bytes endless_bytes(Claims claims, unsigned radials = 1250, unsigned gates = 20'000);
-// The control word of a record of so many bytes, and the start of its stream.
+// Returns the control word of a record of `bytes` bytes, and the start of its stream.
 [[nodiscard]] Bytes begun_record(std::uint32_t bytes);
-// A volume that is read in full and whose cells are no finite numbers.
+// Returns a volume that can be read in full but whose cells are no finite numbers.
 [[nodiscard]] Bytes overflowing_bytes(Claims claims);
 
 }  // namespace stormcellar::fault

@@ -1,4 +1,4 @@
-// Files that grow without an end, and hold memory and places while they are followed.
+// Files that grow without end, and take memory and places while they are followed.
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -24,7 +24,7 @@ class LivingMemory : public HostileCases {
   protected:
     static constexpr int files = 100;
 
-    // Each unpacks to a sweep of 50 MB that does not end, and begins a record that does not come.
+    // Each unpacks to a sweep of 50 MB that does not end, and begins a record that never comes.
     void put_endless(const std::function<std::string(int)>& station_of) {
         for (int i = 0; i < files; ++i) {
             const std::string station = station_of(i);
@@ -72,9 +72,9 @@ TEST_F(LivingMemory, SweepsOfManyStationsThatNeverEndAreCounted) {
     stop();
 }
 
-// The bytes of a record that has not ended: a hole, so that they cost the sender nothing.
+// The bytes of a record that has not ended are a hole, so that they cost the sender nothing.
 TEST_F(LivingMemory, RecordsThatNeverEndAreCounted) {
-    constexpr std::uint32_t record_bytes = 30'000'000;  // the longest that may come
+    constexpr std::uint32_t record_bytes = 30'000'000;  // the longest that is allowed
     start();
     for (int i = 0; i < 30; ++i) {
         Claims claims = claims_of("KTLX", now_utc());
@@ -90,7 +90,7 @@ TEST_F(LivingMemory, RecordsThatNeverEndAreCounted) {
     stop();
 }
 
-// More files and volumes of chunks than are followed, each of which begins and then stands still.
+// More files and volumes of chunks than are followed, each of which begins and then stops.
 TEST_F(LivingMemory, WhatOnlyBeginsTakesNoPlaceFromWhatGoesOn) {
     start({.quiet_s = 60});
     const auto begun = [](std::string_view station) {

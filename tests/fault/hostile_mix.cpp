@@ -33,8 +33,9 @@ struct Share {
     unsigned in_ten_thousand;
 };
 
-// Of 10,000 files; the rest are volumes of invented stations. What costs the daemon a second of a
-// processor each, as a bomb does, comes as rarely as its sender would have to pay for it.
+// Shares of 10,000 files; the rest are volumes of invented stations. Kinds that cost the daemon a
+// second of processor time each, such as a bomb, are as rare as their sender would have to pay for
+// them.
 constexpr std::array<Share, attack_count> shares = {{
     {Attack::invented, "invented", 3000},
     {Attack::known, "known", 300},
@@ -90,7 +91,7 @@ void make_socket(const fs::path& path) {
 
 void append_bytes(const fs::path& path, const Bytes& bytes) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (file < 0) return;  // its directory was renamed a moment ago
+    if (file < 0) return;  // its directory was just renamed
     if (::write(file, bytes.data(), bytes.size()) < 0)
         std::printf("%s: not written\n", path.c_str());
     ::close(file);
@@ -110,7 +111,7 @@ void remove_path(const fs::path& path) {
     fs::remove_all(path, ignored);
 }
 
-// Each is asked for anew by its number, so that few are written twice.
+// Each name is derived from its number, so that few are written twice.
 std::string evil_name(std::uint64_t number, const std::string& station) {
     const std::string n = std::to_string(number);
     switch (number % 12) {
@@ -204,7 +205,7 @@ void HostileMix::make_bytes() {
     small_bombs_.push_back(bomb_bytes(1));
 }
 
-// Beside the real stations' own files, in the drop directory itself, or deeper.
+// In the directories of real stations, in the drop directory itself, or deeper.
 HostileMix::Standing HostileMix::place(std::string_view stem) {
     const std::string name = fmt::format("{}_{}", stem, ++number_);
     switch (below(8)) {
@@ -225,13 +226,13 @@ fs::path HostileMix::path_of(const Standing& file) const {
     return file.directory ? directories_[*file.directory] / file.path : file.path;
 }
 
-// Known, or one that it invents, as often each.
+// Returns a known or an invented station with equal probability.
 std::string HostileMix::some_station() {
     return below(2) == 0 ? known_names_[below(known_names_.size())]
                          : invented_station(below(invented_count));
 }
 
-// In place, or under a dot-name and then renamed.
+// Writes in place, or under a dot-name and then renames.
 void HostileMix::write(const Standing& file, const Bytes& bytes) {
     const fs::path path = path_of(file);
     if (below(2) == 0) {
@@ -266,7 +267,7 @@ void HostileMix::strike_endless() {
     growing_.push_back(place(some_station()));
     const fs::path path = path_of(growing_.back());
     append_bytes(path, one_of(is_large ? endless_large_ : endless_small_));
-    // A hole in the place of a record that has not come to its end.
+    // A hole in the place of a record that has not ended.
     if (is_large && below(2) == 0) set_size(path, 25'000'000);
 }
 
@@ -303,7 +304,7 @@ void HostileMix::strike_chunk() {
     append_bytes(path, records_[volume.station]);
 }
 
-// A directory goes away and comes back under its name, with all that is in it; a file gets another.
+// A directory is renamed and renamed back with everything in it; a file gets another name.
 void HostileMix::strike_rename() {
     if (below(8) == 0) {
         fs::path& directory = directories_[below(directories_.size())];
@@ -349,7 +350,7 @@ void HostileMix::strike_sparse() {
     standing_.push_back(place(some_station() + "_sparse"));
     const fs::path path = path_of(standing_.back());
     append_bytes(path, one_of(unsettled_));
-    // One in twenty stays below what a raw file may have, and is read.
+    // One in twenty is within the allowed size of a raw file, and is read.
     const off_t size = below(20) == 0 ? off_t{200} << 20 : off_t{1} << (32 + below(9));
     set_size(path, size);
 }
@@ -450,7 +451,7 @@ void HostileMix::end() {
     thread_.join();
 }
 
-// Real volumes lie in the stations' directories; all that is not one of these is the attack's.
+// Real volumes are in the directories of the stations. Everything else is the attacker's.
 void HostileMix::remove_all() {
     for (const Standing& file : standing_)
         remove_path(path_of(file));

@@ -1,12 +1,13 @@
-// tests/fault/hostile_mix.h -- a writer that means harm: every kind of attack at once, by a seed.
+// tests/fault/hostile_mix.h -- a malicious writer: every kind of attack at once, chosen by a seed.
 //
-// Writes into a drop directory at a rate, beside whoever writes there honestly, below directories
-// of its own and below those of the stations. What it claims is invented, or of any known station,
-// the real ones of the feed included, at times that no real volume has. What it cannot do, and what
-// no daemon could mend: it never touches the honest writers' own files and directories.
-// So many of its files stand at most; then the oldest go, as does all with remove_all().
-// The bytes are made before, so that writing costs little.
-// Thread contract: begin() and end() from one thread; one thread writes between them.
+// It writes into a drop directory at a given rate, beside honest writers, below directories of its
+// own and below those of the stations. Its files claim invented or known stations, including the
+// real ones of the feed, at times that no real volume has. It never touches the files and
+// directories of the honest writers, because no daemon could repair that. Only a limited number of
+// its files exist at a time; the oldest are removed first, and remove_all() removes everything. The
+// bytes are made in advance, so that writing costs little.
+//
+// Threads   begin() and end() from one thread; one thread writes between them.
 #pragma once
 
 #include <array>
@@ -27,20 +28,20 @@
 namespace stormcellar::fault {
 
 enum class Attack : std::uint8_t {
-    invented,   // a volume of a station that nobody knows, with or without a position
-    known,      // a small volume in the name of a known station
-    endless,    // a file whose sweep never ends, of 5 or 50 MB unpacked, or a record that does not
-    growth,     // some bytes for one of these
-    unsettled,  // what cannot be gridded, has no end, or is nothing at all
-    chunk,      // one of hundreds of volumes whose chunks come in turn, without an end
-    rename,     // a file or a directory, there and back
+    invented,   // a volume of an unknown station, with or without a position
+    known,      // a small volume that claims a known station
+    endless,    // a file whose sweep never ends, of 5 or 50 MB unpacked, or an unfinished record
+    growth,     // some more bytes for one of these
+    unsettled,  // a file that cannot be gridded, has no end, or has no meaning
+    chunk,      // one of hundreds of volumes whose chunks come in turn, without end
+    rename,     // of a file or a directory, and back
     link,       // symbolic, out, dangling, in loops
     special,    // a FIFO or a socket
-    sparse,     // GiB to TiB of nothing
-    name,       // newlines, escapes, 255 bytes, names of others
+    sparse,     // GiB to TiB of holes
+    name,       // newlines, escapes, 255 bytes, names of other stations
     clock,      // files of the past and the future, volumes of 1970 and 2049
-    bomb,       // what unpacks to far more
-    deleted,    // gone right after it came
+    bomb,       // a file that unpacks to far more
+    deleted,    // deleted right after it appeared
 };
 inline constexpr std::size_t attack_count = 14;
 [[nodiscard]] std::string_view name_of(Attack attack);
@@ -61,17 +62,17 @@ class HostileMix {
     ~HostileMix();
 
     void begin();
-    // Stops writing; all that stands stays.
+    // Stops writing; all files stay.
     void end();
     void remove_all();
 
-    // Of each kind what was done, after end().
+    // Returns how much was done of each kind. Call it after end().
     [[nodiscard]] const std::array<std::uint64_t, attack_count>& done() const { return done_; }
     [[nodiscard]] std::uint64_t all_done() const;
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
-    // Directories get other names meanwhile, so what stands in one of `directories_` names it.
+    // Directories are renamed meanwhile, so a file in one of `directories_` refers to it by index.
     struct Standing {
         std::filesystem::path path;  // absolute, or below the directory
         std::optional<std::size_t> directory;
@@ -87,7 +88,7 @@ class HostileMix {
     void strike();
     void strike(Attack attack);
     std::string some_station();
-    // Where the next file goes, and what it is called.
+    // Returns where the next file goes, and its name.
     Standing place(std::string_view stem);
     [[nodiscard]] std::filesystem::path path_of(const Standing& file) const;
     void write(const Standing& file, const Bytes& bytes);

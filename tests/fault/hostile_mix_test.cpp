@@ -1,9 +1,9 @@
-// Every attack at once, beside a real feed of 16 stations: that the bounds of docs/reliability.md
-// hold, measured from outside.
+// Every attack at once, beside a real feed of 16 stations. Tests from outside that the bounds of
+// docs/reliability.md hold.
 //
-//   STORMCELLAR_HOSTILE_SECONDS   how long (20; scripts/test --hostile: 1,800)
+//   STORMCELLAR_HOSTILE_SECONDS   duration (20; scripts/test --hostile: 1,800)
 //   STORMCELLAR_HOSTILE_RATE      hostile files a second (1,000)
-//   STORMCELLAR_SEED              of the attack (1)
+//   STORMCELLAR_SEED              seed of the attack (1)
 #include "tests/fault/hostile_mix.h"
 
 #include <algorithm>
@@ -30,13 +30,13 @@ using std::chrono::milliseconds;
 // The bounds.
 constexpr double most_p95_s = 1, most_ready_s = 5;
 constexpr long most_resident_mib = 512;
-// Three for the database of each known station, as a feed of all of them needs, and some.
+// Three for the database of each known station, as a feed of all stations needs, and some more.
 constexpr std::size_t most_descriptors_afterwards = 900;
 constexpr std::size_t queue_limit = 20'000;
 constexpr std::uint64_t cache_bytes = 1'000'000'000;
 constexpr std::uint64_t mib = std::uint64_t{1} << 20U;
 
-// What the plan gives to databases and growing volumes, and all else.
+// What the plan gives to databases and growing volumes, and everything else.
 std::size_t most_descriptors() {
     constexpr std::size_t reserved = 256;
     const auto plan = daemon::DescriptorPlan::of_this_process();
@@ -50,7 +50,7 @@ std::string configuration() {
         queue_limit, cache_bytes);
 }
 
-// The most that was seen of everything, four times a second.
+// The maximum of everything, sampled four times a second.
 struct Peaks {
     std::size_t descriptors = 0, waiting = 0;
     std::uint64_t state_bytes = 0, cache_bytes = 0, unnamed_bytes = 0;
@@ -98,7 +98,7 @@ class Sampler {
     std::thread thread_;
 };
 
-// What was measured, in seconds; of volumes that were never gridded none.
+// Latencies in seconds; volumes that were never gridded have none.
 struct Latencies {
     std::size_t volumes = 0, gridded = 0;
     double p50 = 0, p95 = 0, max = 0;
@@ -168,7 +168,7 @@ class HostileMixTest : public ::testing::Test {
         EXPECT_LE(peaks.cache_bytes, cache_bytes);
         EXPECT_LE(peaks.state_bytes, most_state_bytes());
     }
-    // Rows of a million files have some 300 MB; the short form has 20,000.
+    // Rows of a million files take some 300 MB; the short form has 20,000.
     [[nodiscard]] std::uint64_t most_state_bytes() const {
         return (seconds_ > 60 ? 512 : 200) * mib;
     }
@@ -182,7 +182,7 @@ class HostileMixTest : public ::testing::Test {
         }
         EXPECT_EQ(missing, 0U) << when;
     }
-    // Each of their files once, complete, in the database of its station.
+    // Each of their files is there once, complete, in the database of its station.
     void expect_cataloged(const std::vector<RealVolume>& volumes) {
         const auto rows = catalog_rows(daemon_.catalog());
         std::size_t wrong = 0;
@@ -214,7 +214,7 @@ class HostileMixTest : public ::testing::Test {
 };
 
 TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
-    // Each station has two volumes or more in the short form.
+    // In the short form, each station has at least two volumes.
     RealFeed feed(daemon_.drop(), daemon_.cache(), seconds_ > 60 ? 25 : seconds_ * 0.4);
     HostileMix mix({.drop = daemon_.drop(),
                     .outside = daemon_.root() / "outside",

@@ -38,8 +38,8 @@ TEST_F(HostileCases, FilesThatCannotBeGriddedAreSettledAtOnceAndFillNoQueue) {
     stop();
 }
 
-// How often files of some directories are opened, but for those under a dot-name. The test's own
-// thread asks for what has come, often enough that the kernel loses nothing.
+// Counts how often files of some directories are opened, except those under a dot-name. The test's
+// own thread reads the events, often enough that the kernel loses none.
 class Openings {
   public:
     Openings() : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {}
@@ -97,7 +97,7 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
         for (int volume = 0; volume < volumes; ++volume) {
             put_chunk(volume, chunk);
             openings.count();
-            std::this_thread::sleep_for(milliseconds{3});  // for the daemon to look at each
+            std::this_thread::sleep_for(milliseconds{3});  // so that the daemon looks at each
         }
     }
     expect_gridded("KFWS", put_good("KFWS"), 2 * prompt_s);

@@ -1,5 +1,4 @@
-// Files that claim stations which nobody knows, or all that there are: descriptors, databases,
-// grids.
+// Files that claim unknown stations, or all known ones: descriptors, databases, grids.
 #include <chrono>
 #include <set>
 #include <string>
@@ -21,7 +20,7 @@ constexpr int few_descriptors = 512;
 
 class InventedStations : public HostileCases {
   protected:
-    // As a service manager limits it, for good.
+    // Limited as by a service manager, permanently.
     InventedStations() {
         const std::string limit =
             std::to_string(few_descriptors) + ":" + std::to_string(few_descriptors);
@@ -53,7 +52,7 @@ TEST_F(InventedStations, TakeNoDescriptorsAndNoDatabases) {
     stop();
 }
 
-// More of them than descriptors would do, if each station's database stayed open.
+// There are more than the descriptors allow, if each station's database stayed open.
 TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     start();
     for (const Station& station : all_stations()) {
@@ -72,7 +71,7 @@ TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     stop();
 }
 
-// Databases that a version made which believed every name.
+// Databases made by a version that accepted every name.
 TEST_F(InventedStations, AStateThatAnAttackLeftIsReadyAsSoon) {
     start();
     expect_gridded("KTLX", put_good("KTLX"));
@@ -123,7 +122,7 @@ TEST_F(HostileCases, AnInventedStationInsideAMosaicDoesNotEnterIt) {
     stop();
 }
 
-// A file that names no station at first, or another one, and grows into one of nobody.
+// A file that first names no station, or another one, and grows into one of an unknown station.
 TEST_F(HostileCases, AnInventedStationHasNoLivingGridEither) {
     start();
     Claims claims = claims_of("KTLX", now_utc());

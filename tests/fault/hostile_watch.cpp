@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr std::uint64_t block = 512;  // as st_blocks counts
+constexpr std::uint64_t block = 512;  // the unit of st_blocks
 
-// What can be read of a directory; whatever goes meanwhile is left out.
+// Visits what can be read of a directory; entries that vanish meanwhile are left out.
 void for_each_entry(const fs::path& directory,
                     const std::function<void(const fs::directory_entry&)>& see) {
     std::error_code error;
@@ -42,7 +42,7 @@ void read_rows(const fs::path& path, std::multimap<fs::path, CatalogRow>& rows) 
                                     found.getColumn(2).getString()});
         }
     } catch (const SQLite::Exception&) {
-        return;  // its rows are missed by whoever asks for them
+        return;  // the caller notices that its rows are missing
     }
 }
 
@@ -97,7 +97,7 @@ double cpu_seconds(pid_t process) {
     const std::size_t behind_name = text.rfind(')');
     if (behind_name == std::string::npos) return 0;
     std::istringstream fields(text.substr(behind_name + 2));
-    constexpr int before_times = 11;  // from the state on
+    constexpr int before_times = 11;  // counted from the state
     for (int i = 0; i < before_times; ++i)
         fields >> text;
     double user = 0, system = 0;
@@ -158,7 +158,7 @@ bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds) {
     return false;
 }
 
-// The socket goes when it is ready: nobody reads what comes later, and the daemon must not wait.
+// The socket is closed after READY: nobody reads later messages, and the daemon must not block.
 double start_until_ready(daemon::RunningDaemon& daemon, const std::string& config) {
     const fs::path path = daemon.root() / "notify";
     fs::remove(path);

@@ -20,7 +20,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Leftovers of kills before are swept at the start.
+// The leftovers of earlier kills are removed at the start.
 bool is_in_a_write(const std::filesystem::path& cache) {
     if (!std::filesystem::exists(cache)) return false;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))
@@ -28,8 +28,9 @@ bool is_in_a_write(const std::filesystem::path& cache) {
     return false;
 }
 
-// The window reaches from before main() to the midst of work. More comes the longer it lasts, and
-// never so much that the daemon, which is killed before it has caught up, falls behind for good.
+// The time of the kill ranges from before main() to the middle of the work. The longer it runs, the
+// more files arrive, but never so many that the daemon, which is killed before it has caught up,
+// falls behind for good.
 TEST(Kill, AtRandomMomentsUnderLoad) {
     const int kills = number_of("STORMCELLAR_KILLS", 15);
     const auto seed = static_cast<std::uint32_t>(number_of("STORMCELLAR_SEED", 1));

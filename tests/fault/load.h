@@ -1,9 +1,9 @@
-// tests/fault/load.h -- what is written into a drop directory while things go wrong.
+// tests/fault/load.h -- the files that are written into a drop directory during faults.
 //
-// Small simulated volumes (message 31, two cuts of 360 radials) of several stations, each at a time
-// of its own; some of them cut short; junk; and, where there are any, real volumes under names of
-// their own. In all four ways: whole by rename, growing and closed after each piece, kept open, one
-// file a chunk.
+// They are small simulated volumes (message 31, two cuts of 360 radials) of several stations, each
+// at a time of its own; some of them cut short; junk; and, if there are any, real volumes under
+// names of their own. They are written in all four ways: whole by rename, growing and closed after
+// each piece, kept open, and one file for each chunk.
 #pragma once
 
 #include <atomic>
@@ -30,27 +30,27 @@ enum class Way { whole, growing, open, chunks };
 struct Shipment {
     Way way = Way::whole;
     std::vector<std::vector<std::byte>> pieces;
-    Delivered delivered;  // files: that of each piece for chunks, else one
+    Delivered delivered;  // files: one for each piece of chunks, else one
 };
 
-// The six stations that a load usually has, as [[station]] tables.
+// Returns [[station]] tables of the six stations that a load usually has.
 [[nodiscard]] std::string usual_station_tables();
 
 class Shipments {
   public:
-    // Of six stations and with real volumes, or of these stations alone.
+    // Uses six stations and real volumes, or only these stations.
     Shipments(std::filesystem::path drop, std::uint32_t seed,
               const std::vector<std::string>& stations = {});
 
-    // The next one: a volume as a rule, now and then a part of one, junk or a real volume.
+    // Returns the next one: usually a volume, sometimes a part of one, junk or a real volume.
     Shipment next();
-    // Chunks of a part are lost only where there is time: the daemon waits for them.
+    // Chunks are only left out if there is time, because the daemon waits for them.
     void have_patience() { has_patience_ = true; }
-    // A whole simulated volume.
+    // Returns a whole simulated volume.
     Shipment volume(Way way);
     Shipment junk();
     Shipment part(Way way);
-    // A real volume; one that has no LDM records grows where chunks are asked for. None where there
+    // Returns a real volume. One without LDM records grows if chunks are requested. None if there
     // are no data.
     std::optional<Shipment> real(Way way);
 
@@ -66,26 +66,26 @@ class Shipments {
 
     std::filesystem::path drop_;
     std::mt19937 random_;
-    int number_ = 0;  // of all shipments
+    int number_ = 0;  // over all shipments
     bool has_patience_ = false;
     std::vector<level2::Volume> patterns_;
     std::vector<Real> real_;
 };
 
-// Writes all of it at once. Throws where that cannot be.
+// Writes all of it at once. Throws if that fails.
 void deliver(const Shipment& shipment);
 
 // A thread that writes one piece after another, of several shipments at a time.
 class Feed {
   public:
-    // `pause`: after each piece. It begins no more than allow() has allowed in all.
+    // `pause` follows each piece. Begins no more shipments than allow() has allowed in total.
     Feed(Shipments shipments, std::uint32_t seed, std::chrono::microseconds pause);
     Feed(const Feed&) = delete;
     Feed& operator=(const Feed&) = delete;
     ~Feed();
 
     void allow(int shipments) { allowed_ = shipments; }
-    // Finishes what has begun, closes all, and gives all that was delivered.
+    // Finishes what has begun, closes everything, and returns what was delivered.
     std::vector<Delivered> finish();
     [[nodiscard]] int begun() const { return begun_; }
 

@@ -21,10 +21,10 @@ class SteeringFile {
     ~SteeringFile();
 
     Steering* operator->() const { return steering_; }
-    // From this call on, as many fail; of UINT64_MAX all until end().
+    // From this call on, `count` calls fail; with UINT64_MAX, all until end().
     void fail(std::uint64_t from, std::uint64_t count, int error_number);
     void end() { steering_->to = 0; }
-    // For the daemon.
+    // Returns the environment for the daemon.
     [[nodiscard]] std::map<std::string, std::string> environment() const;
 
   private:

@@ -1,5 +1,5 @@
-// What the machine around the daemon may do: a full disk, no descriptors, a busy or damaged
-// database, a drop directory that goes and comes back, too many files, lost events.
+// Tests what can happen around the daemon: a full disk, no descriptors, a busy or damaged database,
+// a drop directory that vanishes and comes back, too many files, lost events.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -28,7 +28,7 @@ constexpr Way ways[] = {Way::whole, Way::growing, Way::open, Way::chunks};
 
 class Surroundings : public ::testing::Test {
   protected:
-    // So many volumes, in all ways in turn, and a real one and junk with every eighth.
+    // Delivers this many volumes, in all ways in turn, and a real one and junk with every eighth.
     void deliver_some(int volumes) {
         for (int i = 0; i < volumes; ++i) {
             put(shipments_.volume(ways[i % 4]));
@@ -66,7 +66,7 @@ class Surroundings : public ::testing::Test {
     double seconds_ = 0;
 };
 
-// A file system of its own below a directory; gone with the object.
+// A file system of its own below a directory; it is unmounted with the object.
 class SmallDisk {
   public:
     SmallDisk(fs::path directory, const char* size) : directory_(std::move(directory)) {
@@ -110,7 +110,7 @@ TEST_F(Surroundings, AFullDisk) {
     EXPECT_FALSE(daemon_.running().ended()) << daemon_.log_end();
     disk.free();
     expect_to_catch_up();
-    // Full at a start, too.
+    // Full at the start, too.
     EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
     disk.fill();
     deliver_some(8);
@@ -122,7 +122,7 @@ TEST_F(Surroundings, AFullDisk) {
     stop_and_look();
 }
 
-// As when another part of the process, or a small ulimit, has taken all.
+// For example, if another part of the process or a small ulimit has taken them all.
 TEST_F(Surroundings, NoDescriptorsLeft) {
     deliver_some(2);
     daemon_.start();
@@ -159,7 +159,7 @@ TEST_F(Surroundings, ADatabaseThatAnotherProcessKeepsBusy) {
     stop_and_look();
 }
 
-// After a clean stop all is in the databases themselves, not in their write-ahead logs.
+// After a clean stop, everything is in the databases themselves, not in their write-ahead logs.
 TEST_F(Surroundings, DatabasesThatAreDamagedUnderWay) {
     deliver_some(8);
     daemon_.start();
@@ -174,7 +174,7 @@ TEST_F(Surroundings, DatabasesThatAreDamagedUnderWay) {
     fs::remove(catalog / "XFAD.sqlite");
     deliver_some(8);
     expect_to_catch_up();
-    // A log that is overwritten is met when it is read: after a crash.
+    // A log that is overwritten is noticed when it is read, which is after a crash.
     write_file(catalog / "XFAC.sqlite-wal", std::string(9000, 'x'));
     deliver_some(8);
     expect_to_catch_up();
@@ -196,9 +196,9 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     fs::rename(away, daemon_.drop());
     deliver_some(4);
     expect_to_catch_up();
-    deliver_some(4);  // seen by its events again
+    deliver_some(4);  // noticed by its events again
     expect_to_catch_up();
-    // Another directory in its place, into which the files come again.
+    // Another directory in its place, into which the files are then written.
     fs::rename(daemon_.drop(), away);
     fs::create_directory(daemon_.drop());
     deliver_some(4);
@@ -221,7 +221,7 @@ TEST_F(Surroundings, EventsThatTheKernelDropped) {
     limit >> most;
     daemon_.running().signal(SIGSTOP);
     const fs::path noise = daemon_.drop() / ".noise";
-    for (int events = 0; events <= most; events += 4) {  // made, written, closed, removed
+    for (int events = 0; events <= most; events += 4) {  // created, written, closed, removed
         write_file(noise, "x");
         fs::remove(noise);
     }
@@ -242,7 +242,7 @@ std::size_t peak_memory_mib(pid_t id) {
     return 0;
 }
 
-// They come by one rename of a directory, while as many are being written, with volumes between.
+// They appear by one rename of a directory, while as many are being written, with volumes between.
 TEST_F(Surroundings, ManyFilesAtOnce) {
     const int files = number_of("STORMCELLAR_FAULT_FILES", 4000);
     const fs::path prepared = daemon_.running().root() / "prepared";

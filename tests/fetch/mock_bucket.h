@@ -1,5 +1,5 @@
-// tests/fetch/mock_bucket.h -- a bucket on loopback that answers as Amazon S3 does, and misbehaves
-// where it is told to.
+// tests/fetch/mock_bucket.h -- a bucket on loopback that answers like Amazon S3, and makes the
+// faults that it is told to make.
 #pragma once
 
 #include <atomic>
@@ -21,11 +21,11 @@ class MockBucket {
         cut,          // the connection ends in the midst of the body
         longer,       // more bytes than the listing says
         shorter,      // a whole answer of fewer bytes than the listing says
-        stalled,      // half of the body, and then nothing
+        stalled,      // half of the body, and then nothing more
         missing,      // 404
-        no_xml,       // of a listing: something else
-        changed,      // 412: other contents than those that are asked for
-        other_part,   // 206, from another byte than was asked for
+        no_xml,       // for a listing: something other than XML
+        changed,      // 412: the contents differ from those that were requested
+        other_part,   // 206, from another byte than requested
         endless_error,
     };
 
@@ -36,10 +36,10 @@ class MockBucket {
 
     [[nodiscard]] std::string address() const;
     void put(const std::string& key, std::string contents);
-    // What goes wrong with the next answers for this key (or for listings of this prefix).
+    // Sets the faults of the next answers for this key (or for listings of this prefix).
     void fail_next(const std::string& key, std::vector<Fault> faults);
     void set_page(std::size_t keys) { page_ = keys; }
-    // How often each key was asked for, and from which byte on the last time.
+    // Returns how often each key was requested, and the first byte of the last request.
     [[nodiscard]] std::size_t asked(const std::string& key) const;
     [[nodiscard]] std::size_t last_from(const std::string& key) const;
     [[nodiscard]] std::size_t most_at_once() const { return most_at_once_; }

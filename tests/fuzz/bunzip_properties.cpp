@@ -13,7 +13,7 @@ namespace {
 using bunzip::LibraryOutcome;
 using bunzip::Path;
 
-// What libbz2 gave is given, piece by piece as `piece` says, and the end is of the same kind.
+// The output must be that of libbz2, in pieces as `piece` says, with the same kind of end.
 void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted, Path path,
                 std::size_t piece, std::size_t limit) {
     static thread_local bunzip::Workspace workspace;
@@ -39,13 +39,14 @@ void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted,
     const bunzip::Status status = !is_longer ? reader.status() : bunzip::Status::too_large;
     const int end = static_cast<int>(status), wanted_end = static_cast<int>(wanted.status);
     if (end != wanted_end) fail(fmt::format("it ends as {} and not as {}", end, wanted_end));
-    // Of a block that ends inside a run libbz2 gives out more or less, as its room is cut.
+    // Of a block that ends inside a run, libbz2 returns more or less, depending on its output
+    // pieces.
     if (status != bunzip::Status::corrupt && made != wanted.bytes.size()) fail("its output ends");
     if (status == bunzip::Status::whole && reader.input_bytes() != wanted.input_bytes)
         fail("the stream took other bytes");
 }
 
-// The same whole, where there is room for some of it, or for just all.
+// The same in one call, if there is room for a part, or for exactly all.
 void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimited, Path path,
                  std::size_t limit) {
     static thread_local bunzip::Workspace workspace;
@@ -65,7 +66,7 @@ void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimi
                     wanted.bytes.begin())) {
         fail("others");
     }
-    // As above: what is corrupt there may be so behind the limit or before it.
+    // As above: the damage may be found before the limit or behind it.
     if (unlimited.status == LibraryOutcome::Status::corrupt) return;
     if (static_cast<int>(outcome.status) != static_cast<int>(wanted.status)) fail("another end");
     if (made.size() != wanted.bytes.size()) fail("others");

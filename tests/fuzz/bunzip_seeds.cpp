@@ -8,7 +8,7 @@ namespace {
 
 using bunzip::Bytes;
 
-// The first byte says what the others are: a stream, contents, contents and damage, or a plan.
+// The first byte gives the kind of the others: a stream, contents, contents and damage, or a plan.
 Bytes behind(char kind, const Bytes& bytes) {
     Bytes seed{static_cast<std::byte>(kind)};
     seed.insert(seed.end(), bytes.begin(), bytes.end());

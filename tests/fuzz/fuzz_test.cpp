@@ -1,4 +1,5 @@
-// The fuzzers' properties on their seeds and on some thousand changes of them, without libFuzzer.
+// Checks the fuzzers' properties on their seeds and some thousand mutations of them, without
+// libFuzzer.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/mutators.h"
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_bytes = 64'000;
 
-// Changes one byte, as the plainest of mutators.
+// Changes one byte: the simplest mutator.
 Bytes change_a_byte(Bytes bytes, std::size_t most, Random& random) {
     if (bytes.size() > most) bytes.resize(most);
     if (bytes.empty()) return Bytes{std::byte{1}};
@@ -18,7 +19,7 @@ Bytes change_a_byte(Bytes bytes, std::size_t most, Random& random) {
     return bytes;
 }
 
-// Each seed, and what comes of it by ever more changes.
+// Checks each seed, and then mutates it more and more.
 template <class Check, class Mutate>
 void check_seeds(const std::vector<Seed>& seeds, int changes, Check check, Mutate mutate) {
     for (const Seed& seed : seeds) {

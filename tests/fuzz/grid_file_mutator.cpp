@@ -1,5 +1,5 @@
-// Changes to grid files. All before the codes stands under one checksum, and each brick under its
-// own, so nearly every change must be sealed again to be seen.
+// Mutations of grid files. Everything before the codes has one checksum, and each brick its own, so
+// nearly every mutation needs new checksums to get past them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ using format::FileHeader;
 using grid::BrickEntry;
 using grid::BrickKind;
 
-// The sections as the header has them, cut to what there is of the file.
+// The sections by the header, cut to the size of the file.
 struct Sections {
     FileHeader header;
     std::size_t table = 0, states = 0, codes = 0;
@@ -51,7 +51,7 @@ void set_entry(Bytes& file, const Sections& sections, std::size_t brick, const B
     std::memcpy(file.data() + sections.table + brick * sizeof(BrickEntry), &entry, sizeof entry);
 }
 
-// The codes of a brick, packed or not; empty where they cannot be had.
+// Returns the codes of a brick, packed or not; empty if they are not available.
 Bytes codes_of(const Bytes& file, const Sections& sections, std::size_t brick) {
     std::size_t begin = sections.codes + brick * sections.brick_bytes;
     std::size_t size = sections.brick_bytes;
@@ -70,7 +70,7 @@ Bytes codes_of(const Bytes& file, const Sections& sections, std::size_t brick) {
     return cache::unpack_brick(codes, unpacked) ? unpacked : Bytes{};
 }
 
-// Count, extremes and checksum of a brick's codes as they now are.
+// Sets count, extremes and checksum to those of the present codes of a brick.
 void seal_codes(const Bytes& file, const Sections& sections, std::size_t brick, BrickEntry& entry) {
     const Bytes codes = codes_of(file, sections, brick);
     if (codes.empty()) return;
@@ -120,7 +120,7 @@ void put(Bytes& file, std::size_t at, T number) {
     if (at + sizeof number <= file.size()) std::memcpy(file.data() + at, &number, sizeof number);
 }
 
-// A field of the header, to an extreme or near to what it was.
+// Sets a field of the header to an extreme value or close to its own.
 void set_header_field(Bytes& file, Random& random) {
     constexpr std::array<std::uint64_t, 12> extremes = {
         0, 1, 2, 3, 4096, 16384, 1 << 20, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, ~0ULL >> 1, ~0ULL};
@@ -187,7 +187,7 @@ void change_entry(Bytes& file, Random& random) {
     set_entry(file, sections, brick, entry);
 }
 
-// A record of the description gets another kind or length.
+// Gives a record of the description another kind or length.
 void change_record(Bytes& file, Random& random) {
     const Sections sections = sections_of(file);
     const auto description = static_cast<std::size_t>(
@@ -203,7 +203,7 @@ void change_record(Bytes& file, Random& random) {
     }
 }
 
-// Bytes of one section, by the plain mutator; the section keeps its size.
+// Mutates the bytes of one section with the simple mutator; the section keeps its size.
 void change_section(Bytes& file, std::size_t begin, std::size_t end, const MutateBytes& mutate) {
     if (begin >= end) return;
     const auto first = file.begin() + static_cast<std::ptrdiff_t>(begin);

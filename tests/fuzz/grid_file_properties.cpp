@@ -1,4 +1,4 @@
-// What must hold for a grid file of any bytes.
+// The properties that hold for a grid file of any bytes.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 
 using cache::GridFile;
 
-// A file that has no name but this one, and no place on a disk.
+// A file in memory, with a path through which it can be opened.
 class MemoryFile {
   public:
     MemoryFile() : number_(::memfd_create("grid", MFD_CLOEXEC)) {
@@ -45,7 +45,7 @@ class MemoryFile {
     int number_;
 };
 
-// Writes the one file that is asked for into memory, whatever its name.
+// Writes a file into memory, whatever its name.
 class OneMemoryFile final : public FileSystem {
   public:
     Result<int> create_exclusive(const std::filesystem::path& /*path*/) override {
@@ -102,8 +102,8 @@ void require_same_cells(const grid::Grid& a, const grid::Grid& b) {
     require(a.values == b.values, "other values");
 }
 
-// What verify() has passed can be written; what comes of it is the same grid, and written once
-// more the same bytes.
+// What verify() has accepted can be written. The result is the same grid, and writing it once more
+// gives the same bytes.
 void require_writable(const GridFile& file, const grid::Grid& cells) {
     OneMemoryFile first, second;
     const auto written =
@@ -144,7 +144,8 @@ void check_grid_file(std::span<const std::byte> bytes) {
     require(!cut && cut.error().code == ErrorCode::truncated, "a cut file is called whole");
     (void)grid::to_dense(file->view());
     on_disk.cut(static_cast<off_t>(bytes.size()));
-    if (on_disk.bytes() == std::vector<std::byte>(bytes.begin(), bytes.end())) return;  // all zeros
+    // the file is all zeros
+    if (on_disk.bytes() == std::vector<std::byte>(bytes.begin(), bytes.end())) return;
     require(!file->verify().has_value(), "a file of which all was lost is called good");
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two bricks, one upon the other: codes below, states or one state alone above.
+// Two bricks, one above the other: codes below; states, or only one state, above.
 grid::Grid two_bricks(bool mixed_above) {
     using grid::CellStatus;
     grid::Grid made;

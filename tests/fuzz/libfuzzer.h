@@ -1,4 +1,5 @@
-// tests/fuzz/libfuzzer.h -- what libFuzzer calls, and what it offers to a mutator.
+// tests/fuzz/libfuzzer.h -- the functions that libFuzzer calls, and those that it offers to
+// mutators.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@ inline Bytes mutate_bytes(Bytes bytes, std::size_t most) {
     return bytes;
 }
 
-// LLVMFuzzerCustomMutator by one of the mutators.
+// Implements LLVMFuzzerCustomMutator with one of the mutators.
 template <class Mutator>
 std::size_t mutate_in_place(Mutator mutator, std::uint8_t* data, std::size_t size, std::size_t most,
                             unsigned seed) {

@@ -1,4 +1,4 @@
-// make_seeds DIRECTORY -- writes the fuzzers' seeds, one folder for each target.
+// make_seeds DIRECTORY -- writes the seeds of the fuzzers, one folder for each target.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -18,7 +18,7 @@ constexpr std::size_t message_header_bytes = 28;
 constexpr std::size_t frame_bytes = 2432;
 constexpr std::size_t most_unpacked_bytes = std::size_t{1} << 18;
 
-// A file or stream cut into parts: records or messages. Whatever is no such part is one, too.
+// A file or stream cut into parts: records or messages. Anything else is also a part.
 using Parts = std::vector<Bytes>;
 
 Bytes join(const Parts& parts) {
@@ -28,7 +28,7 @@ Bytes join(const Parts& parts) {
     return all;
 }
 
-// Header first, maybe empty; then records.
+// The header first, maybe empty; then the records.
 Parts cut_records(std::span<const std::byte> file) {
     const bool has_header = file.size() >= header_bytes && file[0] == std::byte{'A'};
     const auto header = file.first(has_header ? header_bytes : 0);
@@ -63,7 +63,7 @@ Parts cut_messages(std::span<const std::byte> stream) {
     return parts;
 }
 
-// What a record holds; empty where it is no whole bzip2 stream of a small size.
+// Returns the contents of a record; empty if it is not a whole, small bzip2 stream.
 Bytes unpack(const Bytes& record) {
     if (record.size() <= 4) return {};
     Bytes out(most_unpacked_bytes);
@@ -97,10 +97,10 @@ void rearrange(Parts& parts, std::size_t first, Random& random) {
     }
 }
 
-// Sets a field of a message to an extreme, most often one that says how much there is.
+// Sets a field of a message to an extreme value, most often a field that is a count.
 void set_field(Bytes& message, Random& random) {
-    // Halfwords: size, channel and type, segments; of message 31: azimuth number, azimuth, status,
-    // number of blocks and pointers; of message 1: gates and pointers; of message 5: cuts.
+    // Halfwords: size, channel and type, segments; for message 31: azimuth number, azimuth, status,
+    // number of blocks and pointers; for message 1: gates and pointers; for message 5: cuts.
     constexpr std::array<std::size_t, 16> fields = {12, 14, 18, 24, 26, 28, 34, 36,
                                                     38, 40, 48, 54, 58, 62, 64, 68};
     constexpr std::array<unsigned, 14> numbers = {
@@ -111,7 +111,7 @@ void set_field(Bytes& message, Random& random) {
     wire::overwrite_u16(message, at, numbers[below(random, numbers.size())]);
 }
 
-// The type or status or elevation number, to one that means something.
+// Sets the type, the status or the elevation number to another meaningful value.
 void set_kind(Bytes& message, Random& random) {
     constexpr std::array<unsigned, 9> types = {0, 1, 2, 5, 7, 15, 29, 31, 33};
     const std::size_t at = below(random, 2) == 0 ? 15 : 49;
@@ -230,7 +230,7 @@ Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
         case 3:
             return fitting(wrap(file, random), file, most, mutate);
         case 4:
-            // A second header, or the stream as it is.
+            // A second header, or the unpacked stream.
             record = below(random, 2) == 0 ? wire::archive_header() : unpack(record);
             break;
         default:

@@ -44,7 +44,7 @@ void require_same_problems(const DecodeReport& a, const DecodeReport& b) {
     }
 }
 
-// All that does not depend on the container.
+// Compares everything that does not depend on the container.
 void require_same_messages(const DecodeReport& a, const DecodeReport& b) {
     require(a.message_bytes == b.message_bytes, "message bytes {} and {}", a.message_bytes,
             b.message_bytes);
@@ -126,7 +126,7 @@ void require_well_formed_report(const Decoded& decoded) {
     }
 }
 
-// The writer refuses what would not come back; all else must.
+// The writer may refuse what would not be read back unchanged; everything else must be.
 void require_round_trip(const Decoded& decoded) {
     const auto encoded = level2::encode(decoded.volume, {1, 120});
     if (!encoded) {
@@ -156,7 +156,7 @@ void require_splits(const Decoded& decoded) {
     require(sweeps == decoded.volume.sweeps.size(), "sweeps lost in splitting");
 }
 
-// Good radials for one sweep.
+// Returns good radials for one sweep.
 Bytes good_radials(unsigned elevation_number) {
     Bytes all;
     for (unsigned i = 0; i < 3; ++i) {
@@ -173,7 +173,7 @@ Bytes good_radials(unsigned elevation_number) {
     return all;
 }
 
-// The last of the good radials may be dropped: what follows can look as if bytes of it were lost.
+// The last good radial may be dropped, because what follows can look as if it had lost bytes.
 void require_good_radials_kept(std::span<const std::byte> stream) {
     const Bytes good = good_radials(1);
     const Bytes header = level2::wire::archive_header();
@@ -192,7 +192,7 @@ void require_good_radials_kept(std::span<const std::byte> stream) {
 
 void check_container(std::span<const std::byte> file) {
     const auto one = decode(file, 1);
-    // Threads are used for LDM records only; without a report it is not known what was found.
+    // Threads are only used for LDM records; without a report it is not known what was found.
     if (!one || one->report.ldm_records) require_same(one, decode(file, 2));
     if (!one) return;
     require_well_formed(*one);

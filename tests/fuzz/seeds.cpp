@@ -27,7 +27,7 @@ Bytes legacy_radials(unsigned count) {
     return all;
 }
 
-// Small blocks, which are soon packed and unpacked.
+// Small blocks are packed and unpacked quickly.
 Bytes ldm_volume() {
     const Bytes metadata = wire::join({wire::frame(0), wire::vcp_frame(212, elevations_deg)});
     const Bytes radials = wire::radial_messages(2, 3, 20);

@@ -1,4 +1,5 @@
-// tests/fuzz/seeds.h -- small files made by hand, from which the fuzzers start. Never real data.
+// tests/fuzz/seeds.h -- small files made by hand, from which the fuzzers start. They never contain
+// real data.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ using level2::CompressEnd;
 
 constexpr std::size_t clear_code = 256;
 
-// The next eight codes, or as many as there are.
+// Returns the next eight codes, or as many as there are.
 std::deque<std::size_t> cut_group(std::span<const std::byte>& rest, std::size_t width) {
     const auto group = rest.first(std::min(rest.size(), width));
     rest = rest.subspan(group.size());
@@ -30,7 +30,7 @@ std::deque<std::size_t> cut_group(std::span<const std::byte>& rest, std::size_t 
     return codes;
 }
 
-// The strings that codes stand for; an empty string for the code that clears.
+// Returns the strings of the codes; that of the clear code is empty.
 std::vector<std::string> first_table(bool clears) {
     std::vector<std::string> table;
     for (int character = 0; character < 256; ++character)

@@ -1,4 +1,5 @@
-// tests/fuzz/slow_expand.h -- Unix compress in the plainest way: the oracle of CompressStream.
+// tests/fuzz/slow_expand.h -- Unix compress in the simplest way, as the reference for
+// CompressStream.
 //
 // Every entry of the table is a string of its own; codes are cut from groups of eight.
 #pragma once

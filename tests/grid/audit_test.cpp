@@ -19,8 +19,8 @@ namespace {
 constexpr double degree = 0.017453292519943295;
 const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
 
-// A field that is linear in space, so that cells hold all of it: 0.4 dB a kilometre to the
-// north-east, less 1.5 dB a kilometre up.
+// A field that is linear in space, so that cells represent it exactly: 0.4 dB a kilometer to the
+// northeast, minus 1.5 dB a kilometer of height.
 double field_dbz(double x_m, double y_m, double z_m) {
     return 40 + 0.1e-3 * x_m + 0.12e-3 * y_m - 1.5e-3 * z_m;
 }
@@ -54,7 +54,7 @@ level2::Volume observed(double turned_deg = 0) {
     return make_volume(plans);
 }
 
-// The field at the cells, a value everywhere.
+// The field at the cells, with a value everywhere.
 BrickGrid grid_of_field(const GridSpec& spec, double shift_m = 0) {
     Grid grid;
     grid.spec = spec;
@@ -101,7 +101,7 @@ TEST(Audit, AGridShiftedByACellShowsIt) {
     EXPECT_NEAR(row.mean, -0.1, 0.01) << "0.1 dB a kilometre to the east";
 }
 
-// At 100 km half a degree is 0.87 km, which the field shows most where it changes around the radar.
+// At 100 km, half a degree is 0.87 km, which shows most where the field changes around the radar.
 TEST(Audit, AVolumeTurnedByHalfADegreeShowsItAndMoreWithRange) {
     const BrickGrid grid = grid_of_field(small_spec());
     const level2::Volume straight = observed();
@@ -131,7 +131,7 @@ TEST(Audit, StatesThatDisagreeAreCountedApart) {
     EXPECT_EQ(found->states[value][static_cast<std::size_t>(CellStatus::no_echo)], row.sampled);
 }
 
-// Velocities beside the fold: 24 and -24 m/s on a circle of 25 are 2 apart.
+// Velocities next to the fold: 24 and -24 m/s on a circle of 25 are 2 apart.
 TEST(Audit, VelocitiesDifferByTheShorterWayRound) {
     SweepPlan plan;
     plan.moment = level2::Moment::vel;
@@ -171,8 +171,8 @@ TEST(Audit, WhatItCannotDoIsAnError) {
               ErrorCode::not_found);
 }
 
-// Real volumes by the default gridder. Method nearest is worse near the radar, where echo changes
-// most between gates and cells, and there most gates are; far away it repeats gates and is better.
+// Real volumes with the default gridder. Method nearest is worse near the radar, where echo changes
+// most between gates and cells and where most gates are. Far away it repeats gates and is better.
 struct Real {
     level2::Volume volume;
     SitePosition site;
@@ -198,8 +198,8 @@ BrickGrid gridded(const Real& of, const GridSpec& spec, const GridderOptions& op
 
 struct Expected {
     const char* file;
-    std::vector<double> rms_db;  // by range class, at most
-    double least_same;           // share of gates whose status the grid has
+    std::vector<double> rms_db;  // by range class, upper bounds
+    double least_same;           // share of gates that have the same status as the grid
 };
 
 class AuditOfRealVolumes : public ::testing::TestWithParam<Expected> {};
@@ -234,8 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Expected{"volumes/KTLX19990503_235621.gz", {4, 1.1, 0.9}, 0.98},
                       Expected{"volumes/KLOT20220317_000842_V06", {4.8}, 0.96}));
 
-// Half a degree of the antenna's azimuth, real echo: the grid no longer fits its gates, but for
-// those near the radar, which hardly move.
+// Half a degree of the antenna's azimuth on real echo: the grid no longer fits its gates, except
+// for those near the radar, which hardly move.
 TEST(Audit, ARealVolumeTurnedByHalfADegreeShowsIt) {
     STORMCELLAR_NEED_DATA();
     Real of = real("volumes/KTLX19990503_235621.gz");

@@ -14,9 +14,9 @@ double turn(double a_deg, double b_deg) {
     return std::min(step_deg, 360 - step_deg);
 }
 
-// The rule by brute force: the nearest radial, later ones first; if it is farther than half a
-// spacing, only when its neighbour on the other side is no more than 1.5 spacings from it.
-// `margin_deg` says how near the decision was.
+// The rule by brute force: the nearest radial, later ones first. If it is farther than half a
+// spacing, it counts only if its neighbor on the other side is within 1.5 spacings of it.
+// `margin_deg` returns how close the decision was.
 int slow_find(const std::vector<float>& azimuths_deg, double spacing_deg, double azimuth_deg,
               double& margin_deg) {
     int left = -1;
@@ -48,7 +48,7 @@ void expect_same_as_slow(const std::vector<float>& azimuths_deg, double spacing_
     for (int i = 0; i < 20000; ++i) {
         float at_deg = azimuth(random);
         if (at_deg >= 360) continue;
-        if (i < 1440) at_deg = static_cast<float>(i) / 4;  // the bins' own borders
+        if (i < 1440) at_deg = static_cast<float>(i) / 4;  // the borders of the bins
         double margin_deg = 0;
         const int expected =
             slow_find(azimuths_deg, spacing_deg, static_cast<double>(at_deg), margin_deg);

@@ -1,5 +1,5 @@
-// Each line of the accuracy table in stormcellar/grid/beam_geometry.h, over strata that hold the
-// hard cases: ranges about zero, horizontal and negative elevations, high and low sites, poles and
+// Tests each line of the accuracy table in stormcellar/grid/beam_geometry.h, over strata with the
+// hard cases: ranges near zero, horizontal and negative elevations, high and low sites, poles and
 // equator.
 #include "stormcellar/grid/beam_geometry.h"
 
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 __extension__ typedef __float128 Quad;
 
-// libquadmath's, declared here because clang has not its header.
+// from libquadmath; declared here because clang does not have its header
 extern "C" {
 Quad acosq(Quad);
 Quad asinq(Quad);
@@ -31,7 +31,7 @@ struct Site {
 const std::vector<Site> sites = {{35.33, 390}, {0, 0},       {78, 50},  {-71, 4000},
                                  {90, -100},   {-90, 10000}, {45, 0.1}, {13.45, 80}};
 
-// Strata: uniform draws inside each interval, so that small ranges and angles are not drowned.
+// Strata: draws are uniform within each interval, so that small ranges and angles have their share.
 const std::vector<double> range_edges_m = {-1000, -1, 0, 1, 1e3, 1e4, 1e5, 2.3e5, 4.7e5};
 const std::vector<double> elevation_edges_deg = {-5, -0.5, -1e-6, 0, 1e-6, 0.5, 2, 20, 60};
 constexpr int draws_a_stratum = 200;
@@ -59,7 +59,7 @@ Quad radians(double degrees) {
     return Quad{degrees} * acosq(-1) / 180;
 }
 
-// M and N apart, as textbooks define them.
+// M and N separately, as textbooks define them.
 Quad gaussian_radius(double latitude_deg) {
     const Quad a = 6378137;
     const Quad f = 1 / (Quad{298257223563} / 1000000000);
@@ -71,7 +71,7 @@ Quad gaussian_radius(double latitude_deg) {
     return sqrtq(meridian * prime_vertical);
 }
 
-// The textbook's formula, cancellation and all; 113 bits have enough to lose.
+// The textbook's formula with its cancellation, for which 113 bits are enough.
 struct Exact {
     Quad arc_m, height_m;
 };
@@ -164,7 +164,8 @@ TEST(BeamGeometry, ABeamNeverPassesOverWhatItsLineDoesNotReach) {
     EXPECT_FALSE(std::isnan(beam.over(460e3, 60).height_m));
 }
 
-// Heights at the range and 0.5 degrees over a sphere that fits each azimuth, less ours: the most.
+// The largest difference between our heights and those over a sphere that fits each azimuth, at
+// this range and 0.5 degrees.
 double radius_error_m(double latitude_deg, double range_m) {
     const Quad f = 1 / (Quad{298257223563} / 1000000000);
     const Quad s = sinq(radians(latitude_deg));
@@ -202,7 +203,7 @@ TEST(BeamGeometry, TheSameFormulaInFloatsErrsByATenthOfAMetre) {
             const float q = r * r + 2 * r * a * std::sin(e * std::numbers::pi_v<float> / 180);
             const float height_m =
                 static_cast<float>(site.altitude_m) + q / (std::sqrt(a * a + q) + a);
-            const double exact_m = beam.forward({r, e}).height_m;  // as proven above
+            const double exact_m = beam.forward({r, e}).height_m;  // tested above
             worst_m = std::max(worst_m, std::abs(static_cast<double>(height_m) - exact_m));
         }
     }

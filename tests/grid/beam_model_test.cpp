@@ -1,4 +1,4 @@
-// The rungs of the beam: each against what it stands for, and the figures that docs/geometry.md
+// Tests the rungs of the beam against their definitions, and the figures that docs/geometry.md
 // gives for the 4/3 earth.
 #include "stormcellar/grid/beam_model.h"
 
@@ -92,9 +92,9 @@ TEST(BeamModel, NamesSayWhatWasUsed) {
     EXPECT_EQ(BeamModel::traced(35, 0, exponential()).kind(), BeamKind::traced);
 }
 
-// What is known of it: the height of a gate in the 4/3 earth minus that on a ray in the exponential
-// reference atmosphere, at the same GEOMETRIC range, over a sphere of 6371 km (that of 35 N is
-// 6370.8 km), the antenna at sea level.
+// A known figure: the height of a gate on the 4/3 earth minus that on a ray in the exponential
+// reference atmosphere, at the same GEOMETRIC range, over a sphere of 6371 km (at 35 N it is 6370.8
+// km), with the antenna at sea level.
 TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
     const BeamModel closed = BeamModel::four_thirds(35, 0);
     const BeamModel traced = BeamModel::traced(35, 0, exponential(), RangeKind::geometric);
@@ -110,7 +110,7 @@ TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
             EXPECT_NEAR(higher_m, row.too_high_m[i], 1) << row.elevation_deg << ' ' << ranges_m[i];
         }
     }
-    // The arc of a gate at 230 km, likewise.
+    // The same for the arc of a gate at 230 km.
     for (const auto& [elevation_deg, longer_m] :
          {std::pair{0.5, 21.0}, {5.0, 159.0}, {10.0, 324.0}}) {
         EXPECT_NEAR(
@@ -119,7 +119,7 @@ TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
     }
 }
 
-// Where the gradient is that of the 4/3 earth, so is the beam.
+// If the gradient is that of the 4/3 earth, the beam must be, too.
 TEST(BeamModel, TracedThroughTheStandardGradientIsTheFourThirdsEarthAtLowHeights) {
     const BeamModel closed = BeamModel::four_thirds(35, 10);
     const BeamModel traced =
@@ -139,7 +139,7 @@ TEST(BeamModel, TracedPathCoversTheGates) {
             int checks = 0;
             for (int range_m = -1000; range_m <= 600e3; range_m += 1711) {
                 const EarthPoint point = path.at(range_m);
-                if (std::isnan(point.arc_m)) break;  // it has come down to the floor
+                if (std::isnan(point.arc_m)) break;  // it has reached the floor
                 ASSERT_NEAR(path.over(point.arc_m).range_m, range_m, 1e-3);
                 ASSERT_NEAR(path.over(point.arc_m).height_m, point.height_m, 1e-3);
                 ++checks;
@@ -183,7 +183,7 @@ TEST(BeamModel, DifferenceOfAModelFromItselfIsNothing) {
     EXPECT_EQ(none.gate_m, 0);
 }
 
-// Against every 10 m: no more than the stated excess between the 500 m.
+// Checked every 10 m: no more than the stated excess between the tabulated 500 m.
 TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
     const std::vector<RefractivityLevel> levels = {{0, 330},    {300, 300},  {350, 294},
                                                    {1500, 250}, {6000, 140}, {12e3, 60}};
@@ -227,7 +227,7 @@ TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
 }
 
 TEST(BeamModel, DifferenceIsInfiniteWhereABeamIsLost) {
-    // A beam that a duct bends into the ground, which the 4/3 earth sees go up.
+    // A beam that a duct bends into the ground, although on the 4/3 earth it rises.
     const std::vector<RefractivityLevel> levels = {{0, 400}, {1000, 200}, {8000, 90}};
     const BeamModel traced =
         BeamModel::traced(35, 100, RefractivityProfile::from_levels(levels, "duct").value());

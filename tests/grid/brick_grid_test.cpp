@@ -78,7 +78,7 @@ void expect_same_bytes(const BrickView& one, const BrickView& other) {
 
 TEST(BrickGrid, ThreadsChangeNothing) {
     for (const Quantization& quantization : {Quantization{1, -32, 0.5F}, {2, -32, 0.25F}}) {
-        const Grid grid = mixed_grid(-40, 60);  // some of it below the least value
+        const Grid grid = mixed_grid(-40, 60);  // some values are below the least value
         const BrickGrid wanted = BrickGrid::from(grid, quantization);
         EXPECT_GT(wanted.clamped_count(), 0U);
         EXPECT_GT(wanted.view().states.size(), 64U);

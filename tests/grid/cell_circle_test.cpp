@@ -9,7 +9,7 @@ namespace {
 
 const SitePosition centre{"KTLX", 35, -97, 0};
 
-// Sweeps at 0.5 and 2.5 degrees, which pass 60 km away at some 0.7 and 2.8 km.
+// Sweeps at 0.5 and 2.5 degrees, whose heights 60 km away are about 0.7 and 2.8 km.
 level2::Volume volume_of(level2::Moment moment, float lower_mps, float upper_mps) {
     SweepPlan lower;
     lower.moment = moment;

@@ -1,5 +1,5 @@
-// What a grid says of its cells beside their values, against the definitions taken literally
-// (tests/grid/slow_details.h), on real and on made volumes.
+// Tests the details of cells against a literal implementation of their definitions
+// (tests/grid/slow_details.h), on real and synthetic volumes.
 #include "stormcellar/grid/cell_details.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct Tally {
     int seen = 0, compared = 0, partly_seen = 0, undated = 0;
 };
 
-// The widest difference between what a cell is and what it would be 0.5 m higher or lower.
+// Returns the largest difference between a cell and the same cell 0.5 m higher or lower.
 double play(std::optional<double> low, std::optional<double> here, std::optional<double> high) {
     return std::max(std::abs(*low - *here), std::abs(*high - *here));
 }
@@ -157,8 +157,8 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealDetails,
                                            "volumes/KOKX20080109_141449.gz",
                                            "volumes/KCCX20130112_070503_V06.gz", "chunks/L2D_230"));
 
-// Sweeps of different reach, with a gap, some undated radials, and all of them off their elevation,
-// by less than would have sweeps change places.
+// Sweeps of different reach, with a gap and some undated radials. All are off their elevation, but
+// by less than would make sweeps change places.
 level2::Volume made_volume() {
     std::mt19937 random(5);
     std::vector<SweepPlan> plans;
@@ -193,7 +193,7 @@ TEST(CellDetails, OfMadeSweeps) {
     EXPECT_GT(linear.undated, 300);
     compare(volume, site, spec, asking(everything(), Interpolation::nearest), 3);
     level2::Volume lost = volume;
-    lost.vcp = 21;  // which has 3.35 and 6 degrees too
+    lost.vcp = 21;  // this pattern has 3.35 and 6 degrees too
     compare(lost, site, spec, asking(everything()), 3);
 }
 
@@ -225,7 +225,7 @@ TEST(CellDetails, OfSweepsFromSitesAllOverTheEarth) {
     }
 }
 
-// A grid of one cell that stands at the centre of a gate.
+// A grid of one cell that is at the center of a gate.
 TEST(CellDetails, ACellAtAGatesCentreIsAtTheGate) {
     const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
     SweepPlan plan;
@@ -302,7 +302,7 @@ TEST(CellDetails, WithoutATimeThereAreNoAges) {
     EXPECT_GT(seen, 500);
 }
 
-// The weight of methods that mix many gates, against the gridder's oracle.
+// Tests the weights of methods that mix many gates against the gridder's oracle.
 class MixedWeights : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
 
 TEST_P(MixedWeights, AreTheShareThatWasSeen) {
@@ -385,7 +385,7 @@ TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
               1);
     EXPECT_EQ(first->time, newest->time);
     EXPECT_EQ(first->frame_time, options.frame_time);
-    // 20 km east at 500 m only the lowest sweeps see.
+    // 20 km east at 500 m, only the lowest sweeps see the cell.
     const std::size_t low = spec.index(55, 50, 0);
     ASSERT_TRUE(first->details.at(Detail::age, low) && newest->details.at(Detail::age, low));
     EXPECT_LT(*first->details.at(Detail::age, low), 40);

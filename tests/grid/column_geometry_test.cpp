@@ -73,7 +73,7 @@ TEST(ColumnGeometry, AtThePoleAndAcrossTheAntimeridian) {
     expect_places({"XANT", 13.45, 179.95, 80}, spec);
 }
 
-// Grids off their sites that reach to 500 km, and fine ones close to them.
+// Grids beside their sites that reach to 500 km, and fine ones close to them.
 TEST(ColumnGeometry, FromSitesAllOverTheEarth) {
     for (const SitePosition& from :
          {SitePosition{"AA", 78, 15, -100}, SitePosition{"BB", 0, 180, 4000},

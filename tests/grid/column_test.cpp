@@ -1,4 +1,4 @@
-// One column from one sample of each sweep (grid/fill/column.h).
+// Tests one column from one sample of each sweep (grid/fill/column.h).
 #include "grid/fill/column.h"
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(FillColumn, WhereBeamsBesideALostCutOverlapTheNearerCounts) {
     EXPECT_FLOAT_EQ(column.values[1], 20);
 }
 
-// 2026-11-21: nothing at all was filled where the lower edge of the lowest beam never passes over.
+// 2026-11-21: nothing at all was filled where the lower edge of the lowest beam is at no height.
 TEST(FillColumn, ALowerEdgeThatIsNowhereLeavesTheRest) {
     BeamSample lowest = beam(valued(10), 1000);
     lowest.lower_edge_m = 1e9F;

@@ -51,8 +51,8 @@ TEST(DetectionLimit, IsFiniteAtRangeZero) {
     EXPECT_TRUE(std::isfinite(DetectionLimit{}.at(-500)));
 }
 
-// The weakest of at least 100 valid gates within 5 km, from 20 km on (nearer in, ground clutter and
-// receiver limits rule), against the limit there.
+// Compares the weakest of at least 100 valid gates within 5 km with the limit there, from 20 km on
+// (closer in, ground clutter and receiver limits dominate).
 void expect_limit(const char* name, bool is_tdwr) {
     STORMCELLAR_NEED_DATA();
     const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / name);

@@ -1,4 +1,5 @@
-// Outlines of neighbouring cells fit together, whatever the projection, the site and the cells.
+// Tests that the outlines of neighboring cells fit together, whatever the projection, site and
+// cells.
 #include "grid/place/footprint.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ double cross(Vector a, Vector b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Centre and sides, out of what the header promises of u and v.
+// Center and sides, from what the header promises about u and v.
 struct Outline {
     Vector center, u, v;
 };
@@ -47,7 +48,7 @@ Outline outline_of(const Footprint& footprint) {
             inverse * (du.x * across - du.y * along)};
 }
 
-// The area that lies between two sides which should be one, by the cell's.
+// The area between two sides that should coincide, relative to the area of the cell.
 double between(const Outline& a, Vector a_from, Vector a_to, Vector b_from, Vector b_to) {
     const Vector side = a_to - a_from;
     const double area =
@@ -113,7 +114,7 @@ TEST(Footprint, NeighboursLeaveAndShareLessThanAThousandthOfACell) {
                     const GridSpec spec = spec_of(projection, center, spacing_m);
                     double most = 1e-3;
                     if (projection == Projection::latitude_longitude) {
-                        // Parallels, and rows of equal degrees, grow shorter towards the poles.
+                        // Parallels, and rows of equal degrees, grow shorter toward the poles.
                         const double edge_deg =
                             std::abs(center.latitude_deg) + spec.ny * spec.spacing_deg / 2;
                         most += spacing_m / 6371e3 * std::tan(edge_deg * M_PI / 180);
@@ -143,7 +144,7 @@ TEST(Footprint, OfASingleColumnIsASquareOfItsSpacing) {
     EXPECT_NEAR(footprint_of(**geometry, 0, 0).radius_m, 1000 * std::sqrt(2), 0.1);
 }
 
-// Centres of all other cells lie outside, the cell's own inside.
+// The centers of all other cells are outside, that of the cell itself is inside.
 TEST(Footprint, HoldsItsOwnCentreAlone) {
     const SitePosition site{"AA", 35, -97, 0};
     GridSpec spec = spec_of(Projection::lambert_conformal, {36, -95}, 3000);

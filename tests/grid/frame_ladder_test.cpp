@@ -1,4 +1,4 @@
-// The bounds of the site frame's rungs: never passed, and not twice what is needed.
+// Tests that the bounds of the site frame's rungs always hold and are less than twice too large.
 #include "stormcellar/grid/frame_ladder.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 __extension__ typedef __float128 Quad;
 
-// libquadmath's, declared here because clang has not its header.
+// from libquadmath; declared here because clang does not have its header
 extern "C" {
 Quad acosq(Quad);
 Quad asinq(Quad);
@@ -70,7 +70,7 @@ TEST(FrameLadder, TheBoundOfTheSphereHoldsToTheAntipode) {
     }
 }
 
-// Measured independently, before this code was (35 N): 237, 566 and 1209 m.
+// Measured independently before this code was written (35 N): 237, 566 and 1209 m.
 TEST(FrameLadder, TheSphereIsOffByWhatWasMeasured) {
     EXPECT_NEAR(sphere_error_m({35, -97}, 100e3), 237, 1);
     EXPECT_NEAR(sphere_error_m({35, -97}, 230e3), 566, 1);
@@ -80,7 +80,7 @@ TEST(FrameLadder, TheSphereIsOffByWhatWasMeasured) {
     EXPECT_NEAR(sphere_error_bound_m(35, 460e3), 1226, 1);
 }
 
-// The textbook's haversines; 113 bits have enough to lose at the antipode.
+// The textbook's haversines, for which 113 bits are enough at the antipode.
 PolarPoint slow_sphere(GeoPoint from, GeoPoint to) {
     const Quad degree = acosq(-1) / 180;
     const Quad a = from.latitude_deg * degree;
@@ -167,7 +167,7 @@ void expect_bound(const SitePosition& site, const GridSpec& spec, FrameKind kind
     EXPECT_LT(reach_m(site, spec), 1.02 * measured.farthest_m);
 }
 
-// Grids all round their site, with the site off their centre.
+// Grids all around their site, with the site away from their center.
 TEST(FrameLadder, TheBoundOfEachRungHoldsForWholeGridsAndIsTight) {
     double longitude_deg = -97.3;
     for (const double latitude_deg : {78.0, 65.0, 45.0, 35.0, 2.0, -30.0, -71.0}) {

@@ -1,5 +1,5 @@
-// Every column of the table against its own geodesic, where the plane is smooth and where it is
-// not.
+// Tests every column of the table against its own geodesic, where the plane is smooth and where it
+// is not.
 #include "grid/place/frame_table.h"
 
 #include <cmath>
@@ -16,9 +16,9 @@ struct Case {
     const char* what;
     Projection projection;
     GeoPoint center;
-    double spacing;  // metres or degrees
+    double spacing;  // meters or degrees
     GeoPoint site;
-    bool few_geodesics;  // whether the table must be cheap there
+    bool few_geodesics;  // whether the table must need few geodesics there
 };
 
 using enum Projection;

@@ -55,7 +55,8 @@ TEST(GatePlaces, ThereAreNoneWhereTheBeamDoesNotGo) {
     const GatePlaces places(gates(0, 1000, 400), BeamModel::four_thirds(35, 0), 0.5, 0.475);
     EXPECT_FALSE(places.at(-1, 0));
     EXPECT_FALSE(places.at(400, 0));
-    // Half a beam lower a traced ray soon meets the ground; one below the horizon does all along.
+    // Half a beam lower, a traced ray soon meets the ground. One below the horizon goes down all
+    // along.
     const BeamModel traced = BeamModel::traced(35, 0, RefractivityProfile::reference());
     const GatePlaces low(gates(0, 1000, 400), traced, -0.3, 0.475);
     EXPECT_TRUE(low.at(50, 0));

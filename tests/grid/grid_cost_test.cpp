@@ -1,4 +1,4 @@
-// What is timed to predict a grid's time. Times themselves are no test's business:
+// Tests what is timed to predict the time of a grid. The times themselves are not tested:
 // bench/bench_plan.
 #include "grid/plan/grid_cost.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
 
-// Echo to the east, within 75 km and again beyond.
+// Echo in the east, within 75 km and again beyond.
 level2::Volume half_volume(level2::Moment moment = level2::Moment::ref) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 1.5, 2.5, 3.5}) {
@@ -102,7 +102,7 @@ TEST(PredictedCosts, AreSaidOfEveryStepAndOfWhatInterpolationAndExtentTakeTogeth
             EXPECT_TRUE(accuracy::validate(chain));
             EXPECT_EQ(chain.joint_costs.size(), 3U) << "each interpolation but the cheapest";
             EXPECT_GT(chain.cheapest_cost_s, 0);
-            // Ten times apart on a quiet machine: no load turns that round.
+            // Ten times apart on a quiet machine, so no load reverses the order.
             accuracy::Choice cheapest;
             accuracy::Choice exact;
             for (const accuracy::Step& step : chain.steps) {
@@ -110,7 +110,7 @@ TEST(PredictedCosts, AreSaidOfEveryStepAndOfWhatInterpolationAndExtentTakeTogeth
                 exact.rungs.push_back(step.effects.size());
             }
             EXPECT_GT(accuracy::cost_s(chain, exact), accuracy::cost_s(chain, cheapest));
-            // About the site every frame is in closed form.
+            // About the site, every frame is in closed form.
             EXPECT_EQ(chain.steps[0].effects[1].cost_s, 0);
         }
     }

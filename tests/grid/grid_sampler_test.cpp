@@ -59,7 +59,7 @@ TEST(GridSampler, BeyondTheOutermostCellsIsNothing) {
     EXPECT_TRUE(std::isnan(sampler.level_at(nan)));
 }
 
-// Every kind of brick: what find() says of a cell is what the view says of it, slowly.
+// In every kind of brick, find() must return what the view says about the cell.
 TEST(GridSampler, ReadsEveryKindOfBrickAsTheViewDoes) {
     Grid grid = linear_grid();
     for (std::size_t i = 0; i < grid.status.size(); ++i) {

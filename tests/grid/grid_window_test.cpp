@@ -115,7 +115,7 @@ TEST(GridWindow, WholeBricksEndAtBricksOrAtTheDomain) {
     EXPECT_FALSE(is_whole_bricks(domain, {16, 32, 47, 16}));
 }
 
-// Every column within reach, by a geodesic where great circles do not tell.
+// Finds every column within reach, by geodesics where great circles do not decide.
 struct Extremes {
     int least_x = 1 << 20, greatest_x = -1, least_y = 1 << 20, greatest_y = -1;
 };
@@ -202,7 +202,7 @@ TEST(GridWindow, AcrossTheAntimeridianAndAboutThePoles) {
     const Columns alaska(domain_of(lambert_conformal, {62, -155}, 20000, 200, 150));
     for (const double longitude_deg : {-179.9, 179.9, 175.0, -170.0, 180.0})
         expect_holds_all(pacific, {52, longitude_deg}, 460e3, true);
-    // A grid all round the earth is torn at 180 degrees.
+    // A grid around the whole earth is cut at 180 degrees.
     expect_holds_all(world, {52, 179}, 460e3, false);
     expect_holds_all(world, {52, 10}, 460e3, true);
     for (const double latitude_deg : {89.9, 86.5, 85.7, -86.0, 84.0}) {
@@ -211,7 +211,7 @@ TEST(GridWindow, AcrossTheAntimeridianAndAboutThePoles) {
     }
     expect_holds_all(alaska, {71, -156}, 460e3, true);
     expect_holds_all(alaska, {51.5, 176}, 460e3, true);
-    // The antipode of the centre, which the plane tears apart.
+    // The plane is cut at the antipode of the center.
     const Columns wide(domain_of(azimuthal_equidistant, {0, 0}, 200000, 200, 200));
     expect_holds_all(wide, {0.5, 179}, 460e3, false);
 }
@@ -224,8 +224,8 @@ TEST(GridWindow, NoWindowWhereNothingIsReached) {
     EXPECT_FALSE(site_window(cone, {"PGUA", 13.45, 144.81, 100}));
 }
 
-// One volume, on a domain and on a window of it, by methods that look about a cell too: the same
-// cells, those at the window's edge as well.
+// Grids one volume on a domain and on a window of it, also by methods that look beyond the cell:
+// the cells must be the same, also at the edge of the window.
 class InAWindow : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
 
 TEST_P(InAWindow, AVolumeIsTheSame) {

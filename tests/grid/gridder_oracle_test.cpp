@@ -1,4 +1,5 @@
-// The gridder against its oracle (grid/judge/oracle.h), every method, on real and on made volumes.
+// Tests the gridder against its oracle (grid/judge/oracle.h), with every method, on real and
+// synthetic volumes.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -19,8 +20,8 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double beam_width_deg = 0.95;
-// Tables of arc are within 0.15 m in range and height; a radial's own elevation adds 0.25 m, and 1
-// m at the beam's edges.
+// Tables of arc are accurate to 0.15 m in range and height. A radial's own elevation adds 0.25 m,
+// and 1 m at the edges of the beam.
 constexpr double height_accuracy_m = 1;
 constexpr double weight_accuracy = 2e-3;
 
@@ -40,8 +41,8 @@ Method method_of(Interpolation interpolation, CellExtent cell = CellExtent::poin
     return method;
 }
 
-// A cell may be what the oracle says anywhere within the stated accuracy of height.
-// `slack` is allowed beside that: a gate on the very edge of a cell's outline may count or not.
+// A cell may be what the oracle finds anywhere within the stated accuracy of height. `slack` is
+// allowed in addition: a gate on the very edge of a cell's outline may count or not.
 void compare_column(const Grid& grid, const OracleColumn& slow, int ix, int iy, double slack,
                     Tally& tally) {
     for (std::size_t level = 0; level < grid.spec.levels_m.size(); ++level) {
@@ -133,7 +134,7 @@ TEST_P(RealVolume, AgreesWithTheOracleFarFromTheSite) {
     compare(decoded->volume, site, spec, {level2::Moment::ref, {}, 7});
 }
 
-// A grid of one cell that stands at the centre of a gate must hold that gate.
+// A grid of one cell at the center of a gate must hold that gate.
 TEST_P(RealVolume, ACellAtAGatesCentreHoldsTheGate) {
     STORMCELLAR_NEED_DATA();
     const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / GetParam());
@@ -181,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealVolume,
                                            "KLOT20220317_000842_V06", "KOKX20080109_141449.gz",
                                            "KATX20160427_095248_V06.gz"));
 
-// Every other way to make a cell, on one volume with echo, holes and folded gates.
+// Tests every other method on one volume with echo, holes and folded gates.
 class EveryMethod : public ::testing::TestWithParam<Method> {};
 
 TEST_P(EveryMethod, AgreesWithTheOracle) {
@@ -220,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
                       method_of(Interpolation::beam_weighted, CellExtent::area),
                       method_of(Interpolation::beam_weighted, CellExtent::area, Averaging::in_z)));
 
-// States scattered at random, so that every pair of them meets at every weight.
+// States scattered at random, so that every pair of them occurs with every weight.
 level2::Volume scattered_volume(level2::Moment moment) {
     std::mt19937 random(23);
     std::vector<SweepPlan> plans;
@@ -256,7 +257,7 @@ TEST(GridderOracle, ScatteredStates) {
 
 TEST(GridderOracle, ALostCut) {
     level2::Volume volume = scattered_volume(level2::Moment::ref);
-    volume.vcp = 21;  // which has 3.35 degrees too
+    volume.vcp = 21;  // this pattern has 3.35 degrees too
     const SitePosition site{"XXXX", -33, 151, 10};
     GridSpec spec = default_spec(-33, 151);
     spec.spacing_m = 4100;
@@ -276,7 +277,7 @@ TEST(GridderOracle, EveryProjectionOffItsSiteAndAcrossTheAntimeridian) {
     Comparison area{level2::Moment::ref, {}, 17};
     area.method = method_of(Interpolation::beam_weighted, CellExtent::area);
     area.most_doubtful_cells = 0.2;
-    area.slack = 20;  // neighbouring gates have nothing in common
+    area.slack = 20;  // neighboring gates are independent
     const Tally area_degrees = compare(volume, site, spec, area);
     spec.projection = Projection::lambert_conformal;
     spec.spacing_m = 4100;

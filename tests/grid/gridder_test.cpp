@@ -151,7 +151,7 @@ TEST(Gridder, EqualElevationsAndASingleSweep) {
     volume.sweeps[0].vcp_elevation_deg = 0.5F;
     volume.sweeps[1].vcp_elevation_deg = 0.9F;
     for (level2::Radial& radial : volume.sweeps[1].radials)
-        radial.elevation_deg = 0.5F;  // a different cut, measured at the same elevation
+        radial.elevation_deg = 0.5F;  // another cut, measured at the same elevation
     const Grid grid = make(volume);
     for (const float value : grid.values)
         ASSERT_TRUE(std::isfinite(value));
@@ -161,7 +161,7 @@ TEST(Gridder, EqualElevationsAndASingleSweep) {
     EXPECT_EQ(status_at(single, 100, 0, 3.5), CellStatus::not_seen);
 }
 
-// One sector of the upper sweep was measured below the lower one: there the two change places.
+// One sector of the upper sweep was measured below the lower one, so the two change places there.
 TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
     level2::Volume volume = make_volume({plan(0.5, 1, 10), plan(0.9, 2, 30), plan(2.4, 3, 30)});
     for (std::size_t i = 0; i < 60; ++i) {
@@ -182,8 +182,8 @@ TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
     EXPECT_NEAR(value_at(grid, -75, 130, 3.5), expected(0.5, 0.9, 10, 30), 0.05);
 }
 
-// 2026-11-21: where sweeps change places, one that brackets a cell was left out of a tile's plan,
-// so that no echo stood where nothing was seen. Every second radial is off, either way.
+// 2026-11-21: where sweeps change places, one that brackets a cell was missing in a tile's plan, so
+// that cells that were not seen became no echo. Every second radial is off, up or down.
 TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 0.9, 1.3, 1.7, 2.1}) {
@@ -201,7 +201,7 @@ TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
             sweep.radials[i].elevation_deg += flipped ? -off_deg : off_deg;
         }
     }
-    // One folded gate in every stretch makes nothing uniform: every sweep is sampled.
+    // One folded gate in every stretch means that nothing is uniform, so every sweep is sampled.
     level2::Volume sampled = volume;
     for (level2::Sweep& sweep : sampled.sweeps) {
         for (std::size_t at = 0; at < sweep.moments[0].codes8.size(); at += 16)
@@ -283,8 +283,8 @@ TEST(Gridder, SameBitsForAnyNumberOfThreadsOnARealVolume) {
         EXPECT_TRUE(same_bits(one, make(decoded->volume, threads))) << threads;
 }
 
-// The Oklahoma outbreak: the supercell that reached Moore half an hour later stands some 40 km to
-// the west-south-west of the radar, its core above 50 dBZ up to at least 8 km.
+// The Oklahoma outbreak: the supercell that reached Moore half an hour later is some 40 km
+// west-southwest of the radar, its core above 50 dBZ up to at least 8 km.
 TEST(Gridder, StormsStandWhereTheyStood) {
     STORMCELLAR_NEED_DATA();
     const auto decoded =

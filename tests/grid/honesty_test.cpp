@@ -1,8 +1,8 @@
-// The planner kept honest (DESIGN section 6), over real volumes of every kind:
-//   what it left off, forced on, changes the grid by less than the budget;
-//   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
-//   scene for each effect;
-//   the grid it chose is within the budget of the oracle's.
+// Checks the promises of the planner over real volumes of every kind:
+// - An effect that it left off changes the grid by less than the budget if it is forced on.
+// - An effect that it turned on changes the grid by more than a tenth of the budget if it is forced
+//   off, in at least one scene for each effect.
+// - The grid that it chose is within the budget of the oracle's.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,8 +31,8 @@ struct HonestScene {
     level2::Moment moment = level2::Moment::ref;
     int side = 150;
     double spacing_m = 2000;
-    double east_deg = 0;  // of the grid's centre from the site
-    int columns = 40;     // that the oracle computes; of wide cells each takes long
+    double east_deg = 0;  // of the center of the grid from the site
+    int columns = 40;     // columns that the oracle computes; wide cells take long
 };
 
 const std::vector<HonestScene>& scenes() {
@@ -149,7 +149,8 @@ TEST_P(Honesty, WhatIsLeftOffIsLessThanTheBudget) {
         << "all that was left off";
 }
 
-// At most one cell in a hundred is off by more than the budget; of the sample some more may be.
+// At most one cell in a hundred of the grid is off by more than the budget. In the sample it may be
+// some more.
 TEST_P(Honesty, TheGridIsWithinTheBudgetOfTheOracle) {
     STORMCELLAR_NEED_DATA();
     const HonestScene& honest = scenes()[GetParam()];
@@ -195,7 +196,7 @@ TEST_P(Honesty, TheGridIsWithinTheBudgetOfTheOracle) {
         }
     }
     EXPECT_GT(compared, 20 / testing::slow_down);
-    // Cells of a column are off together: three times the share, and two columns' worth.
+    // Cells of a column are off together: three times the share, plus two columns.
     EXPECT_LE(exceeding, 0.03 * compared + 6) << "of " << compared;
 }
 
@@ -210,7 +211,8 @@ TEST(Honesty, EveryEffectThatIsTurnedOnMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const Grid chosen = whole_grid(*prepared, prepared->plan->choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Not what came along because it costs nothing, or with the most accurate choice.
+            // Leave out what was turned on because it costs nothing, or with the most accurate
+            // choice.
             const bool called_for = decision.reason.starts_with("without it") ||
                                     accuracy::is_unbounded(decision.predicted);
             if (!decision.on || !called_for) continue;

@@ -1,4 +1,4 @@
-// tests/grid/made_partials.h -- partials of made sites, for the tests of merging.
+// tests/grid/made_partials.h -- partials of synthetic sites, for tests of merging.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline GridSpec small_domain() {
     return spec;
 }
 
-// Grids that stay where they are while partials point to them.
+// Holds the grids to which its partials point.
 class Partials {
   public:
     explicit Partials(GridSpec domain) : domain_(std::move(domain)) {}
@@ -56,7 +56,7 @@ class Partials {
         grids_.push_back(BrickGrid::from(grid, quantization));
         all_.push_back({grids_.back().view(), site});
     }
-    // Bricks of every kind: some all alike, some of states alone, some of all.
+    // Bricks of every kind: some uniform, some with states alone, some with everything.
     void add_random(const SitePosition& site, const GridWindow& window,
                     const Quantization& quantization, unsigned seed) {
         std::mt19937 random(seed);

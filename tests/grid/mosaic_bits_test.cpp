@@ -1,5 +1,5 @@
-// What changes no bit of a mosaic: the order of arrival, threads, an update in the place of a
-// merge, what is not to be read.
+// Tests what must not change a bit of a mosaic: the order of arrival, threads, an update instead of
+// a merge, bricks that are not to be read.
 #include <algorithm>
 #include <memory>
 #include <random>
@@ -113,7 +113,7 @@ TEST(MosaicBits, AnUpdateIsAFullMerge) {
     }
 }
 
-// With the partials that touch it alone, each stripe is as all of them make it.
+// Each stripe, made from only the partials that touch it, is the same as in the full merge.
 TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
     for (const Quantization& quantization : {one_byte, two_bytes}) {
         Partials partials = random_partials(quantization, 10);
@@ -139,8 +139,8 @@ TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
     }
 }
 
-// Bricks that hold nothing to be seen may be anything on disk: they are not read. Nor are those
-// that no changed window touches.
+// Bricks in which nothing is seen are not read, whatever they are on disk. Nor are bricks that no
+// changed window touches.
 TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     Partials partials = random_partials(one_byte, 9);
     const GridSpec& domain = partials.domain();
@@ -161,7 +161,7 @@ TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     ASSERT_TRUE(made);
     expect_same_bits(*expected, *made);
 
-    // Everything but the bricks of one window.
+    // all but the bricks of one window
     const GridWindow changed{32, 32, 16, 32};
     for (std::size_t s = 0; s < all.size(); ++s) {
         const GridWindow window = *window_of(domain, *all[s].view.spec);

@@ -1,5 +1,5 @@
-// The rules of merging, against the slow oracle and by hand; what must be the same to the bit:
-// mosaic_bits_test.cpp.
+// Tests the rules of merging, against the slow oracle and by hand. What must be the same to the bit
+// is in mosaic_bits_test.cpp.
 #include "stormcellar/grid/mosaic.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using level2::Moment;
 
-// What was compared, so that a test can ask whether it was enough.
+// Counts what was compared, so that a test can check that it was enough.
 struct Compared {
     std::array<int, 4> states{};
     int close = 0;
@@ -132,7 +132,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         value = state == weak ? 10.0F : 40.0F;
     };
     Partials partials(domain);
-    // The same place, but for the name.
+    // the same place under another name
     partials.add({"KAAA", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
                  [&](int ix, int, int, auto& status, float& value) { put(ix % 5, status, value); });
     partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
@@ -144,7 +144,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         const auto made = merge(domain, partials.all(), options);
         const BrickView view = made->cells.view();
         const CellStatus status = view.status(a, b, 0);
-        // States as -100, -101 and -102, which no value is.
+        // returns states as -100, -101 and -102, which no value is
         if (status != CellStatus::value) return -100 - static_cast<int>(status);
         return static_cast<double>(view.value(a, b, 0));
     };
@@ -167,7 +167,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         EXPECT_EQ(state_of(overlap, Moment::zdr, weak, nothing), 10) << "v = n is a value";
         EXPECT_EQ(state_of(overlap, Moment::zdr, folded, strong), 40) << "f = v is a value";
         EXPECT_EQ(state_of(overlap, Moment::zdr, folded, nothing), no_echo) << "f = n is no echo";
-        // Detection limits of -41.5 dBZ at 1 km, some 15 km off and 1 km up.
+        // Detection limits of -41.5 dBZ at 1 km, some 15 km away and 1 km up.
         const double arc_km = std::hypot(domain.x_m(strong), domain.y_m(nothing)) / 1000;
         const double limit = -41.5 + 20 * std::log10(std::hypot(arc_km, 1.0));
         EXPECT_NEAR(state_of(overlap, Moment::ref, strong, nothing), (40 + limit) / 2, 0.2551);
@@ -176,15 +176,15 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, nothing, weak), 10);
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, weak), 10);
     EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, nothing), no_echo);
-    // Of two as near, the first by name.
+    // If two are equally near, the first by name counts.
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, weak, strong), 10);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, strong, weak), 40);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, folded, weak), range_folded);
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, nothing, weak), no_echo);
 }
 
-// Two radars, one of which shows all 2 dB stronger, see one smooth field. Where the second one's
-// window ends its weight is at most 3.4 % of one, and half of what the first has 140 km nearer.
+// Two radars see one smooth field, one of them 2 dB stronger. Where the window of the second ends,
+// its weight is at most 3.4 % of one, and half of that of the first, which is 140 km nearer.
 TEST(Mosaic, NoSeamWhereAWindowEnds) {
     GridSpec domain = default_spec(41, -76);
     domain.nx = 256;
@@ -241,13 +241,13 @@ TEST(Mosaic, MeansBelowTheCodesAreClampedAndCounted) {
     partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte, fill_with(CellStatus::no_echo));
     const auto made = merge(domain, partials.all(), {});
     ASSERT_TRUE(made);
-    // Within 2 km the limit of -41.5 dBZ at 1 km is below -32.
+    // Within 2 km, the limit of -41.5 dBZ at 1 km is below -32.
     EXPECT_EQ(made->cells.view().value(8, 8, 0), -32);
     EXPECT_GT(made->cells.clamped_count(), 0U);
     EXPECT_LT(made->cells.clamped_count(), 60U);
 }
 
-// What docs/geometry.md says of c (arc^2 + height^2): the slant range over the 4/3 earth.
+// What docs/geometry.md says about c (arc^2 + height^2): the slant range over the 4/3 earth.
 TEST(Mosaic, TheDetectionLimitIsThatOfTheSlantRange) {
     double largest_db = 0;
     for (const double altitude_m : {0.0, 3000.0}) {

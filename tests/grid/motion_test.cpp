@@ -1,4 +1,4 @@
-// Motion that is known, had back from two grids.
+// Tests that a known motion is found from two grids.
 #include "grid/mosaic/motion.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ GridSpec spec_of(int cells, double spacing_m) {
     return spec;
 }
 
-// Some fifteen storms, none like the other, all over the grid.
+// Some fifteen storms, all different, all over the grid.
 std::vector<Blob> storms(double east_mps, double north_mps) {
     std::vector<Blob> blobs;
     for (int i = 0; i < 15; ++i) {

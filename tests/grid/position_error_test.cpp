@@ -19,7 +19,7 @@ GridSpec small_spec() {
     return spec;
 }
 
-// Two sweeps of one elevation, of which the first was measured with one radial 0.3 degrees off.
+// Two sweeps at one elevation. The first has one radial 0.3 degrees off.
 level2::Volume unsteady_then_steady() {
     SweepPlan plan;
     auto volume = make_volume({plan, plan});

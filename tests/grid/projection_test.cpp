@@ -1,4 +1,4 @@
-// Columns and places, for every projection, from pole to pole and across the antimeridian.
+// Tests columns and places, for every projection, from pole to pole and across the antimeridian.
 #include "stormcellar/grid/projection.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ double turn(double from_deg, double to_deg) {
     return std::remainder(to_deg - from_deg, 360.0);
 }
 
-// Distance between two places, near enough for what is close together.
+// Distance between two places; accurate enough for places close together.
 double apart_m(GeoPoint a, GeoPoint b) {
     return SiteFrame(a.latitude_deg, a.longitude_deg).to_polar(b).arc_m;
 }
@@ -79,7 +79,8 @@ TEST(GridProjection, RoundTripsFromPoleToPole) {
         if (near_pole) continue;
         expect_round_trips(spec_of(Projection::latitude_longitude, center));
         GridSpec cone = spec_of(Projection::lambert_conformal, center);
-        // The centre is not the cone's own origin; no cone has the equator alone for its parallel.
+        // The center is not the cone's own origin, and a cone cannot have the equator as its only
+        // parallel.
         cone.parallels_deg = {center.latitude_deg + 3, std::min(center.latitude_deg + 17, 88.0)};
         expect_round_trips(cone);
         const bool has_own_cone = center.latitude_deg != 0;
@@ -144,7 +145,8 @@ TEST(GridProjection, LatitudeLongitudeIsRegularAndGoesOnAcrossTheAntimeridian) {
     EXPECT_NEAR(projection.to_column({13.45, -179.95}).x, 34.5, 1e-9);
 }
 
-// Snyder (1987), Map Projections - A Working Manual, eqs 14-15, 15-7 to 15-11, as they stand.
+// Snyder (1987), Map Projections - A Working Manual, eqs 14-15, 15-7 to 15-11, implemented
+// literally.
 struct SlowCone {
     Real n, f;
     static constexpr Real flattening = 1 / 298.257223563L;

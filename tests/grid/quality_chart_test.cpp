@@ -1,5 +1,5 @@
-// What each method does to a point, an edge and a wave (bench/quality_chart.h), with gates sampled
-// at their centres: limits in closed form. docs/accuracy.md has the whole table.
+// Tests what each method does to a point, an edge and a wave (bench/quality_chart.h), with gates
+// sampled at their centers, against limits in closed form. docs/accuracy.md has the whole table.
 #include "bench/quality_chart.h"
 
 #include <cmath>
@@ -52,8 +52,9 @@ TEST_P(AtRange, APointStaysWhereItIs) {
     }
 }
 
-// Sampling adds no more variance than the boxes that it takes for a point: a gate, the distance
-// between radials and a cell, each s^2 / 12; linear weights double that of what they go between.
+// Sampling adds at most the variance of the boxes that it treats as points (a gate, the distance
+// between radials, and a cell), which is s^2 / 12 for each. Linear weights double that of the boxes
+// between which they interpolate.
 TEST_P(AtRange, APointIsNoWiderThanGateRadialAndCellMakeIt) {
     const double range_km = GetParam();
     const Observed point = observe_point(range_km * 1000, Gates::of_points);
@@ -80,8 +81,8 @@ TEST_P(AtRange, TheBeamsPatternSmearsAcrossTheBeam) {
     EXPECT_GT(point_chart(point, by_beam).across_km, point_chart(point, linear).across_km);
 }
 
-// The mean in Z over all gates in a cell adds up to what there is; points only on average, and the
-// mean in dB always loses.
+// The mean in Z over all gates in a cell preserves the total. Points do so only on average, and the
+// mean in dB always loses some.
 TEST(Conservation, TheMeanInZOverCellsKeepsTheTotal) {
     const Observed point = observe_point(50e3, Gates::of_points);
     const PointChart in_z = point_chart(point, area);
@@ -91,7 +92,7 @@ TEST(Conservation, TheMeanInZOverCellsKeepsTheTotal) {
     EXPECT_LT(point_chart(point, in_db).total_z_ratio, in_z.total_z_ratio - 0.05);
 }
 
-// An edge is no less steep than the widest of what is averaged, and stands within half of it.
+// An edge is at least as steep as the widest box of the average, and within half of it.
 TEST_P(AtRange, AnEdgeAlongTheBeamStaysAsSteepAsGatesAndCells) {
     const Observed edge = observe_edge(GetParam() * 1000, Gates::of_points);
     for (const Method& method : {nearest, linear, eight, by_beam}) {
@@ -99,14 +100,14 @@ TEST_P(AtRange, AnEdgeAlongTheBeamStaysAsSteepAsGatesAndCells) {
         EXPECT_LT(chart.rise_km, 2 * gate_km + 0.25) << method.name();
         EXPECT_LT(std::abs(chart.shift_km), gate_km / 2 + 0.13) << method.name();
     }
-    // A box of a cell's width, seen under 40 degrees: 1.41 km from corner to corner at most.
+    // A box of the width of a cell, seen at 40 degrees: at most 1.41 km from corner to corner.
     const EdgeChart chart = edge_chart(edge, area);
     EXPECT_GT(chart.rise_km, 0.4);
     EXPECT_LT(chart.rise_km, 1.6);
 }
 
-// The nearest radial is a box of the distance between radials; the mean over a box of width w
-// leaves sin(pi w / length) / (pi w / length) of it.
+// The nearest radial is a box of the distance between radials. The mean over a box of width w
+// leaves sin(pi w / length) / (pi w / length) of a wave.
 TEST_P(AtRange, AWaveKeepsWhatAMeanOverABoxLeaves) {
     const double range_km = GetParam();
     const Observed wave = observe_wave(range_km * 1000, Gates::of_points, 8000, true);

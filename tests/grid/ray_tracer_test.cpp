@@ -1,5 +1,6 @@
-// Each line of the accuracy in stormcellar/grid/ray_tracer.h, over strata that hold the hard cases:
-// horizontal and falling rays, layers that bend the ray back, high and low antennas, steep beams.
+// Tests each line of the accuracy in stormcellar/grid/ray_tracer.h, over strata with the hard
+// cases: horizontal and falling rays, layers that bend the ray back, high and low antennas, steep
+// beams.
 #include "stormcellar/grid/ray_tracer.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ RefractivityProfile exponential(double n_units = 313, double scale_m = 7350) {
     return RefractivityProfile::exponential(n_units, scale_m).value();
 }
 
-// Levels from the antenna's altitude on; gradients per km between them, then the exponential's.
+// Levels from the altitude of the antenna on, with gradients per km between them, then those of the
+// exponential.
 RefractivityProfile layered(double altitude_m, std::vector<std::pair<double, double>> tops) {
     double n_units = exponential().at(altitude_m).n_units;
     std::vector<RefractivityLevel> levels = {{altitude_m - 20, n_units}};
@@ -62,7 +64,7 @@ int turns_before(const TracedRay& ray, double range_m) {
         if (node.height_rate * last < 0) ++turns;
         if (node.height_rate != 0) last = node.height_rate;
     }
-    // The stretch that holds the range begins at a turning point, or goes on as before.
+    // The stretch that holds the range begins at a turning point, or continues the one before.
     const auto next = std::find_if(ray.nodes().begin(), ray.nodes().end(),
                                    [&](const RayNode& node) { return node.range_m > range_m; });
     if (next != ray.nodes().end() && next->height_rate * last < 0) ++turns;
@@ -74,7 +76,7 @@ struct Worst {
     int checks = 0;
 };
 
-// The ray's point at a range against where the slow ray is at the same height.
+// Compares the ray's point at a range with the slow ray at the same height.
 void check(const RefractivityProfile& profile, const RayOptions& options, const TracedRay& ray,
            double range_m, Worst& worst) {
     const EarthPoint point = ray.at(range_m);
@@ -89,7 +91,7 @@ void check(const RefractivityProfile& profile, const RayOptions& options, const 
     const double stretch_m = slow.range_m - range_m;
     const double height_m = std::abs(there.height_m - point.height_m);
     const double arc_m = std::abs(there.arc_m - slow.arc_m);
-    // Not a number, or far off in range, must not pass for a small error in height.
+    // NaN or a large error in range must not pass as a small error in height.
     ASSERT_LT(std::abs(stretch_m), 200) << options.elevation_deg << " deg, " << range_m << " m";
     worst.height_m = std::max(worst.height_m, height_m);
     worst.arc_m = std::max(worst.arc_m, arc_m);
@@ -104,7 +106,7 @@ void check_strata(const Site& site, const RefractivityProfile& profile, Worst& w
         std::uniform_real_distribution<double> anywhere(0, ray.nodes().back().range_m);
         for (const double range_m : {-1000.0, -10.0, 10.0, 1e3, 3e4, 1e5, 2.3e5, 4.7e5,
                                      anywhere(random), anywhere(random)}) {
-            // Near the turning point of a level beam a height says little of the range: below.
+            // Near the turning point of a level beam, height says little about range: see below.
             if (range_m < 1e3 && std::abs(elevation_deg) < 0.01) continue;
             check(profile, options, ray, range_m, worst);
         }
@@ -176,7 +178,7 @@ TEST(RayTracer, ALevelBeamBeginsAsAParabola) {
     }
 }
 
-// Straight lines need no quadrature: the triangle of centre, antenna and point.
+// Straight lines need no quadrature: the triangle of center, antenna and point.
 TEST(RayTracer, AVacuumLeavesItStraight) {
     for (const double elevation_deg : {-0.1, 0.0, 0.5, 5.0, 60.0, 89.999, 90.0}) {
         const RayOptions options = options_for({35, 390}, elevation_deg);
@@ -200,7 +202,8 @@ TEST(RayTracer, BouguersInvariantHoldsAtEveryNode) {
     const auto profile = layered(390, {{100, -300}, {400, -40}, {460, -500}, {1500, -35}});
     for (const double elevation_deg : {-0.3, 0.0, 0.2, 3.0}) {
         RayOptions options = options_for({35, 390}, elevation_deg);
-        options.range_kind = RangeKind::geometric;  // there, height_rate is the elevation's sine
+        // with it, the rate of height is the sine of the elevation
+        options.range_kind = RangeKind::geometric;
         const TracedRay ray(profile, options);
         const auto invariant = [&](const RayNode& node) {
             return (1 + 1e-6 * profile.at(node.height_m).n_units) *
@@ -234,7 +237,7 @@ TEST(RayTracer, ARayThatMeetsTheFloorEndsThere) {
     EXPECT_FALSE(std::isnan(ray.at(end_m).arc_m));
     EXPECT_TRUE(std::isnan(ray.at(end_m + 1).arc_m));
     EXPECT_TRUE(std::isnan(ray.over(ray.nodes().back().arc_m + 1).height_m));
-    // From 4,000 m a ray at -1 degree turns before it comes so low.
+    // From 4,000 m, a ray at -1 degree turns before it is that low.
     EXPECT_TRUE(TracedRay(exponential(), options_for({35, 4000}, -2.5)).meets_floor());
     EXPECT_FALSE(TracedRay(exponential(), options_for({35, 4000}, -1)).meets_floor());
 }
@@ -247,7 +250,7 @@ TEST(RayTracer, ADuctHoldsLowRaysAndLetsSteepOnesGo) {
     EXPECT_GT(TracedRay(profile, options_for({35, 50}, 0.6)).at(460e3).height_m, 10e3);
 }
 
-// 300 N-units at the ground lengthen the optical path by 3e-4 of what lies low.
+// 300 N-units at the ground lengthen the optical path of low beams by a share of 3e-4.
 TEST(RayTracer, OpticalRangeIsLongerThanThePath) {
     RayOptions options = options_for({35, 0}, 0.5);
     const TracedRay optical(exponential(), options);

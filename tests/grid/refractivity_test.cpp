@@ -1,4 +1,4 @@
-// Profiles of refractivity: their formulas, their borders, and what they refuse.
+// Tests profiles of refractivity: their formulas, their limits, and what they refuse.
 #include "stormcellar/grid/refractivity.h"
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(Refractivity, ExponentialIsTheReferenceAtmosphere) {
         EXPECT_FALSE(RefractivityProfile::exponential(313, scale_m)) << scale_m;
 }
 
-// Few levels of an exponential atmosphere give that atmosphere back.
+// A few levels of an exponential atmosphere reproduce that atmosphere.
 TEST(Refractivity, LevelsOfAnExponentialAtmosphereAreThatAtmosphere) {
     const auto reference = RefractivityProfile::exponential().value();
     std::vector<RefractivityLevel> levels;

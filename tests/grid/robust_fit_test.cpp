@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<double, fit_size> truth = {1.5, -0.5, 0.25, 3};
 constexpr FitChoice all = {true, true, true, true};
 
-// Rows of a linear model; rows of a block have an error in common.
+// Rows of a linear model. Rows of a block have an error in common.
 std::vector<FitRow> made(unsigned seed, int blocks, int rows_a_block, double common, double own) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -46,7 +46,7 @@ TEST(RobustFit, FindsExactNumbers) {
     }
 }
 
-// A tenth of the rows far off moves nothing by more than a little.
+// If a tenth of the rows is far off, the result changes only a little.
 TEST(RobustFit, OutliersHardlyCount) {
     auto rows = made(2, 60, 20, 0, 0.1);
     for (std::size_t i = 0; i < rows.size(); i += 10)
@@ -58,13 +58,13 @@ TEST(RobustFit, OutliersHardlyCount) {
     EXPECT_LT(found->deviation, 20);
 }
 
-// The errors stated are the scatter over many draws, although rows of a block are off together: by
-// their number alone they would be a quarter of it.
+// The stated errors are the scatter over many draws, although the rows of a block are off together.
+// Computed from their number alone, they would be a quarter of it.
 TEST(RobustFit, ErrorsAreThoseOfBlocksThatAreOffTogether) {
     std::array<double, fit_size> scatter{}, stated{};
     constexpr int draws = 200;
     for (unsigned seed = 0; seed < draws; ++seed) {
-        // Residuals about the truth, as they are when the step has been taken.
+        // Residuals about the truth, as after the step.
         auto rows = made(100 + seed, 40, 30, 1, 0.3);
         for (FitRow& row : rows) {
             for (std::size_t j = 0; j < fit_size; ++j)

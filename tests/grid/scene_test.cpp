@@ -1,11 +1,10 @@
-// Sampling a scene, and what the planner makes of it.
-#include "grid/plan/grid_scene.h"
-
+// Tests the sampling of a scene, and what the planner does with it.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "grid/plan/grid_effects.h"
+#include "grid/plan/grid_scene.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
@@ -64,7 +63,7 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
         EXPECT_GE(column.ix, 98) << "there is no echo in the west";
     }
     EXPECT_EQ(draws, 3000);
-    // Weights are one over sizes: the columns of each size are as likely as their number.
+    // Weights are one over the sizes: columns of each size are as likely as their number.
     EXPECT_GT(columns, 0);
     const ColumnSample again = scene->draw(3000, 1);
     EXPECT_EQ(again.columns.size(), sample.columns.size()) << "the same seed, the same columns";
@@ -151,7 +150,7 @@ TEST(Effects, ErrorsAreInTheUnitOfTheMoment) {
     EXPECT_EQ(value_unit_of(level2::Moment::rho), accuracy::ValueUnit::ratio);
 }
 
-// Thin echo: a column holds little of what it may, so that a bound needs many of them.
+// Thin echo: a column has few of the cells that it could have, so a bound needs many columns.
 TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     SweepPlan low;
     low.code = [](int radial, int gate) {
@@ -174,7 +173,7 @@ TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     EXPECT_EQ(planned->choice.method.cell, CellExtent::point);
 }
 
-// Nothing changes from place to place: no interpolation matters, only where echo ends.
+// Nothing changes from place to place, so interpolation matters only at the edge of the echo.
 TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 1.5, 2.5}) {
@@ -190,7 +189,7 @@ TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
                                    accuracy::parse_budget("20 km, 1 dB").value());
     ASSERT_TRUE(planned);
     EXPECT_TRUE(planned->plan.meets_budget);
-    // Linear may cost nothing more than nearest.
+    // Linear may cost no more than nearest.
     EXPECT_LE(planned->choice.method.interpolation, Interpolation::linear);
     EXPECT_EQ(planned->choice.method.cell, CellExtent::point);
     EXPECT_EQ(planned->choice.method.averaging, Averaging::in_db);

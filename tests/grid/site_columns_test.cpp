@@ -10,7 +10,7 @@ namespace {
 
 constexpr double reach_m = 500e3;
 
-// The greatest distance from exact geodesics, in metres, over the reach.
+// Returns the largest distance from exact geodesics, in meters, within reach.
 double greatest_error_m(const SitePosition& site, const GridSpec& spec) {
     const SiteColumns columns(site, spec, reach_m);
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);

@@ -1,4 +1,4 @@
-// Two radars look at the same simulated weather; one of them is made faulty, one fault at a time.
+// Two radars look at the same simulated weather. One of them is made faulty, one fault at a time.
 #include "grid/judge/site_comparison.h"
 
 #include <chrono>
@@ -63,7 +63,7 @@ Gridded gridded(const Radar& radar, const GridSpec& spec, UtcTime instant) {
     return {std::move(bricks), std::move(*grid), radar.site};
 }
 
-// Made once: 110 km apart.
+// Made once; the sites are 110 km apart.
 class SiteComparisonTest : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -98,7 +98,7 @@ class SiteComparisonTest : public ::testing::Test {
             of.b, of.a, text(of.bias_db), text(of.azimuth_deg), text(of.elevation_deg),
             text(of.time_s), of.cells, of.blocks, of.deviation_db);
     }
-    // Estimates are where they should be, within the accuracy that the header states.
+    // Checks that the estimates are right within the accuracy that the header states.
     static void expect(const SiteComparison& found, double bias_db, double azimuth_deg,
                        double elevation_deg, double time_s) {
         EXPECT_NEAR(found.bias_db.value, bias_db, 0.4);
@@ -256,7 +256,7 @@ TEST_F(SiteComparisonTest, BadOptionsAreErrors) {
     EXPECT_EQ(compare_sites(good_->as_site(), other, {}).error().code, ErrorCode::bad_argument);
 }
 
-// A grid against itself: nothing at all.
+// A grid compared with itself has no differences.
 TEST_F(SiteComparisonTest, AGridAgreesWithItself) {
     ComparisonOptions options;
     options.motion = motion;

@@ -32,8 +32,8 @@ GridSpec spec_of(const Case& of) {
     return spec;
 }
 
-// How many times the accuracy stated in the header the worst column is off; columns asked are
-// every third.
+// Returns the error of the worst column in units of the accuracy stated in the header, over every
+// third column.
 double worst_of(const Case& of, std::size_t& nodes) {
     const GridSpec domain = spec_of(of);
     const SitePosition site{"TEST", of.site.latitude_deg, of.site.longitude_deg, 0};

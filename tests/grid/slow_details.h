@@ -1,6 +1,6 @@
 // tests/grid/slow_details.h -- the oracle of stormcellar/grid/cell_details.h for a point sample of
-// the nearest gates: written from the definitions there, a column at a time, in long double,
-// nothing tabulated.
+// the nearest gates. It follows the definitions there, one column at a time, in long double,
+// without tables.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,8 @@ class SlowColumn {
                const Setting& setting, const SitePosition& site, const GridSpec& spec, int ix,
                int iy);
 
-    // Which gate, radial or beam is the nearest hangs on less than the gridder's accuracy.
+    // Returns true if the choice of the nearest gate, radial or beam depends on less than the
+    // gridder's accuracy.
     [[nodiscard]] bool is_doubtful() const { return doubtful_; }
     [[nodiscard]] SlowDetails at(double height_m) const;
 
@@ -42,7 +43,7 @@ class SlowColumn {
         bool adjacent_to_next = true;
         bool is_seen = false;
         std::optional<Real> age_s;
-        Real gate_height_m = 0, gate_off_m = 0;  // off in the plane about the site
+        Real gate_height_m = 0, gate_off_m = 0;  // gate_off_m: in the plane about the site
     };
     struct Place {
         Real azimuth_deg = 0, arc_m = 0;

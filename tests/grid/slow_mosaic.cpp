@@ -25,7 +25,7 @@ long double limit_dbz(const SitePosition& site, long double arc_m, double level_
     return (tdwr ? -46.0L : -41.5L) + 20 * std::log10(range_km);
 }
 
-// The mixture of states of docs/geometry.md, with nothing not seen among them.
+// The mixture of states of docs/geometry.md, with no unseen state among them.
 void mix(const std::vector<Seen>& seen, const MosaicOptions& options, SlowCell& cell) {
     long double v = 0, n = 0, f = 0, sum = 0, weight = 0;
     const bool in_z = options.averaging == Averaging::in_z;
@@ -86,7 +86,7 @@ void take_nearest(const std::vector<Seen>& seen, SlowCell& cell) {
     cell.value = nearest->value;
 }
 
-// The partials sorted by name: the first of two as near.
+// The partials sorted by name: if two are equally near, the first counts.
 std::vector<const Partial*> by_name(std::span<const Partial> partials) {
     std::vector<const Partial*> sorted;
     for (const Partial& partial : partials)

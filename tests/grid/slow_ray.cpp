@@ -7,7 +7,7 @@
 
 __extension__ typedef __float128 Quad;
 
-// libquadmath's, declared here because clang has not its header.
+// from libquadmath; declared here because clang does not have its header
 extern "C" {
 Quad acosq(Quad);
 Quad coshq(Quad);
@@ -31,15 +31,15 @@ class Walk {
         const Quad elevation = Quad{options.elevation_deg} * acosq(-1) / 180;
         constant_ = n_r(height_, profile.layer_index(options.antenna_altitude_m)) * cosq(elevation);
         upwards_ = options.elevation_deg > 0;
-        if (options.elevation_deg == 0) {  // upwards unless n r falls with height
+        if (options.elevation_deg == 0) {  // upward unless n r falls with height
             const std::size_t layer = profile.layer_index(options.antenna_altitude_m);
             upwards_ = n_r(height_ + Quad{1e-3}, layer) > n_r(height_, layer);
         }
     }
 
-    // To the height, or to the next turning point if that comes first: then false.
+    // Goes to the height, or to the next turning point if that comes first; then returns false.
     bool go_towards(Quad goal);
-    // To the next turning point; false when there is none.
+    // Goes to the next turning point. Returns false if there is none.
     bool go_to_turn() { return !go_towards(upwards_ ? greatest_height_m : least_height_m); }
     [[nodiscard]] SlowRay here() const {
         return {static_cast<double>(range_), static_cast<double>(angle_ * options_.earth_radius_m)};
@@ -87,7 +87,8 @@ bool Walk::find_turn(Quad from, Quad to, std::size_t layer, Quad& turn) const {
     return false;
 }
 
-// The tanh-sinh rule: nodes crowd at the ends, where the integrand may go as 1 / sqrt.
+// The tanh-sinh rule: its nodes concentrate at the ends, where the integrand may behave as 1 /
+// sqrt.
 void Walk::integrate(Quad from, Quad to, std::size_t layer) {
     constexpr int halves = 64;
     const Quad spacing = Quad{1} / 16;
@@ -96,7 +97,7 @@ void Walk::integrate(Quad from, Quad to, std::size_t layer) {
     for (int i = -halves; i <= halves; ++i) {
         const Quad t = spacing * i;
         const Quad u = half_pi * sinhq(t);
-        const Quad near_from = 1 / (1 + expq(-2 * u));  // share of the way, exact near both ends
+        const Quad near_from = 1 / (1 + expq(-2 * u));  // share of the way, accurate near both ends
         const Quad near_to = 1 / (1 + expq(2 * u));
         const Quad height = i < 0 ? from + length * near_from : to - length * near_to;
         const Quad weight = spacing * half_pi * coshq(t) * 2 * near_from * near_to *
@@ -122,7 +123,7 @@ bool Walk::go_towards(Quad goal) {
         Quad turn = 0;
         const bool turns = find_turn(height_, end, layer, turn);
         if (turns) end = turn;
-        for (Quad from = height_; from != end;) {  // pieces over which N changes little
+        for (Quad from = height_; from != end;) {  // pieces in which N changes little
             Quad to = upwards_ ? std::min(end, from + 30000) : std::max(end, from - 30000);
             integrate(from, to, layer);
             from = to;

@@ -14,8 +14,8 @@ struct SlowRay {
     double arc_m = 0;
 };
 
-// Where a ray that has passed `turns` turning points is at a height. NaN if it never is. Looks at
-// radius, altitude, elevation and kind of range in the options.
+// Returns where a ray that has passed `turns` turning points reaches a height; NaN if it never
+// does. Uses radius, altitude, elevation and kind of range of the options.
 [[nodiscard]] SlowRay slow_ray(const RefractivityProfile& profile, const RayOptions& options,
                                int turns, double height_m);
 

@@ -1,5 +1,5 @@
-// Soundings: the formula of refractivity against the Recommendation's own form, the format, and
-// the complaint for each way in which a file can be wrong.
+// Tests soundings: the formula of refractivity against the form in the Recommendation, the format,
+// and the message for each way in which a file can be wrong.
 #include "grid/beam/sounding.h"
 
 #include <cmath>
@@ -23,8 +23,7 @@ std::string refusal(const std::string& text) {
     return profile ? "" : profile.error().message;
 }
 
-// The wet and the dry term as ITU-R P.453 writes them today: 77.6 Pd / T + 72 e / T + 3.75e5 e /
-// T^2.
+// The wet and the dry term as ITU-R P.453 gives them now: 77.6 Pd / T + 72 e / T + 3.75e5 e / T^2.
 TEST(Sounding, RefractivityIsThatOfTheRecommendation) {
     for (const double temperature_c : {-60.0, -20.0, 0.0, 15.0, 30.0, 40.0}) {
         for (const double below_c : {0.0, 3.0, 20.0}) {
@@ -75,7 +74,7 @@ TEST(Sounding, ReadsRefractivityAndRelativeHumidity) {
     EXPECT_NEAR(humid->at(1000).n_units, 77.6 * 900 / 288.15, 1e-9);
 }
 
-// 2026-11-21: the mark that some editors put in front hid the first column.
+// 2026-11-21: the byte order mark that some editors write hid the first column.
 TEST(Sounding, AByteOrderMarkIsNoPartOfTheFirstColumn) {
     const std::string text = "height_m,refractivity\n0,320\n1000,280\n";
     const auto marked = parse_sounding("\xEF\xBB\xBF" + text, "n");
@@ -153,7 +152,7 @@ TEST(Sounding, ReadsAFileAndSaysWhichIsMissing) {
     EXPECT_EQ(missing.error().code, ErrorCode::not_found);
 }
 
-// Any bytes give a finite profile or a complaint of one line that names the file.
+// Any bytes give a finite profile, or a message of one line that names the file.
 TEST(Sounding, SurvivesMutations) {
     std::mt19937_64 random(20261121);
     const std::string seed = head + "0,1000,20,10\n500,945,17,9\n1500,845,12,1\n9000,308,-42,-55\n";
@@ -162,7 +161,7 @@ TEST(Sounding, SurvivesMutations) {
     for (int i = 0; i < 20'000; ++i) {
         std::string text = seed;
         for (int edits = static_cast<int>(random() % 3) + 1; edits > 0; --edits) {
-            // Mostly in the numbers: without its columns nothing can be read.
+            // Mostly in the numbers, because without its columns nothing can be read.
             const std::size_t first =
                 random() % 5 > 0 && text.size() > head.size() ? head.size() : 0;
             const std::size_t at = first + random() % (text.size() - first);

@@ -57,7 +57,7 @@ TEST(ChooseSweeps, OfRepeatedCutsTheNewestCounts) {
     EXPECT_EQ(indices(choose(volume)), (std::vector<std::size_t>{4, 1, 3}));
 }
 
-// Cut number n of the volume maker begins n * 20 s after the day does; its radials take 18 s.
+// Cut number n of the volume maker begins n * 20 s after the start of the day and takes 18 s.
 UtcTime at_s(double seconds) {
     return time_from_nexrad(19000, static_cast<std::uint32_t>(seconds * 1000));
 }
@@ -174,7 +174,8 @@ TEST(ChooseSweeps, RepeatedCutsOfARealVolume) {
     ASSERT_TRUE(start);
     EXPECT_EQ(first(choose_of(volume, Moment::ref, start).sweeps), (Sweeps{0, 2, 4}));
     EXPECT_EQ(first(choose_of(volume, Moment::vel, start).sweeps), (Sweeps{1, 3, 5}));
-    // Midway between the two medians of each pair both sides of the border give their own.
+    // Midway between the two medians of each pair, the two sides of the border choose different
+    // sweeps.
     const auto pair = choose_sweeps(volume, Moment::ref, 0.475, start);
     const auto later = choose_sweeps(volume, Moment::ref, 0.475);
     EXPECT_EQ(pair[0].repeats, 2U);

@@ -1,4 +1,4 @@
-// The time of a cell, had back from one line a sweep.
+// Tests that the time of a cell is recovered from one line for each sweep.
 #include "grid/sweep/sweep_clock.h"
 
 #include <algorithm>
@@ -81,7 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealClock,
                                            "mosaic-northeast/KOKX20100911_011047_V03.gz"));
 
 TEST(SweepTimes, AreThoseOfTheRadials) {
-    // 20 s after each other, a radial of one degree every 50 ms (tests/grid/volume_maker.h).
+    // The sweeps begin 20 s after each other; a radial of one degree takes 50 ms
+    // (tests/grid/volume_maker.h).
     const level2::Volume volume =
         make_volume({{.elevation_deg = 0.5, .cut = 1},
                      {.elevation_deg = 2.4, .cut = 2, .first_azimuth_deg = 180.5}});

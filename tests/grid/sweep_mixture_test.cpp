@@ -1,5 +1,5 @@
-// What grid/sweep/sweep_mixture.h, grid/beam/beam_pattern.h and grid/beam/arc_table.h state in
-// numbers.
+// Tests the numbers stated in grid/sweep/sweep_mixture.h, grid/beam/beam_pattern.h and
+// grid/beam/arc_table.h.
 #include "grid/sweep/sweep_mixture.h"
 
 #include <cmath>
@@ -41,7 +41,8 @@ TEST(ArcTable, ErrsByHalfTheSecondDerivativeTimes250MetresSquared) {
     EXPECT_GE(worst, 1e-6 * 250 * 250 - 1e-3);
 }
 
-// How far a gate stands from where the plane through a cell's centre has it, for outlines of 20 km.
+// The largest distance of a gate from its place in the plane through the center of a cell, for
+// outlines of 20 km.
 double worst_off_plane_m(double elevation_deg, double farthest_m, double latitude_deg,
                          double altitude_m) {
     SweepPlan plan;
@@ -57,7 +58,8 @@ double worst_off_plane_m(double elevation_deg, double farthest_m, double latitud
     double worst_m = 0;
     for (double arc_m = corner_m; arc_m + corner_m < farthest_m; arc_m += 730) {
         const ArcPlace place = ArcTable::place_of(static_cast<float>(arc_m));
-        const double center = static_cast<double>(sweep.gates().gate_place(0, place).number_and_half) - 0.5;
+        const double center =
+            static_cast<double>(sweep.gates().gate_place(0, place).number_and_half) - 0.5;
         const auto gates_a_m = static_cast<double>(sweep.gates().gates_per_m_of_arc(place));
         for (const double off_m : {-corner_m, -5e3, 5e3, corner_m}) {
             const double planar_m = 1000 * (center + off_m * gates_a_m);
@@ -68,7 +70,7 @@ double worst_off_plane_m(double elevation_deg, double farthest_m, double latitud
     return worst_m;
 }
 
-// As far as a beam lies below 21 km.
+// As far as the beam is below 21 km.
 TEST(GatesInside, StandWhereThePlaneThroughTheCentreHasThem) {
     struct Place {
         double latitude_deg;

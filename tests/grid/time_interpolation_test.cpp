@@ -1,4 +1,4 @@
-// Grids for an instant, against echoes that are known at any.
+// Tests grids for an instant against echoes that are known at any time.
 #include "grid/mosaic/time_interpolation.h"
 
 #include <cmath>
@@ -58,7 +58,7 @@ InstantOptions options_at(double seconds, TimeMethod method, const MotionField* 
     return options;
 }
 
-// RMS of values where the truth is above 5 dBZ, what holds none counting as 0 dBZ.
+// RMS of values where the truth is above 5 dBZ; cells without a value count as 0 dBZ.
 double rms_error(const Pair& pair, const Grid& grid, double t_s) {
     double sum = 0;
     int count = 0;
@@ -123,7 +123,7 @@ TEST(GridAt, BlendAtEitherEndIsThatVolume) {
 
 TEST(GridAt, ACellThatOneEndHasNotSeenIsTheOtherOnes) {
     const Pair all(moving);
-    const Pair part(moving, spec_of(), 40);  // sees 40 km far
+    const Pair part(moving, spec_of(), 40);  // sees 40 km
     InstantOptions options = options_at(100, TimeMethod::blend);
     const auto made = grid_at(all.early(), part.late(), *all.geometry, options);
     ASSERT_TRUE(made);

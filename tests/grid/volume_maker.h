@@ -1,4 +1,4 @@
-// tests/grid/volume_maker.h -- small volumes whose every gate is known.
+// tests/grid/volume_maker.h -- small volumes in which every gate is known.
 #pragma once
 
 #include <functional>

@@ -26,7 +26,7 @@ void set_control(Bytes& record, std::int32_t control) {
     wire::overwrite_u32(record, 0, static_cast<std::uint32_t>(control));
 }
 
-// How many bytes at the start of `plain` a reader can have of the damaged gzip file.
+// Returns how many bytes from the start of `plain` can be read from the damaged gzip file.
 std::size_t readable_start(const Bytes& damaged, const Bytes& plain) {
     z_stream z{};
     if (inflateInit2(&z, 15 + 16) != Z_OK) return 0;
@@ -89,7 +89,7 @@ Mutant ContainerMutants::with_record(std::string kind, std::size_t record,
     return mutant;
 }
 
-// The length lies; the stream behind it does not. Nothing may be lost.
+// The length is wrong, but the stream after it is intact. Nothing may be lost.
 Mutant ContainerMutants::control_word(Random& random) const {
     constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
@@ -130,7 +130,7 @@ Mutant ContainerMutants::rearranged(Random& random) const {
     return mutant;
 }
 
-// At the start of a record, and around it, or in its middle.
+// Cuts at or near the start of a record, or in its middle.
 Mutant ContainerMutants::cut(Random& random) const {
     const std::size_t record = below(random, volume_.records.size());
     std::size_t start = volume_.header.size();
@@ -147,7 +147,7 @@ Mutant ContainerMutants::cut(Random& random) const {
     mutant.file.resize(place);
     std::vector<std::size_t> order = all_records();
     order.resize(place > start ? record + 1 : record);
-    // The record that is cut: this one, or by one byte the one before.
+    // The record that is cut: this one, or the one before if the cut is one byte early.
     mutant.expected = expect(
         order, place == start || order.empty() ? std::nullopt : std::optional{order.size() - 1});
     return mutant;
@@ -202,7 +202,7 @@ Mutant ContainerMutants::overwritten(Random& random) const {
     return mutant;
 }
 
-// Records that come out of the gzip file before the damage are kept; bzip2 guards the others.
+// Records that are unpacked before the gzip damage are kept; bzip2 guards the others.
 Mutant ContainerMutants::gzip(Random& random) const {
     Mutant mutant;
     mutant.kind = "gzip around records";
@@ -249,7 +249,7 @@ Mutant gzip_mutant(const UnpackedVolume& volume, std::uint64_t number) {
         if (message.radial && volume.header.size() + message.end() <= readable)
             mutant.expected.push_back({*message.radial, Fate::kept});
     }
-    // What follows comes out as it may: the checksum stands at the end of the file.
+    // Anything may follow, because the checksum is at the end of the file.
     mutant.anything_after = true;
     return mutant;
 }

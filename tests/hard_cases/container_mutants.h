@@ -1,4 +1,4 @@
-// tests/hard_cases/container_mutants.h -- damage to LDM records and to the gzip around a file.
+// tests/hard_cases/container_mutants.h -- damages LDM records, and the gzip layer around a file.
 #pragma once
 
 #include <random>
@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Mutant number 0, 1, 2 ... of a volume in LDM records: kinds in turn, the rest by the number.
-// The same number gives the same mutant on every machine.
+// Makes mutants number 0, 1, 2 ... of a volume in LDM records: the kinds alternate, the number
+// decides the rest. The same number gives the same mutant on every machine.
 class ContainerMutants {
   public:
     explicit ContainerMutants(const UnpackedVolume& volume) : volume_(volume) {}
@@ -25,7 +25,7 @@ class ContainerMutants {
     [[nodiscard]] Mutant overwritten(Random& random) const;
     [[nodiscard]] Mutant gzip(Random& random) const;
 
-    // Of these records in this order; the radials of `soft` may fall.
+    // Returns what to expect of these records in this order; the radials of `soft` may fall.
     [[nodiscard]] std::vector<ExpectedRadial> expect(const std::vector<std::size_t>& order,
                                                      std::optional<std::size_t> soft) const;
     [[nodiscard]] std::vector<std::size_t> all_records() const;
@@ -35,7 +35,7 @@ class ContainerMutants {
     const UnpackedVolume& volume_;
 };
 
-// Bits flipped in, or bytes cut off, a gzip file that holds messages without records.
+// Flips bits in, or cuts bytes off, a gzip file that holds messages without records.
 [[nodiscard]] Mutant gzip_mutant(const UnpackedVolume& volume, std::uint64_t number);
 
 }  // namespace stormcellar::level2

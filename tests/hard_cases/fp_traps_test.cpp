@@ -1,4 +1,4 @@
-// The traps that scripts/test --traps relies on do fire, in workers too, and can be masked.
+// Tests that the traps of scripts/test --traps fire, in workers too, and can be masked.
 #include "tests/testing/fp_traps.h"
 
 #include <atomic>
@@ -15,14 +15,14 @@
 namespace stormcellar::testing {
 namespace {
 
-// Not known to the compiler.
+// not known to the compiler
 volatile double zero = 0;
 volatile double huge = 1e308;
 volatile double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 template <class Operation>
 void trapped(Operation operation) {
-    std::signal(SIGFPE, SIG_DFL);  // sanitizers have a handler of their own
+    std::signal(SIGFPE, SIG_DFL);  // sanitizers have their own handler
     const FpTraps traps;
     operation();
     std::_Exit(0);
@@ -61,7 +61,7 @@ TEST(FpTrapsDeathTest, OrdinaryArithmeticDoesNot) {
                 well, "");
 }
 
-// One piece a thread: each waits for the others, so that the caller cannot do them all.
+// One piece for each thread. Each waits for the others, so that the caller cannot do them all.
 TEST(FpTrapsDeathTest, WorkersInheritThem) {
     const auto all_on = [] {
         std::atomic<int> begun{0};

@@ -1,5 +1,5 @@
-// Where beams lie when they are as awkward as they get: each test is named by its hazard (DESIGN
-// section 6) and compares with a closed form or with the oracle.
+// Tests the most difficult places of beams. Each test is named by its hazard and compares with a
+// closed form or with the oracle.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 #include "tests/hard_cases/grid_case.h"
 __extension__ typedef __float128 Quad;
 
-// libquadmath's, declared here because clang has not its header.
+// from libquadmath; declared here because clang does not have its header
 extern "C" {
 Quad acosq(Quad);
 Quad sinq(Quad);
@@ -28,7 +28,7 @@ double above_antenna_exactly_m(double range_m, double elevation_deg, double ante
     return static_cast<double>(sqrtq(r * r + a * a + 2 * r * a * sinq(e)) - a);
 }
 
-// What textbooks print, in the floats that one would take for it.
+// The textbook formula, in the floats that one would use for it.
 template <class Float>
 double textbook_m(double range_m, double elevation_deg, double antenna_m) {
     const auto r = static_cast<Float>(range_m);
@@ -66,7 +66,7 @@ TEST(CancellationInBeamHeight, OursKeepsAllDigitsWhereTheTextbooksFormLosesThem)
 
 // ---- Above, below and at the antenna
 
-// What lies higher over the site than the highest beam's upper edge is seen by no method.
+// No method sees places above the upper edge of the highest beam.
 TEST(ConeOfSilence, IsNotSeenByAnyMethod) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 2.4, 6.0, 12.0, 19.5}) {
@@ -84,7 +84,7 @@ TEST(ConeOfSilence, IsNotSeenByAnyMethod) {
                 const double edge_m = beam.over(arc_m, 19.5 + 0.475).height_m;
                 for (int level = 0; level < spec.nz(); ++level) {
                     const double height_m = spec.levels_m[static_cast<std::size_t>(level)];
-                    // Levels reach half way to their neighbours, outlines 707 m.
+                    // Levels reach half way to their neighbors, outlines 707 m.
                     const double margin_m = method.cell == CellExtent::area ? 2600 : 2;
                     const CellStatus status = grid.status[spec.index(ix, iy, level)];
                     if (height_m > edge_m + margin_m) {
@@ -119,12 +119,12 @@ TEST(RangeZero, GatesAtAndBehindTheAntennaAreDroppedByEveryMethod) {
     for (SweepPlan& plan : plans) {
         plan.first_gate_m = -375;
         plan.gate_spacing_m = 250;
-        // What lies behind the antenna shouts.
+        // Gates behind the antenna have very strong echo.
         plan.code = [](int, int gate) { return ref_code(gate < 2 ? 90 : 20); };
     }
     GridCase given = about(plains, plans, 41, 40);
     given.spec.levels_m = {385, 390, 395, 400, 410};
-    const Agreement so_near{1, 0.4};  // beams lie within metres of each other
+    const Agreement so_near{1, 0.4};  // beams are within meters of each other
     expect_sound_by_every_method(given, so_near, [](const Method& method, const Grid& grid) {
         int values = 0;
         for (std::size_t i = 0; i < grid.values.size(); ++i) {
@@ -134,7 +134,7 @@ TEST(RangeZero, GatesAtAndBehindTheAntennaAreDroppedByEveryMethod) {
         }
         EXPECT_GT(values, 100) << label(method);
     });
-    plans[0].first_gate_m = plans[1].first_gate_m = 0;  // the first gate at the antenna itself
+    plans[0].first_gate_m = plans[1].first_gate_m = 0;  // the first gate is at the antenna itself
     for (SweepPlan& plan : plans)
         plan.code = [](int, int) { return ref_code(20); };
     given.volume = make_volume(plans);
@@ -143,7 +143,7 @@ TEST(RangeZero, GatesAtAndBehindTheAntennaAreDroppedByEveryMethod) {
 
 // ---- Models of the beam
 
-// A duct holds the lower beams: they come down to earth and pass over nothing farther.
+// A duct holds the lower beams: they come down to earth and pass over nothing beyond.
 TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     const std::vector<RefractivityLevel> levels = {{0, 380}, {100, 330}, {1000, 290}, {10000, 90}};
     GridCase given = about(plains, {patchy_plan(-0.3, 1), patchy_plan(0, 2), patchy_plan(0.5, 3),
@@ -158,8 +158,8 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     }
 }
 
-// Of some beams the lower edge comes down to earth, of some the upper, and edges swing about their
-// beam's centre. Each sweep has one strength, so that values are weights.
+// Of some beams the lower edge comes down to earth, of others the upper one, and edges cross the
+// center of their beam. Each sweep has one strength, so that values show weights.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {-0.3, 0.2, 0.5, 1.5, 2.4}) {

@@ -1,6 +1,6 @@
-// tests/hard_cases/grid_case.h -- one awkward volume gridded by every method, and what must hold
-// whatever the method: the same bits for any number of threads, no value that is no number, and
-// agreement with the oracle (grid/judge/oracle.h).
+// tests/hard_cases/grid_case.h -- one difficult volume gridded by every method, and what must hold
+// for each of them: the same bits for any number of threads, no value that is NaN, and agreement
+// with the oracle (grid/judge/oracle.h).
 #pragma once
 
 #include <functional>
@@ -22,14 +22,14 @@ struct GridCase {
     std::optional<RefractivityProfile> profile;
 };
 
-// Every interpolation with points and areas, reflectivity averaged in dB and in Z.
+// Returns every interpolation with points and areas, reflectivity averaged in dB and in Z.
 [[nodiscard]] std::vector<Method> all_methods(level2::Moment moment = level2::Moment::ref);
 [[nodiscard]] Method method_of(Interpolation interpolation, CellExtent cell = CellExtent::point,
                                Averaging averaging = Averaging::in_db);
-// "area, beam-weighted in Z".
+// Returns for example "area, beam-weighted in Z".
 [[nodiscard]] std::string label(const Method& method);
 
-// About the site, in metres; levels in kilometres.
+// A plane about the site, in meters; levels in kilometers.
 [[nodiscard]] GridSpec plane_about(const SitePosition& site, int side, double spacing_m,
                                    const std::vector<double>& levels_km);
 
@@ -38,18 +38,19 @@ inline const SitePosition plains{"XXXX", 35, -97, 390};
 [[nodiscard]] GridCase about(const SitePosition& site, const std::vector<SweepPlan>& plans,
                              int side = 61, double spacing_m = 5000);
 
-// About an antenna at 20 m, from the bend of the earth below to a layer at 40 to 190 m: it holds
-// beams within 0.6 degrees of level, and turns steeper ones, up to 0.8, into the ground.
+// A duct about an antenna at 20 m, from the curvature of the earth below to a layer at 40 to 190 m.
+// It holds beams within 0.6 degrees of level, and turns steeper ones, up to 0.8, into the ground.
 [[nodiscard]] RefractivityProfile duct_under_a_layer();
 
-// With 1, 2 and 7 threads: expects the same bits from all, and finite values within `least` and
-// `greatest` in every cell that has one.
+// Grids with 1, 2 and 7 threads. Expects the same bits from all, and values between `least` and
+// `greatest`.
 [[nodiscard]] Grid grid_of(const GridCase& given, const Method& method, double least = -200,
                            double greatest = 1000);
 
-// Some hundred columns of a grid against the oracle. Cells whose state or gate hangs on less than
-// the stated accuracies are left out, as the oracle says. Points must agree; of areas, where a gate
-// on the very edge may count or not, 99 cells in 100, and values within `area_tolerance`.
+// Compares some hundred columns of a grid with the oracle. Cells whose state or gate depends on
+// less than the stated accuracies are left out, as the oracle says. Points must agree. For areas,
+// in which a gate on the very edge may count or not, 99 cells in 100 must agree, with values within
+// `area_tolerance`.
 struct Agreement {
     double area_tolerance = 1;
     double most_doubtful = 0.2;  // of the columns and of the cells
@@ -57,14 +58,14 @@ struct Agreement {
 void expect_agrees_with_oracle(const GridCase& given, const Method& method, const Grid& grid,
                                const Agreement& agreement = {});
 
-// Both, with every method. `check` may look further.
+// Does both with every method. `check` may test more.
 using Check = std::function<void(const Method& method, const Grid& grid)>;
 void expect_sound_by_every_method(const GridCase& given, const Agreement& agreement = {},
                                   const Check& check = {});
 
-// Echo of smooth strength with patches of no echo and of range folding, the same at all elevations.
+// Echo of smooth strength with patches of no echo and of range folding, equal at all elevations.
 [[nodiscard]] std::uint16_t patchy_code(double azimuth_deg, double range_m);
-// Sweeps of 360 radials and 1 km gates to 150 km that hold it.
+// Sweeps of 360 radials and 1 km gates to 150 km with that echo.
 [[nodiscard]] SweepPlan patchy_plan(double elevation_deg, int cut);
 
 }  // namespace stormcellar::grid

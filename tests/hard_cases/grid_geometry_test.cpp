@@ -1,5 +1,5 @@
-// Where columns and cells lie when places and azimuths are as awkward as they get: each test is
-// named by its hazard (DESIGN section 6) and compares with a closed form or with the oracle.
+// Tests the most difficult places of columns and cells, and azimuths. Each test is named by its
+// hazard and compares with a closed form or with the oracle.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,8 +24,8 @@ struct Stratum {
 
 class EveryStratum : public ::testing::TestWithParam<Stratum> {};
 
-// A grid of one cell at the centre of a gate, put there in closed form and by the geodesic, holds
-// that gate. Codes of 16 bits tell gates and radials apart.
+// A grid of one cell at the center of a gate, placed there in closed form and by the geodesic, must
+// hold that gate. Codes of 16 bits distinguish gates and radials.
 TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     const auto& [site, elevation_deg] = GetParam();
     SweepPlan plan;
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(SitesAndElevations, EveryStratum, ::testing::ValuesIn(s
 
 // ---- Azimuths
 
-// The same echo, with radials that begin anywhere and in any direction.
+// The same echo, with radials that begin anywhere and turn in either direction.
 TEST(AzimuthWrap, WhereTheFirstRadialStandsDoesNotMatter) {
     std::map<std::string, Grid> first;
     for (const double from_deg : {0.5, 200.5, 359.5}) {
@@ -107,7 +107,7 @@ TEST(AzimuthWrap, WhereTheFirstRadialStandsDoesNotMatter) {
     }
 }
 
-// Radials from `from_deg`, clockwise, for 360 - `gap_deg` degrees.
+// Radials from `from_deg`, clockwise, over 360 - `gap_deg` degrees.
 std::vector<SweepPlan> with_gap(double from_deg, double gap_deg) {
     std::vector<SweepPlan> plans = {patchy_plan(0.5, 1), patchy_plan(1.5, 2)};
     for (SweepPlan& plan : plans) {
@@ -122,7 +122,7 @@ double azimuth_of(const GridSpec& spec, int ix, int iy) {
     return SiteFrame::from_plane(spec.x_m(ix), spec.y_m(iy)).azimuth_deg;
 }
 
-// Between 60 and 140 km, whose lowest two levels that both beams enclose are sure to be seen.
+// Between 60 and 140 km, where the lowest two levels between both beams are certainly seen.
 TEST(AzimuthGap, WhatLiesInsideIsNotSeenWhateverTheMethodAcrossNorthToo) {
     struct Gap {
         double from_deg, width_deg;
@@ -139,7 +139,7 @@ TEST(AzimuthGap, WhatLiesInsideIsNotSeenWhateverTheMethodAcrossNorthToo) {
                     if (arc_m < 60e3 || arc_m > 140e3) continue;
                     const double into_deg =
                         std::fmod(azimuth_of(spec, ix, iy) - gap.from_deg + 360, 360);
-                    // The outlines of areas are up to 3.4 degrees wide either way.
+                    // The outlines of areas extend up to 3.4 degrees either way.
                     const double edge_deg = method.cell == CellExtent::area ? 3.6 : 0.6;
                     const CellStatus status = grid.status[spec.index(ix, iy, 3)];  // 2 km
                     if (into_deg > edge_deg && into_deg < gap.width_deg - 1 - edge_deg) {
@@ -164,7 +164,7 @@ TEST(AzimuthDuplicatesAndLosses, AgreeWithTheOracle) {
         std::vector<level2::Radial>& radials = sweep.radials;
         radials[20].azimuth_deg = radials[21].azimuth_deg;  // a duplicate, and one lost
         radials[100].azimuth_deg = radials[101].azimuth_deg = radials[102].azimuth_deg;
-        radials[359].azimuth_deg = 360;  // north itself, said the other way
+        radials[359].azimuth_deg = 360;  // north itself, in the other notation
         radials[200].azimuth_deg = -159.5F;
         for (std::size_t i = 240; i < 260; i += 3)
             sweep.moments[0].gate_counts[i] = 0;                       // lost for this moment
@@ -259,13 +259,13 @@ TEST(TinyAndHugeCells, OneMetreAndAHundredKilometres) {
     tiny.spec.center_latitude_deg = there.latitude_deg;
     tiny.spec.center_longitude_deg = there.longitude_deg;
     tiny.spec.levels_m = {1500, 1501, 1502};
-    // All of them lie within 0.25 m of another gate, or none.
+    // All of them are within 0.25 m of another gate, or none is.
     expect_sound_by_every_method(tiny, {1, 1});
     GridCase huge = about(plains, plans, 3, 100e3);
-    huge.spec.center_latitude_deg += 0.13;  // off the borders of radials
+    huge.spec.center_latitude_deg += 0.13;  // away from the borders of radials
     huge.spec.center_longitude_deg += 0.21;
     Agreement agreement;
-    agreement.area_tolerance = 2;  // outlines are drawn about their middles
+    agreement.area_tolerance = 2;  // outlines are computed for their centers
     agreement.most_doubtful = 0.5;
     expect_sound_by_every_method(huge, agreement);
 }
@@ -283,7 +283,7 @@ TEST(LevelsBelowAndAboveEverything, AreNotSeen) {
     }
 }
 
-// A level as high as a beam to the bit, where brackets begin and end.
+// A level exactly as high as a beam, where brackets begin and end.
 TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 1.5, 2.5}) {
@@ -301,7 +301,7 @@ TEST(LevelsAtABeamsHeight, HoldThatBeamAndDivideByNothing) {
     given.spec = plane_about({"", there.latitude_deg, there.longitude_deg, 0}, 1, 1000, {});
     for (const SweepPlan& plan : plans) {
         const double exact_m = beam.over(100e3, plan.elevation_deg).height_m;
-        // The floats about it: one of them is what the gridder has.
+        // The floats next to it: the gridder has one of them.
         const auto height_m = static_cast<float>(exact_m);
         given.spec.levels_m = {static_cast<double>(std::nextafter(height_m, 0.0F)),
                                static_cast<double>(height_m),

@@ -1,5 +1,5 @@
-// Volumes whose sweeps and radials are as awkward as they get, gridded by every method: each test
-// is named by its hazard (DESIGN section 6).
+// Volumes with the most difficult sweeps and radials, gridded by every method. Each test is named
+// by its hazard.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,8 +21,8 @@ std::ptrdiff_t count_of(const Grid& grid, CellStatus status) {
     return std::count(grid.status.begin(), grid.status.end(), status);
 }
 
-// Two cuts of the VCP that were measured at one and the same elevation: every bracket between them
-// has height 0.
+// Two cuts of the VCP measured at exactly the same elevation: every bracket between them has height
+// 0.
 TEST(EqualElevations, NoBracketDividesByZero) {
     GridCase given = about({patchy_plan(0.5, 1), patchy_plan(0.5, 2), patchy_plan(1.5, 3)});
     given.volume.sweeps[0].vcp_elevation_deg = 0.3F;
@@ -31,7 +31,7 @@ TEST(EqualElevations, NoBracketDividesByZero) {
     for (const Method& method : all_methods()) {
         const Grid grid = grid_of(given, method);
         EXPECT_GT(count_of(grid, CellStatus::value), 500) << label(method);
-        // Both hold the same, so with one of them the grid is the same.
+        // Both hold the same, so the grid is the same with only one of them.
         if (method.interpolation == Interpolation::beam_weighted) continue;
         GridCase without = given;
         without.volume.sweeps.erase(without.volume.sweeps.begin());
@@ -60,7 +60,7 @@ TEST(ReversedElevations, OfSomeRadialsAreSortedByEveryMethod) {
     expect_sound_by_every_method(with_reversed_radials());
 }
 
-// Beams above the highest level need not be looked at, unless a higher sweep was measured lower.
+// Beams above the highest level can be skipped, unless a higher sweep was measured lower.
 TEST(ReversedElevations, AboutTheHighestLevel) {
     GridCase given = with_reversed_radials();
     for (const double top_m : {800.0, 1400.0, 2100.0}) {
@@ -69,8 +69,8 @@ TEST(ReversedElevations, AboutTheHighestLevel) {
     }
 }
 
-// Where a quiet sweep lies among quiet ones it is left out of a tile's plan; if radials put another
-// between them it must not be.
+// A quiet sweep between quiet ones is left out of a tile's plan, but not if radials put another
+// sweep between them.
 TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     GridCase given = with_reversed_radials();
     for (const std::size_t quiet : {0U, 1U, 2U}) {
@@ -80,7 +80,7 @@ TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     expect_sound_by_every_method(given);
 }
 
-// Echo in few places, quiet over whole tiles and sweeps, and shorter sweeps above.
+// Little echo, quiet over whole tiles and sweeps, and shorter sweeps above.
 GridCase mostly_quiet(const std::vector<double>& elevations_deg) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : elevations_deg) {
@@ -98,8 +98,8 @@ GridCase mostly_quiet(const std::vector<double>& elevations_deg) {
     return given;
 }
 
-// A sweep that is quiet all over a tile is not sampled there. The same codes in 16 bits, which no
-// plan looks into, give the same bits.
+// A sweep that is quiet all over a tile is not sampled there. The same codes in 16 bits, which
+// plans do not examine, must give the same bits.
 void expect_plans_change_nothing(const GridCase& given, const std::vector<Method>& methods) {
     GridCase busy = given;
     for (level2::Sweep& sweep : busy.volume.sweeps) {
@@ -123,7 +123,7 @@ TEST(TilePlan, LeavesOutOnlyWhatChangesNothing) {
                                 all_methods());
 }
 
-// Where beams cross, and one is as wide as several others, no sweep is too far off to count.
+// If beams cross, and one is as wide as several others, every sweep is close enough to count.
 TEST(TilePlan, LeavesOutNothingThatCountsInADuct) {
     GridCase given = mostly_quiet({-0.3, 0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8});
     given.site.altitude_m = 20;
@@ -190,7 +190,7 @@ TEST(SingleSweep, AndOneRadial) {
     GridCase given = about({one}, 51, 500);
     expect_sound_by_every_method(given, {}, [](const Method& method, const Grid& grid) {
         if (method.cell == CellExtent::area) return;
-        // Half a degree to either side of north.
+        // Half a degree on either side of north.
         for (int iy = 0; iy < grid.spec.ny; ++iy) {
             for (int ix = 0; ix < grid.spec.nx; ++ix) {
                 const double off_deg =
@@ -243,7 +243,7 @@ TEST(GateSpacingZeroOrLess, IsNoSweep) {
             GridderOptions options;
             options.method = method;
             const auto grid = make_grid(given.volume, given.site, **geometry, options);
-            if (!grid) continue;  // no sweep is left: also an answer
+            if (!grid) continue;  // no sweep is left, which is allowed
             EXPECT_EQ(count_of(*grid, CellStatus::not_seen),
                       static_cast<std::ptrdiff_t>(grid->status.size()))
                 << label(method);

@@ -1,5 +1,5 @@
-// Values and states that do not mix well, gridded by every method: each test is named by its hazard
-// (DESIGN section 6) and has its answer in closed form.
+// Values and states that do not mix well, gridded by every method. Each test is named by its hazard
+// and compares with a closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,7 @@ namespace {
 // ---- Velocity across the Nyquist fold
 
 constexpr double nyquist_mps = 26;
-// Codes of 16 bits, hundredths of a metre a second.
+// Codes of 16 bits, in hundredths of a meter a second.
 std::uint16_t velocity_code(double mps) {
     return static_cast<std::uint16_t>(std::lround(mps * 100) + 10000);
 }
@@ -26,8 +26,8 @@ double folded(double mps, double half_mps) {
     return mps - 2 * half_mps * std::floor((mps + half_mps) / (2 * half_mps));
 }
 
-// A wind of 26 m/s towards the north-east, which folds where it blows along the beam, and changes
-// with height so that neighbours in all directions straddle the fold.
+// A wind of 26 m/s toward the northeast, which folds where it blows along the beam, and changes
+// with height so that neighbors in all directions straddle the fold.
 double radial_wind_mps(double azimuth_deg, double range_m, double elevation_deg) {
     const double along = std::cos((azimuth_deg - 45) * M_PI / 180);
     return (26 + range_m / 1e5 + elevation_deg) * along;
@@ -67,7 +67,7 @@ double nearest_turn(double a, double b, double half) {
     return std::abs(std::remainder(a - b, 2 * half));
 }
 
-// Beyond 20 km from the site; nearer, cells are wide in azimuth.
+// Visits cells beyond 20 km from the site; closer in, cells are wide in azimuth.
 template <class Visit>
 void for_each_value(const Grid& grid, Visit visit) {
     for (int iy = 0; iy < grid.spec.ny; ++iy) {
@@ -83,9 +83,8 @@ void for_each_value(const Grid& grid, Visit visit) {
     }
 }
 
-// Wind differs by less than 4 m/s between the gates of a cell, so whatever is made of them is
-// within 4 m/s of the wind at its place on the circle: a mean across the fold would be up to 26
-// off.
+// The wind differs by less than 4 m/s between the gates of a cell, so any result is within 4 m/s of
+// the wind at its place on the circle. A mean across the fold would be off by up to 26 m/s.
 TEST(NyquistFold, NoValueLiesInItsMiddleByAnyMethod) {
     const GridCase given = aliased_volume({nyquist_mps, nyquist_mps, nyquist_mps});
     for (const Method& method : all_methods(given.moment)) {
@@ -102,8 +101,8 @@ TEST(NyquistFold, NoValueLiesInItsMiddleByAnyMethod) {
     }
 }
 
-// Sweeps fold at different velocities, or do not say (TDWR): no mean of two circles is made. Every
-// value is then a mean of one sweep's gates, so it is within 4 m/s of the wind on one of the
+// If sweeps fold at different velocities, or do not give theirs (TDWR), no mean of two circles is
+// made. Every value is then a mean over one sweep's gates, within 4 m/s of the wind on one of the
 // circles.
 TEST(NyquistFold, DifferentOrUnknownNyquistVelocitiesAreNeverAveraged) {
     for (const std::vector<double>& nyquists_mps :
@@ -138,7 +137,7 @@ TEST(NyquistFold, ANyquistVelocityThatIsNoNumberIsNotKnown) {
 
 // ---- Reflectivity over 100 dB
 
-// A column 100 km to the east that stands in the middle of a gate of each of two sweeps.
+// A column 100 km to the east, in the middle of a gate of each of two sweeps.
 struct Pair {
     GridCase given;
     double low_m = 0, high_m = 0;
@@ -171,7 +170,7 @@ Code all_of(std::uint16_t code) {
     return [code](int, int) { return code; };
 }
 
-// The upper sweep's share by each method, of a height `share` of the way up.
+// The upper sweep's share by each method, at a height `share` of the way up.
 double share_of_high(const Method& method, double share) {
     switch (method.interpolation) {
         case Interpolation::nearest:
@@ -182,7 +181,7 @@ double share_of_high(const Method& method, double share) {
         case Interpolation::beam_weighted:
             break;
     }
-    // The antenna's pattern over the distance of 1 degree, which is wider than the beam.
+    // The antenna's pattern over a distance of 1 degree, which is wider than the beam.
     const auto pattern = [](double off) { return (std::pow(2, -4 * off * off) - 0.0625) / 0.9375; };
     return pattern(1 - share) / (pattern(share) + pattern(1 - share));
 }
@@ -210,7 +209,7 @@ TEST(ReflectivityOver100dB, MeansAreThoseOfLongDoubles) {
     }
 }
 
-// Many gates in one cell: one of 70 dBZ among a hundred of -30 dBZ is 50 dBZ in Z, -29 in dB.
+// Many gates in one cell: one of 70 dBZ among a hundred of -30 dBZ gives 50 dBZ in Z, -29 in dB.
 TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
     const Code one_of_100 = [](int radial, int gate) {
         return ref_code(radial == 90 && gate == 100 ? 70 : -30);
@@ -223,7 +222,7 @@ TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
         const Grid grid = grid_of(pair.given, method, -31, 71);
         ASSERT_EQ(grid.status[0], CellStatus::value);
         const auto value = static_cast<double>(grid.values[0]);
-        // 13 gates along; across 13 km hold 7 or 8 radials of 1.75 km.
+        // 13 gates along the beam; 13 km across have 7 or 8 radials of 1.75 km.
         const double least =
             method.averaging == Averaging::in_z ? 70 - 10 * std::log10(8 * 14) : -30;
         const double most =
@@ -233,15 +232,15 @@ TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
     }
 }
 
-// A damaged scale makes every code infinite or more than anybody measured: such a sweep is none,
-// and the cells hold what the other one has.
+// A damaged scale makes every code infinite or impossible. Such a sweep is ignored, and the cells
+// have the values of the other one.
 TEST(ValuesBeyondAllReason, AreNoValues) {
     for (const float scale : {1e-38F, -1e-38F, 1e-3F, std::numeric_limits<float>::denorm_min()}) {
         Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
         pair.given.volume.sweeps[0].moments[0].scale = scale;
         pair.given.spec.levels_m = {pair.low_m, pair.high_m};
         for (const Method& method : all_methods()) {
-            if (method.cell == CellExtent::area) continue;  // levels reach half way
+            if (method.cell == CellExtent::area) continue;  // levels reach halfway
             const Grid grid = grid_of(pair.given, method);
             EXPECT_EQ(grid.status[0], CellStatus::not_seen) << label(method) << " " << scale;
             EXPECT_EQ(grid.status[1], CellStatus::value) << label(method) << " " << scale;
@@ -250,7 +249,7 @@ TEST(ValuesBeyondAllReason, AreNoValues) {
     }
 }
 
-// Codes of 16 bits can say 30,000 dBZ, which is more than a float can hold as Z.
+// Codes of 16 bits can express 30,000 dBZ, which as Z is more than a float can hold.
 TEST(ValuesBeyondAllReason, AreNeverInfiniteInZ) {
     Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
     for (level2::Sweep& sweep : pair.given.volume.sweeps) {
@@ -268,14 +267,14 @@ TEST(ValuesBeyondAllReason, AreNeverInfiniteInZ) {
 
 struct Mixed {
     const char* what;
-    std::uint16_t low, high;  // codes; 2 stands for not seen
+    std::uint16_t low, high;  // codes; 2 means not seen
     double share;             // of the upper sweep
     CellStatus expected;
 };
 constexpr std::uint16_t unseen_code = 2;
 const std::uint16_t echo = ref_code(30);
 
-// Every pair of states on either side of one half, as docs/geometry.md has the rule.
+// Every pair of states on either side of one half, by the rule of docs/geometry.md.
 std::vector<Mixed> mixtures() {
     const auto value = CellStatus::value;
     const auto quiet = CellStatus::no_echo;
@@ -303,7 +302,7 @@ std::vector<Mixed> mixtures() {
     };
 }
 
-// Gates are not seen beyond a radial's last one, which is cut off 10 km short of the column.
+// Gates are not seen beyond the last one of a radial, which is cut off 10 km before the column.
 void hide(level2::Sweep& sweep) {
     for (std::uint16_t& count : sweep.moments[0].gate_counts)
         count = 90;
@@ -322,8 +321,8 @@ TEST(StatusRule, EveryPairOfStatesUpTheColumnByEveryMethod) {
     }
 }
 
-// The same within one sweep: of the gates that lie in a cell, or of the two about a point in
-// azimuth. A pattern of radials makes the shares; 100 radials of one state, then of the other.
+// The same within one sweep, for the gates of a cell, or for the two about a point in azimuth. The
+// shares come from a pattern of 100 radials of one state, then 100 of the other.
 TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
     for (const Mixed& mixed : mixtures()) {
         if (mixed.low == unseen_code || mixed.high == unseen_code) continue;
@@ -331,7 +330,7 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
             return radial <= 90 ? mixed.low : mixed.high;
         };
         Pair pair = pair_of(two, two);
-        // The border lies at 91 degrees; the cell's centre a bit on this or that side of it.
+        // The border is at 91 degrees; the center of the cell is slightly on either side of it.
         const double azimuth_deg = 90.5 + mixed.share;
         const double arc_m =
             BeamGeometry(plains.latitude_deg, plains.altitude_m).forward({100e3, 1}).arc_m;
@@ -341,11 +340,11 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
         pair.given.spec.center_longitude_deg = there.longitude_deg;
         pair.given.spec.levels_m = {(pair.low_m + pair.high_m) / 2};
         for (const Method& method : all_methods()) {
-            if (method.cell == CellExtent::area) continue;  // holds whole radials: below
+            if (method.cell == CellExtent::area) continue;  // contains whole radials: see below
             const Grid grid = grid_of(pair.given, method);
             EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
         }
-        // Some 29 km: 16 or 17 radials, of which about 2 are on the wrong side of the centre.
+        // Some 29 km: 16 or 17 radials, about 2 of which are on the wrong side of the center.
         pair.given.spec.spacing_m = 29000;
         const double shift_deg = mixed.share < 0.5 ? -2 : 2;
         const GeoPoint wide =
@@ -360,7 +359,7 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
     }
 }
 
-// No echo enters a value at its gate's detection limit, by its weight.
+// No echo enters a value as the detection limit of its gate, by its weight.
 TEST(StatusRule, NoEchoEntersAtItsDetectionLimitByEveryMethod) {
     Pair pair = pair_of(all_of(echo), all_of(below_threshold));
     const double share = 0.35;

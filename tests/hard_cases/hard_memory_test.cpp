@@ -1,6 +1,6 @@
-// Small files that would take much memory: whatever they hold, decoding stays below 1 GiB.
+// Small files that could take much memory: whatever they contain, decoding stays below 1 GiB.
 //
-// Each is decoded in a process of its own, whose high-water mark the kernel keeps (proc(5)).
+// Each is decoded in a process of its own, whose peak memory the kernel records (proc(5)).
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -33,7 +33,7 @@ long high_water_mib() {
     return -1;
 }
 
-// The work's peak, or -1 where it crashed.
+// Returns the peak of the work, or -1 if it crashed.
 long peak_mib(const std::function<void()>& work) {
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0) return -1;
@@ -57,7 +57,7 @@ long peak_mib(const std::function<void()>& work) {
     return peak;
 }
 
-// A sanitizer's own memory is not ours: what it keeps of freed memory counts in the peak too.
+// A sanitizer's own memory does not count: it includes freed memory that the sanitizer keeps.
 #if defined(STORMCELLAR_SANITIZED)
 constexpr bool peak_is_ours = false;
 #else
@@ -75,7 +75,7 @@ void expect_small(const std::function<void()>& work) {
     EXPECT_LT(peak, most_mib);
 }
 
-// A radial, with one moment where `gates` is not 0.
+// A radial with one moment, unless `gates` is 0.
 Bytes radial(unsigned cut, unsigned status, unsigned gates, float scale = 1) {
     wire::Writer block;
     if (gates != 0) {
@@ -94,8 +94,8 @@ void append(Bytes& to, const Bytes& more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
-// Few long radials of several kinds around many that hold nothing: each of these becomes a row of
-// every kind.
+// A few long radials of several kinds around many empty ones, each of which becomes a row of every
+// kind.
 Bytes amplifier(unsigned cut, unsigned kinds, unsigned short_radials, bool begins = true) {
     Bytes messages;
     for (const bool last : {false, true}) {
@@ -168,7 +168,8 @@ TEST(Memory, PlainMessagesThatGrowWithoutEnd) {
     expect_small([&] { (void)decode(file); });
 }
 
-// 408 kB that took 1504 MiB, because arrays that grow were copied and only what they hold counted.
+// 408 kB that took 1504 MiB, because growing arrays were copied and only their contents were
+// counted.
 TEST(Memory, RadialsOfThirtyThousandGates) {
     Bytes messages;
     for (unsigned i = 0; i < 20; ++i)
@@ -185,7 +186,7 @@ TEST(Memory, SweepsOfOneRadial) {
     expect_small([&] { (void)decode(file); });
 }
 
-// Seven moments of one gate: what they are takes more than what they hold.
+// Seven moments of one gate: their descriptions take more memory than their gates.
 TEST(Memory, SweepsOfOneRadialOfOneGate) {
     Bytes messages;
     for (unsigned i = 0; i < 20'000; ++i) {
@@ -302,7 +303,7 @@ TEST(Memory, ChunksOfLargeArrays) {
     });
 }
 
-// Records of one radial with two moments of one gate, each a fragment of its own.
+// Records of one radial with two moments of one gate, each a separate fragment.
 TEST(Memory, ChunksOfRecordsOfOneRadialHoldWhatTheyMay) {
     const Bytes chunk = file_of(wire::ldm_record(wire::message_31({.gates = 1})), 1000);
     const auto fill = [&](std::uint64_t limit_bytes) {
@@ -337,7 +338,7 @@ TEST(Memory, SweepsThatAreHandedOutAreFew) {
     });
 }
 
-// Each record ends the sweep again. Nothing is measured: copying it each time took 32 s.
+// Each record ends the sweep again. No memory is measured: copying it each time took 32 s.
 TEST(Memory, ASweepThatEndsWithEachRecord) {
     GrowingVolume growing;
     ASSERT_TRUE(growing.append(

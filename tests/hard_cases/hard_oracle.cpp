@@ -20,7 +20,7 @@ bool begins_sweep(const Radial& radial) {
            status == RadialStatus::start_of_last_elevation;
 }
 
-// Sweeps begin where the radials say so, and nowhere else.
+// Sweeps begin only where the radials say so.
 std::string wrong_sweep(const Decoded& decoded) {
     const std::vector<Sweep>& sweeps = decoded.volume.sweeps;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
@@ -49,7 +49,7 @@ Oracle::Oracle(std::span<const std::byte> file) {
 
 bool Oracle::names_something(const DecodeReport& report) const {
     for (const Problem& problem : report.problems) {
-        // A volume that had no end before has none now; that is all a cut between records shows.
+        // If a volume had no end before, the missing end is all that a cut between records shows.
         if (problem.severity != Severity::note &&
             (problem.code == "no_end_of_volume" || !own_problems_.contains(key_of(problem)))) {
             return true;
@@ -58,8 +58,8 @@ bool Oracle::names_something(const DecodeReport& report) const {
     return false;
 }
 
-// Walks both in the order of the file. Where one that is not surely kept is due, what has come out
-// decides whether it fell: the next expected one that equals it within the same damage.
+// Walks through both in the order of the file. If the next expected radial may fall, the radials
+// returned decide whether it did: the next expected one that equals it within the same damage.
 Oracle::Match Oracle::match(const Mutant& mutant, const std::vector<RadialIdentity>& found,
                             KindFigures& figures) const {
     Match match;

@@ -1,8 +1,9 @@
-// tests/hard_cases/hard_oracle.h -- decodes mutants and compares with the undamaged volume.
+// tests/hard_cases/oracle.h -- decodes mutants and compares them with the undamaged volume.
 //
-// Claims, for every mutant: radials come out as their fates say, in the order of the file, and no
-// others; sweeps begin only where a radial says so; what is lost is named by a problem that the
-// undamaged volume has not, or the whole file is refused, but then nothing in it was to be kept.
+// For every mutant it checks: radials are returned as their fates say, in the order of the file,
+// and no others; sweeps begin only where a radial says so; whatever is lost is named by a problem
+// that the undamaged volume does not have. Or the whole file is refused, which is allowed only if
+// nothing in it had to be kept.
 #pragma once
 
 #include <chrono>
@@ -23,9 +24,9 @@ struct KindFigures {
     std::uint64_t mutants = 0;
     std::uint64_t refused = 0;   // an error instead of a volume
     std::uint64_t compared = 0;  // radials found equal to the bit
-    std::uint64_t fallen = 0;   // radials in the damage, or guarded with it, that have not come out
-    std::uint64_t beside = 0;   // radials right behind the damage that have not come out
-    std::uint64_t changed = 0;  // radials whose own damage shows in them
+    std::uint64_t fallen = 0;   // radials in the damage, or guarded with it, that were not returned
+    std::uint64_t beside = 0;   // radials directly after the damage that were not returned
+    std::uint64_t changed = 0;  // radials that show their own damage
 };
 
 class Oracle {
@@ -34,15 +35,15 @@ class Oracle {
     explicit Oracle(std::span<const std::byte> file);
 
     [[nodiscard]] std::size_t radials() const { return radials_.size(); }
-    // What does not hold; empty when all does.
+    // Returns what is wrong; empty if everything is right.
     [[nodiscard]] std::string check(const Mutant& mutant);
     [[nodiscard]] const std::map<std::string, KindFigures>& figures() const { return figures_; }
     [[nodiscard]] std::chrono::duration<double> slowest() const { return slowest_; }
 
   private:
     struct Match {
-        std::string wrong;  // empty: all radials have come out as they should
-        bool lost = false;  // one that was expected has not come out
+        std::string wrong;  // empty: all radials were returned as they should be
+        bool lost = false;  // an expected one was not returned
     };
     [[nodiscard]] bool is(std::optional<std::size_t> radial, RadialIdentity found) const {
         return radial && radials_[*radial] == found;
@@ -60,7 +61,7 @@ class Oracle {
 };
 
 void add(std::map<std::string, KindFigures>& sum, const std::map<std::string, KindFigures>& more);
-// One line a kind, and the sum.
+// Returns one line for each kind, and the sum.
 [[nodiscard]] std::string table_of(const std::map<std::string, KindFigures>& figures);
 
 }  // namespace stormcellar::level2

@@ -14,11 +14,11 @@ namespace {
 using wire::Bytes;
 using Random = std::mt19937_64;
 
-// Headers at wrong places can be plausible, and more so a frame behind each other.
+// Headers at wrong places can be plausible, more so if they repeat at the distance of a frame.
 
 struct Field {
     const char* name;
-    std::size_t at;  // in the message, its 28 bytes of header included
+    std::size_t at;  // in the message, including its 28 bytes of header
     std::size_t width;
 };
 
@@ -58,7 +58,7 @@ constexpr std::array<Field, 14> fields_1 = {{{"time", 28, 4},
                                              {"resolution", 70, 2}}};
 constexpr std::array<Field, 4> fields_5 = {
     {{"size", 28, 2}, {"pattern", 32, 2}, {"number of cuts", 34, 2}, {"first elevation", 50, 2}}};
-// Behind the name of a block of message 31.
+// after the name of a block of message 31
 constexpr std::array<Field, 8> fields_of_block = {{{"name", 0, 4},
                                                    {"size", 4, 2},
                                                    {"gates", 8, 2},
@@ -79,7 +79,7 @@ void write(Bytes& bytes, const Field& field, std::uint32_t number) {
         bytes[field.at + i] = static_cast<std::byte>(number >> (8 * (field.width - 1 - i)));
 }
 
-// Nothing, little, the ends of the range, the neighbours; for 4 bytes also NaN, infinity, 1e30.
+// Nothing, little, the ends of the range, the neighbors; for 4 bytes also NaN, infinity, 1e30.
 std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     const std::uint32_t most = width == 1 ? 0xFFU : width == 2 ? 0xFFFFU : 0xFFFFFFFFU;
     const std::array<std::uint32_t, 13> numbers = {
@@ -108,7 +108,7 @@ MessageMutants::Draft MessageMutants::draft() const {
     return draft;
 }
 
-// One in eight is no radial, where there are such.
+// One in eight is no radial, if there are such messages.
 std::size_t MessageMutants::any_message(Random& random) const {
     const bool other = random() % 8 == 0;
     std::size_t message = 0;
@@ -169,7 +169,7 @@ void MessageMutants::rearranged(Draft& draft, Random& random) const {
     draft.mutant.what += fmt::format(" messages {} and {}", a, b);
 }
 
-// A radial that has lost bytes never comes out: never half a radial.
+// A radial that has lost bytes must never be returned: never half a radial.
 void MessageMutants::resized(Draft& draft, Random& random) const {
     const std::size_t number = any_message(random);
     Bytes& bytes = draft.parts[number];
@@ -209,7 +209,7 @@ void MessageMutants::flipped(Draft& draft, Random& random) const {
     draft.mutant.what += fmt::format(" message {}, bytes{}", number, where);
 }
 
-// Noise, or zeros, from inside one message on, maybe over the next ones.
+// Noise or zeros from inside one message on, possibly over the next ones.
 void MessageMutants::overwritten(Draft& draft, Random& random) const {
     const bool zeros = random() % 2 == 0;
     const std::size_t first = any_message(random);

@@ -1,4 +1,4 @@
-// tests/hard_cases/message_mutants.h -- damage to the message stream, behind every checksum.
+// tests/hard_cases/message_mutants.h -- damages the message stream, after all checksums.
 #pragma once
 
 #include <random>
@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Mutant number 0, 1, 2 ... of a plain stream: kinds in turn, the rest by the number. Every 16th is
-// packed into one LDM record.
+// Makes mutants number 0, 1, 2 ... of a plain stream: the kinds alternate, the number decides the
+// rest. Every 16th is packed into one LDM record.
 class MessageMutants {
   public:
     explicit MessageMutants(const UnpackedVolume& volume) : volume_(volume) {}
@@ -17,11 +17,11 @@ class MessageMutants {
 
   private:
     using Random = std::mt19937_64;
-    // The stream in parts, one a message, and what is expected of each.
+    // The stream in parts, one for each message, and what is expected of each.
     struct Draft {
         Mutant mutant;
         std::vector<wire::Bytes> parts;
-        std::vector<std::size_t> order;  // messages, by number, as they stand in the file
+        std::vector<std::size_t> order;  // messages, by number, in the order of the file
         std::vector<Fate> fates;         // of the messages
     };
     void field(Draft& draft, Random& random) const;

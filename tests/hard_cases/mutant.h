@@ -1,4 +1,4 @@
-// tests/hard_cases/mutant.h -- a damaged file, and what must still come out of it.
+// tests/hard_cases/mutant.h -- a damaged file, and what must still be read from it.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace stormcellar::level2 {
 
 // What may become of a radial of the undamaged volume.
 enum class Fate {
-    kept,      // outside the damage: comes out to the bit
-    may_fall,  // shares a checksum with damaged bytes: comes out to the bit or not at all
-    beside,    // right behind damage that nothing guards: as above
+    kept,      // outside the damage: returned unchanged
+    may_fall,  // shares a checksum with damaged bytes: returned unchanged, or not at all
+    beside,    // directly after damage that nothing guards: as above
     damaged    // its own bytes are changed and nothing guards them: anything, once, or nothing
 };
 
@@ -26,17 +26,17 @@ struct ExpectedRadial {
 };
 
 struct Mutant {
-    std::string kind;  // figures are kept for each
-    std::string what;  // for a person who has to repeat it
+    std::string kind;  // figures are counted for each
+    std::string what;  // for a person who has to reproduce it
     wire::Bytes file;
     std::vector<ExpectedRadial> expected;  // in the order of the file
-    // Whether a changed length or type lies in the damage, which the report must name even where
-    // every radial is kept.
+    // Whether the damage changed a length or type, which the report must name even if every radial
+    // is kept.
     bool always_named = false;
     bool anything_after = false;  // nothing guards the rest of the file
 };
 
-// Any whole number below `limit`; 0 where there is none.
+// Returns a whole number below `limit`; 0 if there is none.
 inline std::size_t below(std::mt19937_64& random, std::size_t limit) {
     return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
 }

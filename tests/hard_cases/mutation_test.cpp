@@ -1,6 +1,6 @@
-// Real volumes, damaged in every way that mutant.h and its makers know, against their undamaged
-// selves. An ordinary run takes the start and end of each volume and some mutants of it;
-// STORMCELLAR_MUTANTS=N takes the whole volume (of its messages 8 MiB), N mutants of its container
+// Compares real volumes, damaged in every way that mutant.h and its makers know, with the undamaged
+// volumes. An ordinary run takes the start and end of each volume and some mutants of it.
+// STORMCELLAR_MUTANTS=N takes the whole volume (8 MiB of its messages), N mutants of its container
 // and 10 N of its messages.
 #include <charconv>
 #include <csignal>
@@ -33,7 +33,7 @@ constexpr bool sanitized = true;
 constexpr bool sanitized = false;
 #endif
 constexpr double most_seconds = sanitized ? 30 : 5;
-constexpr long most_memory_kib = 1L << 20;  // the sanitizers' own memory does not count
+constexpr long most_memory_kib = 1L << 20;  // without the sanitizers' own memory
 constexpr unsigned hang_s = 120;
 
 struct Size {
@@ -54,7 +54,7 @@ Size chosen_size() {
     return {mutants, 10 * mutants, SIZE_MAX, std::size_t{8} << 20};
 }
 
-// Volumes, a mosaic and the chunks of two volumes; of the chunks the folder stands for the volume.
+// Volumes, a mosaic and the chunks of two volumes; for chunks, the folder represents the volume.
 std::vector<std::string> names() {
     const auto data = testing::data_directory();
     if (!data) return {"no_real_volumes"};
@@ -80,7 +80,7 @@ std::vector<std::byte> bytes_of(const fs::path& path) {
     return joined;
 }
 
-// What is being decoded, for the handler below: a crash or a hang has to say on what.
+// What is being decoded, so that the handler below can name it after a crash or a hang.
 char current[400];
 
 void say_current(int signal_number) {
@@ -114,7 +114,7 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
         STORMCELLAR_NEED_DATA();
         for (const int signal_number : {SIGALRM, SIGABRT})
             std::signal(signal_number, say_current);
-        if constexpr (!sanitized) {  // they have better things to say of faults
+        if constexpr (!sanitized) {  // sanitizers report faults better
             for (const int signal_number : {SIGSEGV, SIGFPE, SIGBUS})
                 std::signal(signal_number, say_current);
         }

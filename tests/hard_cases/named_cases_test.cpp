@@ -1,4 +1,4 @@
-// Damage that has a name, each by itself, on volumes made by hand.
+// Known kinds of damage, each alone, on volumes made by hand.
 #include <algorithm>
 #include <array>
 
@@ -22,7 +22,7 @@ bool has_problem(const DecodeReport& report, std::string_view code) {
                        [&](const Problem& problem) { return problem.code == code; });
 }
 
-// Header, the VCP and three sweeps of six radials as plain messages.
+// The header, the VCP and three sweeps of six radials as plain messages.
 Bytes plain_volume(const Bytes& vcp) {
     return wire::join({wire::archive_header(), vcp, wire::radial_messages(3, 6)});
 }
@@ -46,18 +46,18 @@ TEST_P(NumberOfCuts, BeyondTheMessageCostsThePatternOnly) {
     const auto decoded = decode(damaged());
     ASSERT_TRUE(decoded) << decoded.error().message;
     EXPECT_FALSE(decoded->volume.vcp_message);
-    // The radials name their pattern themselves.
+    // The radials themselves name their pattern.
     EXPECT_EQ(decoded->volume.vcp, 212);
     EXPECT_EQ(decoded->volume.vcp_source, VcpSource::radial);
     EXPECT_EQ(identities(decoded->volume),
               radials_of(plain_volume(wire::vcp_frame(212, elevations_deg))));
 }
 
-// -1, the most negative number, 53 of which 52 fit, none.
+// -1, the most negative number, 53 (only 52 fit), none.
 INSTANTIATE_TEST_SUITE_P(Extremes, NumberOfCuts,
                          ::testing::Values(0xFFFFU, 0x8000U, 0x7FFFU, 53U, 0U));
 
-// The stream behind a control word is whole whatever the control word says.
+// The stream after a control word is intact, whatever the control word is.
 TEST(ControlWord, ExtremesCostNothing) {
     const Bytes volume = wire::ldm_volume(3, 6);
     const auto expected = radials_of(volume);
@@ -85,14 +85,14 @@ TEST(Cut, AtEveryByteOfAStreamKeepsWhatIsWhole) {
         ASSERT_EQ(found.size(), size / length) << size;
         EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin())) << size;
         EXPECT_TRUE(has_problem(decoded->report, "no_end_of_volume")) << size;
-        // The 12 bytes of the terminal manager and the next one are zeros, as padding is.
+        // The 12 bytes of the terminal manager and the next one are zeros, like padding.
         EXPECT_EQ(has_problem(decoded->report, "damaged_messages"), size % length > 13) << size;
     }
 }
 
 TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
     const Bytes volume = wire::ldm_volume(2, 3, 20);
-    // Behind the header, the metadata and the first sweep.
+    // After the header, the metadata and the first sweep.
     std::size_t start = 24;
     for (int record = 0; record < 2; ++record) {
         ByteReader reader{std::span{volume}.subspan(start)};
@@ -116,8 +116,8 @@ TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
 
 // What the mutants have found, each in its smallest form.
 
-// 2026-11-21, on seven legacy volumes: a header at the wrong place can be plausible, and then the
-// one a frame on is so again. The reader took hundreds of frames for messages of unknown types.
+// 2026-11-21, on seven legacy volumes: a header at the wrong place can be plausible, and then so is
+// the one a frame later. The reader took hundreds of frames for messages of unknown types.
 TEST(FoundByMutants, EightBytesLostCostOneLegacyRadial) {
     Bytes radials;
     for (unsigned i = 0; i < 40; ++i) {
@@ -134,8 +134,8 @@ TEST(FoundByMutants, EightBytesLostCostOneLegacyRadial) {
     EXPECT_EQ(radials_of(wire::join({header, radials})).size(), 39);
 }
 
-// 2026-11-21: message 15, its type damaged to 1, became a radial of elevation 0 at azimuth 0, and
-// the report said nothing.
+// 2026-11-21: message 15, with its type damaged to 1, became a radial of elevation 0 at azimuth 0,
+// and the report did not mention it.
 TEST(FoundByMutants, MetadataOfAnotherTypeIsNoRadial) {
     const Bytes metadata = wire::frame(15, Bytes(100, std::byte{3}));
     for (const unsigned type : {1U, 31U}) {
@@ -151,8 +151,8 @@ TEST(FoundByMutants, MetadataOfAnotherTypeIsNoRadial) {
     }
 }
 
-// 2026-11-21, KDOX20100911 and L2D_185: message 31 shorter than a frame, its type damaged to one
-// that stands in a frame; zeros among the gates a frame on were enough to believe it.
+// 2026-11-21, KDOX20100911 and L2D_185: message 31 was shorter than a frame, and its type was
+// damaged to one that fills a frame. Zeros among the gates a frame later were enough to believe it.
 TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     Bytes radials;
     for (unsigned i = 0; i < 20; ++i) {
@@ -169,8 +169,8 @@ TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     EXPECT_EQ(radials_of(wire::join({header, radials})).size(), 19);
 }
 
-// 2026-11-21, KTLX20140101: a record of more than 4 MiB is read block by block, and that way does
-// not compare the control word with the stream.
+// 2026-11-21, KTLX20140101: a record of more than 4 MiB is read block by block, and the control
+// word was not compared with the stream.
 TEST(FoundByMutants, TheWrongLengthOfALargeRecordIsNamed) {
     const Bytes radials = wire::radial_messages(1, 1500, 1000);
     ASSERT_GT(radials.size(), std::size_t{4} << 20);
@@ -183,7 +183,7 @@ TEST(FoundByMutants, TheWrongLengthOfALargeRecordIsNamed) {
 }
 
 // 2026-11-21, KTLX19910720 and KLIX20050828: after a hundred notes the list of problems was full,
-// and the gzip checksum's was left out.
+// and the error of the gzip checksum was left out.
 TEST(FoundByMutants, NotesDoNotCrowdOutErrors) {
     Bytes file = wire::join({wire::archive_header(), wire::radial_messages(1, 6)});
     for (int i = 0; i < 120; ++i)
@@ -195,7 +195,7 @@ TEST(FoundByMutants, NotesDoNotCrowdOutErrors) {
     EXPECT_TRUE(has_problem(decoded->report, "gzip_checksum"));
 }
 
-// 2026-11-21: a message 5 that cannot be read is left out, and the report said nothing.
+// 2026-11-21: a message 5 that cannot be read was left out, and the report did not mention it.
 TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     Bytes vcp = wire::vcp_frame(212, elevations_deg);
     wire::overwrite_u16(vcp, 28 + 6, 0xFFFF);
@@ -204,8 +204,8 @@ TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     EXPECT_FALSE(decoded->report.problems.empty());
 }
 
-// 2026-11-21: the clutter map of KMPX20060106 has no date, so that a radial which had lost bytes
-// before one was taken, the map in its gates.
+// 2026-11-21: the clutter map of KMPX20060106 has no date. So a radial that had lost bytes before
+// it was accepted, with the map in its gates.
 TEST(FoundByMutants, HalfARadialBeforeUndatedFramesDoesNotComeOut) {
     Bytes half = wire::message_1({});
     half.resize(664);

@@ -1,4 +1,4 @@
-// Volumes that are odd but sound: nothing of them may be lost, and what is odd must be said.
+// Volumes that are odd but sound: nothing of them may be lost, and oddities must be reported.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(OddVolumes, ASweepOf735Radials) {
     EXPECT_TRUE(decoded.report.complete);
 }
 
-// Super-resolution below, one degree above, in one volume.
+// Super-resolution below and one degree above, in one volume.
 TEST(OddVolumes, HalfAndWholeDegreesMixed) {
     Bytes radials = wire::radial_messages(2, 360);
     const std::size_t length = length_of(radials, 720);
@@ -75,7 +75,7 @@ TEST(OddVolumes, TimesMayRunBackwards) {
     EXPECT_TRUE(decoded.report.complete);
 }
 
-// The header's clock may have passed midnight when the radial's has not, and the other way round.
+// The header's clock may have passed midnight before the radial's, and the other way round.
 TEST(OddVolumes, AVolumeMayCrossMidnight) {
     Bytes radials = wire::radial_messages(1, 20);
     const std::size_t length = length_of(radials, 20);
@@ -118,7 +118,7 @@ TEST(OddVolumes, AGapInTheElevationNumbersIsNamed) {
     EXPECT_EQ(codes_of(decoded.report), std::vector<std::string>{"missing_cuts"});
 }
 
-// SAILS and MRLE look down again and again: the same angle, other cuts.
+// SAILS and MRLE repeat low elevations: the same angle, other cuts.
 TEST(OddVolumes, TheSameAngleTwiceIsTwoCuts) {
     const std::vector<float> pattern = {0.5F, 0.5F, 1.5F, 0.5F, 0.5F};
     const auto decoded =
@@ -152,7 +152,7 @@ TEST(OddVolumes, ARadarThatNobodyKnowsSaysSo) {
 TEST(OddVolumes, APositionThatDisagreesWithTheTableIsReported) {
     wire::Ray ray;
     Bytes radial = wire::message_31(ray);
-    // The volume block is the first; its latitude stands 8 bytes in.
+    // The volume block is the first one; its latitude is at byte 8.
     const std::size_t pointer_at = body_at + 32;
     const auto low = [&](std::size_t at) { return std::to_integer<std::size_t>(radial[at]); };
     const std::size_t block = body_at + ((low(pointer_at + 2) << 8) | low(pointer_at + 3));

@@ -1,10 +1,11 @@
-// A field of a radial that is odd and leaves the structure whole costs no gate: each field of the
-// message header, of the headers of messages 1 and 31 and of the blocks is set alone, in one radial
-// and in all, to values that no radar sends, and every gate of the real volume is still there.
+// An odd value in a field of a radial that leaves the structure intact must not lose a gate. Each
+// field of the message header, of the headers of messages 1 and 31 and of the blocks is set alone,
+// in one radial and in all, to values that no radar sends; every gate of the real volume must still
+// be there.
 //
-// Fields that say where bytes lie, or which sweep and azimuth they belong to, are apart: what comes
-// out is what the volume holds, and what does not is named. STORMCELLAR_MUTANTS=N takes 8 MiB of
-// each volume in place of its start and end.
+// Fields that give the place of bytes, or the sweep and azimuth to which they belong, are
+// different: everything returned must be in the volume, and everything lost must be reported.
+// STORMCELLAR_MUTANTS=N takes 8 MiB of each volume instead of its start and end.
 #include <array>
 #include <cstdlib>
 #include <map>
@@ -25,13 +26,13 @@ namespace {
 
 using wire::Bytes;
 
-// What to do with the gates where a field is odd.
+// What must happen to the gates of radials with an odd field.
 enum class Rule { keep, name_what_is_lost };
 
 struct OddField {
     std::string_view block;  // empty: the message
     std::string_view name;
-    std::size_t at = 0;  // in the block, or the message with its 28 bytes of header
+    std::size_t at = 0;  // in the block, or in the message including its 28 bytes of header
     std::size_t width = 0;
     Rule rule = Rule::keep;
 };
@@ -134,7 +135,7 @@ constexpr std::array odd_fields_of_1 = {
 std::vector<std::uint32_t> odd_values(std::size_t width) {
     if (width == 1) return {0, 1, 2, 3, 77, 127, 128, 255};
     if (width == 2) return {0, 1, 2, 77, 7304, 40'001, 0x7FFF, 0x8000, 0xFFFF};
-    // Among them not a number, infinity, 1e30, lower case, no letters and the time after midnight.
+    // They include NaN, infinity, 1e30, lower case, no letters and times after midnight.
     return {0,          1,          0x7FFFFFFF, 0xFFFFFFFF, 0x7FC00000,
             0x7F800000, 0x7149F2CA, 0x6B746C78, 0x2A2A2A2A, 90'000'000};
 }
@@ -151,7 +152,7 @@ void set_number(std::span<std::byte> bytes, std::size_t at, std::size_t width,
         bytes[at + i] = static_cast<std::byte>(number >> (8 * (width - 1 - i)));
 }
 
-// Where the block of this name begins in a message 31; none where it has no such block.
+// Returns where the block of this name begins in a message 31; none if it has no such block.
 std::optional<std::size_t> block_at(std::span<const std::byte> message, std::string_view name) {
     const std::uint32_t blocks = number_at(message, 58, 2);
     for (std::uint32_t i = 0; i < blocks; ++i) {
@@ -162,7 +163,7 @@ std::optional<std::size_t> block_at(std::span<const std::byte> message, std::str
     return std::nullopt;
 }
 
-// False where the radial lacks the field's block, or has the value already.
+// Returns false if the radial lacks the field's block, or has the value already.
 bool set_field(std::span<std::byte> message, const OddField& field, std::uint32_t value) {
     std::size_t at = field.at;
     if (!field.block.empty()) {
@@ -193,7 +194,8 @@ std::vector<Gates> gates_of(const Volume& volume) {
     return all;
 }
 
-// Whether all that came out of a radial is its own: some moments may lack, or their last gates.
+// Returns true if all gates returned are the radial's own; moments or their last gates may be
+// missing.
 bool is_part_of(const Gates& found, const Gates& own) {
     return std::all_of(found.begin(), found.end(), [&](const auto& named) {
         const auto whole = own.find(named.first);
@@ -203,7 +205,7 @@ bool is_part_of(const Gates& found, const Gates& own) {
     });
 }
 
-// What came out and is of no radial, in the order of the file; else empty.
+// Returns the gates that belong to no radial, in the order of the file; empty if there are none.
 std::string invented(const std::vector<Gates>& found, const std::vector<Gates>& own) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -237,7 +239,7 @@ class OddityTest : public ::testing::TestWithParam<std::string> {
         own_problems_ = decoded->report.problems.size();
     }
 
-    // The messages with the field set in the radial of this number, or in all. False: in none.
+    // Sets the field in the radial of this number, or in all. Returns false if in none.
     bool set(UnpackedVolume& odd, const OddField& field, std::uint32_t value,
              std::optional<std::size_t> number) const {
         bool any = false;

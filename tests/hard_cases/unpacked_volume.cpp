@@ -42,7 +42,7 @@ Bytes gunzip(std::span<const std::byte> bytes) {
         z.avail_out = static_cast<uInt>(out.size() - made);
         code = inflate(&z, Z_NO_FLUSH);
         made = out.size() - z.avail_out;
-        // Members may follow each other.
+        // Several members may follow each other.
         if (code == Z_STREAM_END && z.avail_in > 2 && *z.next_in == 0x1F) code = inflateReset(&z);
     }
     inflateEnd(&z);
@@ -77,7 +77,8 @@ std::size_t length_of(std::span<const std::byte> message) {
     return std::min(message.size(), 12 + std::size_t{2} * reader.u16());
 }
 
-// Adds the stream's bytes from `from` on as messages; gives the number of radials among them.
+// Adds the bytes of the stream from `from` on as messages. Returns the number of radials among
+// them.
 std::size_t append_messages(UnpackedVolume& volume, std::size_t from) {
     const std::size_t radials_before = volume.radials;
     const std::span<const std::byte> stream = volume.stream;

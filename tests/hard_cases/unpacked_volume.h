@@ -1,7 +1,8 @@
 // tests/hard_cases/unpacked_volume.h -- a file taken apart into records and messages.
 //
-// Independent of level2's readers, so that a test can damage one part and knows which the others
-// are. Trusts its input: only for undamaged files (of a damaged one its intact start).
+// This is independent of the readers of level2, so that a test can damage one part and knows the
+// others. It trusts its input: use it only for undamaged files, or for the intact start of a
+// damaged one.
 #pragma once
 
 #include <cstddef>
@@ -24,25 +25,26 @@ struct StreamMessage {
 };
 
 struct UnpackedVolume {
-    wire::Bytes header;                // the first 24 bytes; empty where there is none
-    std::vector<wire::Bytes> records;  // with their control words; empty where not LDM
+    wire::Bytes header;                // the first 24 bytes; empty if there is no header
+    std::vector<wire::Bytes> records;  // with their control words; empty if the file is not LDM
     std::vector<std::size_t> radials_of_record;
     wire::Bytes stream;  // all messages
     std::vector<StreamMessage> messages;
     std::size_t radials = 0;
 
-    [[nodiscard]] wire::Bytes ldm_file() const;    // header and records, no gzip around them
+    [[nodiscard]] wire::Bytes ldm_file() const;    // header and records, without gzip
     [[nodiscard]] wire::Bytes plain_file() const;  // header and stream
 };
 
-// `stream_limit`: messages beyond so many bytes of the stream are left out.
+// `stream_limit`: messages beyond this many bytes of the stream are left out.
 [[nodiscard]] UnpackedVolume unpack(std::span<const std::byte> file,
                                     std::optional<std::uint64_t> stream_limit = std::nullopt);
 
-// Of a volume in records: the first ones and the last, with at most so many compressed bytes, but
-// never less than three records.
+// For a volume in records: returns the first records and the last, with at most `most_bytes`
+// compressed bytes, but at least three records.
 [[nodiscard]] UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes);
-// The metadata without its fill frames, the first messages and the last few, as a plain stream.
+// Returns the metadata without its fill frames, the first messages and the last few, as a plain
+// stream.
 [[nodiscard]] UnpackedVolume short_stream(const UnpackedVolume& whole, std::size_t most_bytes);
 
 }  // namespace stormcellar::level2

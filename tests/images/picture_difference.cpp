@@ -13,7 +13,7 @@ using render::Rgba8;
 
 constexpr int tile_edge = 8;
 
-// The mean of each pixel and its neighbours, as many as there are.
+// Replaces each pixel by the mean of it and its neighbors.
 Image softened(const Image& image) {
     Image soft(image.width, image.height, {0, 0, 0, 255});
     for (int y = 0; y < image.height; ++y) {
@@ -37,7 +37,7 @@ Image softened(const Image& image) {
     return soft;
 }
 
-// Of each pixel of the softened pictures, row after row.
+// For each pixel of the softened pictures, row by row.
 std::vector<double> differences(const Image& one, const Image& other) {
     const Image a = softened(one);
     const Image b = softened(other);

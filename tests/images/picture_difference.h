@@ -1,9 +1,9 @@
 // tests/images/picture_difference.h -- whether two pictures look the same.
 //
-// Letters and thin lines come out a little different with another FreeType or Cairo, everything
-// else to the bit. So both pictures are first averaged over 3 x 3 pixels; then colours are compared
-// (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels, where one label that moved
-// cannot hide behind a large picture that did not.
+// Letters and thin lines differ slightly with another FreeType or Cairo; everything else is the
+// same to the bit. So both pictures are first averaged over 3 x 3 pixels. Then colors are compared
+// (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels, so that one label that moved
+// shows even in a large picture.
 #pragma once
 
 #include "stormcellar/base/result.h"
@@ -13,28 +13,29 @@ namespace stormcellar::images {
 
 struct PictureDifference {
     double percentile_99 = 0;    // of all pixels
-    double visible_share = 0;    // of the pixels: more than `visible` apart
+    double visible_share = 0;    // the share of the pixels that differ by more than `visible`
     double worst_tile = 0;       // the largest mean of a tile
     int tile_x = 0, tile_y = 0;  // its top left pixel
 };
 
 inline constexpr double visible = 3;
 
-// What other letters may do. A tile decides about labels: of all that
-// tests/images/synthetic_picture_test.cpp finds the least is a tile of 3.8 (a label that
-// moved), of what it tolerates the most is 2.1.
+// What other letters may change. The tile decides about labels: of everything that
+// tests/images/synthetic_picture_test.cpp must find, the smallest is a tile of 3.8 (a label that
+// moved); of what it tolerates, the largest is 2.1.
 struct Tolerance {
     double percentile_99 = 3;
     double visible_share = 0.01;
     double worst_tile = 3;
 };
 
-// bad_argument when the sizes differ.
+// Errors: bad_argument if the sizes differ.
 [[nodiscard]] Result<PictureDifference> difference_of(const render::Image& one,
                                                       const render::Image& other);
 [[nodiscard]] bool within(const PictureDifference& difference, const Tolerance& tolerance = {});
 
-// Of two pictures of one size: the first in grey, what differs visibly in red, the more the deeper.
+// For two pictures of one size: returns the first in gray, with visible differences in red, deeper
+// if larger.
 [[nodiscard]] render::Image picture_of_difference(const render::Image& one,
                                                   const render::Image& other);
 

@@ -30,7 +30,7 @@ TEST(PictureDifference, OfBlackAndWhiteIsAHundred) {
     EXPECT_FALSE(within(*difference));
 }
 
-// A block of 8 x 8 pixels, 10 x 10 when softened, over the tile at 40,24 more than over others.
+// A block of 8 x 8 pixels (10 x 10 when softened) that covers the tile at 40,24 more than others.
 TEST(PictureDifference, AFewPixelsInOnePlaceAreFoundThere) {
     Image other(160, 160, white);
     for (int y = 25; y < 33; ++y) {

@@ -1,4 +1,4 @@
-// Pictures of real volumes, from the file to the pixels, against their stored references.
+// Compares pictures of real volumes, from the file to the pixels, with stored references.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/images/reference_check.h -- a picture against its stored reference.
+// tests/images/reference_check.h -- compares a picture with its stored reference.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace stormcellar::images {
 
-// tests/images/references/NAME.png
+// Reads tests/images/references/NAME.png.
 [[nodiscard]] Result<render::Image> read_reference(const std::string& name);
 
-// Whether the picture is its reference within the tolerance. If not, the message names a directory
-// with the picture, the reference and their difference. With STORMCELLAR_UPDATE_REFERENCES set
-// (scripts/update-image-references) a reference that differs, or is missing, is written anew.
+// Succeeds if the picture equals its reference within the tolerance. If not, the message names a
+// directory with the picture, the reference and their difference. With
+// STORMCELLAR_UPDATE_REFERENCES set (scripts/update-image-references), a reference that differs or
+// is missing is written anew.
 [[nodiscard]] ::testing::AssertionResult matches_reference(const render::Image& picture,
                                                            const std::string& name);
 

@@ -1,6 +1,6 @@
-// Pictures of grids that need no data against their stored references, and proof that what must be
-// found is found: each change below is drawn, or made in the drawn pixels, and must lie beyond the
-// tolerance of every picture that it concerns.
+// Compares pictures of synthetic grids with stored references, and shows that errors are found:
+// each change below is drawn, or made in the drawn pixels, and must exceed the tolerance in every
+// picture that it concerns.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,7 +26,7 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
   protected:
     void SetUp() override { picture_ = make_picture(GetParam()); }
 
-    // Against the stored reference; a picture that cannot be drawn counts as found.
+    // Compares with the stored reference; a picture that cannot be drawn counts as found.
     [[nodiscard]] static bool found(const Result<Image>& drawn) {
         if (!drawn) return true;
         const auto difference = difference_of(*drawn, read_reference(GetParam()).value());
@@ -36,7 +36,7 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
     Picture picture_;
 };
 
-// Of them: those with a camera, those with text round them, those with a map.
+// Subsets: those with a camera, those with text around them, those with a map.
 class CameraPicture : public SyntheticPicture {};
 class LabelledPicture : public SyntheticPicture {};
 class SitePicture : public SyntheticPicture {};
@@ -64,8 +64,8 @@ TEST_P(SyntheticPicture, LooksAsItsReference) {
     EXPECT_TRUE(matches_reference(*drawn, GetParam()));
 }
 
-// Mixes each pixel with its neighbour to the right and adds noise, as letters drawn by another
-// library differ: still the same picture.
+// Mixes each pixel with its neighbor to the right and adds noise, like letters drawn by another
+// library: the picture must still count as the same.
 TEST_P(SyntheticPicture, OtherLettersAreTolerated) {
     Image image = read_reference(GetParam()).value();
     const Image original = image;
@@ -88,7 +88,7 @@ TEST_P(SyntheticPicture, AMirroredGridIsFound) {
     EXPECT_TRUE(found(draw(picture_)));
 }
 
-// The table's classes that are in every one of these pictures.
+// the classes of the table that occur in every one of these pictures
 TEST_P(SyntheticPicture, TwoExchangedColoursAreFound) {
     const std::size_t classes = render::colours_of(picture_.scene).stops.size();
     const std::size_t first = picture_.scene.product == render::Product::cappi ? classes / 2 : 3;
@@ -106,7 +106,7 @@ TEST_P(CameraPicture, ADegreeOfTiltIsFound) {
     EXPECT_TRUE(found(draw(picture_)));
 }
 
-// Pixels turned about the middle of the picture: maps and sections have no camera to turn.
+// Turns the pixels about the middle of the picture: maps and sections have no camera to turn.
 TEST_P(SyntheticPicture, APictureTurnedByADegreeIsFound) {
     const Image original = read_reference(GetParam()).value();
     Image image = original;
@@ -137,7 +137,7 @@ TEST_P(SyntheticPicture, AMoveByAPixelIsFound) {
     EXPECT_TRUE(found(image));
 }
 
-// Rings, the site's mark and its name.
+// Rings, the mark of the site and its name.
 TEST_P(SitePicture, ASiteThatMovedIsFound) {
     picture_.facts.sites[0].latitude_deg += 0.05;
     EXPECT_TRUE(found(draw(picture_)));
@@ -154,7 +154,7 @@ TEST_P(LabelledPicture, AWrongUnitIsFound) {
     EXPECT_TRUE(found(draw(picture_)));
 }
 
-// Each text round the picture, moved by three pixels in the reference itself.
+// Moves each text around the picture by three pixels in the reference itself.
 TEST_P(LabelledPicture, EachLabelThatMovedIsFound) {
     const auto fonts = render::Fonts::load();
     ASSERT_TRUE(fonts) << fonts.error().message;

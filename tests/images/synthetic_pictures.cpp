@@ -22,8 +22,8 @@ GridSpec storm_spec() {
     return render::small_spec(160, 20, 3000, 750);
 }
 
-// Along the beam: a wind from the south-west that grows with height, and a whirl about the core;
-// where there is echo. Far in the south-west it is range folded.
+// Velocity along the beam, where there is echo: a wind from the southwest that grows with height,
+// and a vortex about the core. Far in the southwest it is range folded.
 Grid velocity_grid() {
     const GridSpec spec = storm_spec();
     Grid grid = render::make_grid_of(spec, [&](int ix, int iy, int iz) -> Cell {
@@ -94,7 +94,7 @@ Scene scene_of(const std::string& name) {
 
 Grid grid_of(const std::string& name) {
     if (name == "cappi-velocity") return velocity_grid();
-    // 900 km wide: much of it out of the radar's reach.
+    // 900 km wide: much of it is out of the radar's reach.
     if (name == "ground-not-seen")
         return render::storm_grid(render::small_spec(150, 12, 6000, 1000));
     return render::storm_grid(storm_spec());

@@ -1,5 +1,5 @@
-// tests/images/synthetic_pictures.h -- the pictures that need no data: scenes of grids made from a
-// function of place, in which nothing is symmetric, and what can be wrong with them.
+// tests/images/synthetic_pictures.h -- pictures that need no data: scenes of grids made from a
+// function of place without any symmetry, and the errors that can be made in them.
 #pragma once
 
 #include <functional>
@@ -19,15 +19,15 @@ struct Picture {
     grid::Grid grid;
 };
 
-// By name; the name is one of picture_names().
+// Makes the picture of a name, which must be one of picture_names().
 [[nodiscard]] Picture make_picture(const std::string& name);
 [[nodiscard]] const std::vector<std::string>& picture_names();
 
 [[nodiscard]] Result<render::Image> draw(const Picture& picture);
 
-// The grid mirrored east-west; its site stays where it is.
+// Mirrors the grid east-west; its site stays where it is.
 void mirror(grid::Grid& grid);
-// The scene's colours with those of two neighbouring classes exchanged.
+// Exchanges the colors of two neighboring classes of the scene.
 void swap_classes(render::Scene& scene, std::size_t first);
 
 }  // namespace stormcellar::images

@@ -45,7 +45,7 @@ TEST(BzipBlocks, GoOnOverStreamsOneBehindTheOther) {
     EXPECT_EQ(blocks_joined(wire::join({packed, packed}), statuses), wire::join({plain, plain}));
 }
 
-// Flipping any one bit of the middle loses the one block that it is in, and never gives a wrong
+// Flipping any bit of the middle loses only the block that contains it, and never gives a wrong
 // byte.
 TEST(BzipBlocks, OnlyTheDamagedBlockIsLost) {
     const wire::Bytes plain = noise(450'000);

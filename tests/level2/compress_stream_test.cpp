@@ -21,7 +21,7 @@ Bytes expand_all(CompressStream& stream) {
     return all;
 }
 
-// Numbers of a few values repeat at all lengths; noise fills the table soon.
+// Few values give repetitions of all lengths; noise fills the table quickly.
 Bytes sample(std::size_t size, unsigned values, unsigned seed) {
     std::mt19937 random(seed);
     Bytes bytes(size);
@@ -54,7 +54,7 @@ TEST(CompressStream, NothingAndOneByte) {
     }
 }
 
-// The bytes that compress 4.0 itself makes of "ABABABABABABABABABABABAB\n".
+// The bytes that compress 4.0 makes of "ABABABABABABABABABABABAB\n".
 TEST(CompressStream, ReadsTheProgramsOwnBytes) {
     constexpr std::array<unsigned, 15> own = {0x1F, 0x9D, 0x90, 0x41, 0x84, 0x04, 0x1C, 0x28,
                                               0xB0, 0x20, 0xC1, 0x83, 0x05, 0x15, 0x00};

@@ -1,4 +1,4 @@
-// Containers, damage and limits of the decoder as a whole.
+// Tests of the whole decoder: containers, damage and limits.
 #include "stormcellar/level2/decode.h"
 
 #include <fstream>
@@ -13,7 +13,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Salvage tries each damaged block several times: what that counts leaves a real volume its room.
+// Salvage tries each damaged block several times. Counting these attempts must leave a real volume
+// enough room.
 TEST(DecodeLimits, AVolumeOfWhichNearlyAllIsDamagedStaysWithinThem) {
     STORMCELLAR_NEED_DATA();
     wire::Bytes bytes = *read_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
@@ -34,11 +35,11 @@ TEST(DecodeLimits, AVolumeOfWhichNearlyAllIsDamagedStaysWithinThem) {
     EXPECT_GT(decoded->report.errors, 40U);
 }
 
-// 2026-11-25: 11 kB of records with a wrong checksum took 20 s, as what was unpacked in vain
-// counted for nothing.
+// 2026-11-25: 11 kB of records with a wrong checksum took 20 s, because bytes that were unpacked in
+// vain were not counted.
 TEST(DecodeLimits, WhatIsUnpackedInVainCounts) {
     wire::Bytes stream = wire::bzip2(wire::Bytes(45'000'000));
-    stream[10] ^= std::byte{1};  // of its checksum
+    stream[10] ^= std::byte{1};  // a bit of its checksum
     const wire::Bytes record =
         wire::Writer{}.u32(static_cast<std::uint32_t>(stream.size())).raw(stream).bytes;
     wire::Bytes bytes = wire::ldm_volume(1, 4);
@@ -61,7 +62,7 @@ ErrorCode code_of(std::span<const std::byte> bytes, const DecodeOptions& options
     return decoded ? ErrorCode::internal : decoded.error().code;
 }
 
-// Same sweeps to the bit.
+// Expects sweeps that are the same to the bit.
 void expect_same_sweeps(const Volume& a, const Volume& b) {
     ASSERT_EQ(a.sweeps.size(), b.sweeps.size());
     for (std::size_t i = 0; i < a.sweeps.size(); ++i) {
@@ -159,7 +160,7 @@ TEST(Decode, ARecordOfAWholeVolumeIsReadBlockByBlock) {
     expect_same_sweeps(decoded->volume, decode(rays).value().volume);
 }
 
-// Cut anywhere, a volume has the radials of the records before, and says so.
+// A volume that is cut anywhere has the radials of the records before the cut, and reports the cut.
 TEST(Decode, ACutFileKeepsItsWholeRecords) {
     const Bytes whole = wire::ldm_volume(4, 20);
     for (std::size_t size = 25; size < whole.size(); size += 41) {
@@ -179,7 +180,7 @@ TEST(Decode, ACutFileKeepsItsWholeRecords) {
 TEST(Decode, ADamagedRecordLosesItselfOnly) {
     Bytes damaged = wire::ldm_volume(4, 20);
     const auto whole = decode(damaged).value();
-    // Near the end, in the last record's middle; then all others are as they were.
+    // Near the end, in the middle of the last record, so that all others are unchanged.
     damaged[damaged.size() - 200] ^= std::byte{0x40};
     const auto decoded = decode(damaged);
     ASSERT_TRUE(decoded) << decoded.error().message;
@@ -229,7 +230,7 @@ TEST(DecodeFile, TheNameGivesTheStationWhereTheFileDoesNot) {
     }
 }
 
-// Every real volume gives the same whatever the number of threads.
+// Every real volume gives the same result for any number of threads.
 TEST(DecodeReal, ThreadsDoNotMatter) {
     STORMCELLAR_NEED_DATA();
     for (const char* name : {"KCRP20170826_044114.trimmed.ar2v", "KDMX20250101_225441_V06",
@@ -244,7 +245,7 @@ TEST(DecodeReal, ThreadsDoNotMatter) {
     }
 }
 
-// What has just begun to arrive is truncated, so that the daemon waits for the rest.
+// A file that has just begun to arrive is truncated, so that the daemon waits for the rest.
 TEST(Decode, AHeaderAndTheFirstBytesOfARecordAreTruncated) {
     const wire::Bytes volume = wire::ldm_volume(1, 4);
     for (const std::size_t size : {24U, 25U, 30U, 37U, 38U, 45U}) {

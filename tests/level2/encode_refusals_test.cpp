@@ -1,4 +1,4 @@
-// What the writer refuses, because it would not come back as it is.
+// Tests what the writer refuses because it would not be read back unchanged.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -60,7 +60,7 @@ TEST(EncodeRefusals, RefusesWhatMessage31CannotHold) {
     EXPECT_EQ(refusal(good, {.radials_per_record = 0}), ErrorCode::bad_argument);
 }
 
-// Of each: what is wrong, and what the message names.
+// Each case: what is wrong, and what the message must name.
 struct Spoilt {
     const char* named;
     std::function<void(Volume&)> spoil;
@@ -78,7 +78,7 @@ void expect_refused(const Volume& good, const std::vector<Spoilt>& cases) {
     }
 }
 
-// 2026-11-21: these were written, and came back as another volume or not at all.
+// 2026-11-21: these were written, and were read back as another volume or not at all.
 TEST(EncodeRefusals, NamesWhatWouldNotComeBack) {
     const float nan = std::nanf("");
     expect_refused(
@@ -96,7 +96,7 @@ TEST(EncodeRefusals, NamesWhatWouldNotComeBack) {
             {"sweep 1: fixed angle", [](Volume& v) { v.sweeps[1].vcp_elevation_deg = 3; }},
             {"radial 5 of sweep 1 would not be read",
              [=](Volume& v) { v.sweeps[1].radials[5].elevation_deg = nan; }},
-            // Behind the first record of the sweep.
+            // Not in the first record of the sweep.
             {"radial 125 of sweep 1",
              [](Volume& v) { v.sweeps[1].radials[125].azimuth_deg = 361; }},
             {"radial 5 of sweep 0",
@@ -136,7 +136,7 @@ TEST(EncodeRefusals, NamesMomentsThatWouldNotComeBack) {
                             auto& counts = v.sweeps[0].moments[0].gate_counts;
                             counts.assign(counts.size(), 50);
                         }},
-                       // The moment of the later radials stands first.
+                       // The moment of the later radials comes first.
                        {"sweep 0, moment 0: name",
                         [](Volume& v) {
                             SweepMoment& ref = v.sweeps[0].moments[0];
@@ -168,7 +168,7 @@ TEST(EncodeRefusals, NamesWhatMessage1CannotHold) {
             {"moment 0: gate spacing",
              [](Volume& v) { v.sweeps[0].moments[0].gate_spacing_m = -1; }},
             {"moment 0: scale", [](Volume& v) { v.sweeps[0].moments[0].scale = 3; }},
-            // Message 1 says it of VEL and SW together.
+            // Message 1 has one value for VEL and SW together.
             {"moment 2: first gate", [](Volume& v) { v.sweeps[0].moments[1].first_gate_m = 0; }},
             {"codes of 16 bits", [](Volume& v) { v.sweeps[0].moments[0].word_size_bits = 16; }},
             {"radial 3: Nyquist", [=](Volume& v) { first(v).nyquist_mps = 400; }},

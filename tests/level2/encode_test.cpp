@@ -60,7 +60,7 @@ TEST(Encode, BlocksThatTheRadarDoesNotSendStayAbsent) {
         radial.elevation_calibration_db.reset();
     }
     for (Radial& radial : volume.sweeps[1].radials) {
-        radial.vertical_noise_dbm.reset();  // unknown inside a block that is there
+        radial.vertical_noise_dbm.reset();  // unknown, inside a block that exists
         radial.elevation_calibration_db.reset();
     }
     Radial& bare = volume.sweeps[0].radials[7];
@@ -93,8 +93,8 @@ TEST(Encode, AVolumeWithoutAHeaderGetsOneWithTheFirstRadialsTime) {
     EXPECT_EQ(decoded.volume.header->time(), volume.sweeps[0].radials[0].time);
 }
 
-// ICD 2620010 section 7.3.4: records of 120 radials, none of two sweeps, the last one's length
-// negative; the metadata record is 134 frames with message 5 and 2 in the last two.
+// ICD 2620010 section 7.3.4: records have 120 radials of one sweep, and the length of the last one
+// is negative. The metadata record has 134 frames, with messages 5 and 2 in the last two.
 TEST(Encode, RecordsAreAsTheRdaSendsThem) {
     const auto encoded = encode(example_volume()).value();
     ASSERT_EQ(encoded.header.size(), 24);
@@ -124,7 +124,7 @@ TEST(Encode, TheSameVolumeGivesTheSameBytes) {
     EXPECT_EQ(encode(volume)->joined(), encode(volume)->joined());
 }
 
-// A header of a later date than messages can be of.
+// A header with a later date than messages can have.
 TEST(Encode, MetadataOfAStrangeDayComeBack) {
     Volume volume = example_volume();
     volume.sweeps.clear();
@@ -157,8 +157,8 @@ TEST_P(EncodeReal, ComesBackToTheBit) {
     EXPECT_EQ(difference(live.finish().value(), *again), "");
 }
 
-// Message 31: super-resolution with every moment, TDWR, trimmed, few radials, recombined.
-// Message 1: of 1991, 1999, damaged, four volumes in a file, 1 m/s, gates that vary in a sweep.
+// Message 31: super-resolution with every moment, TDWR, trimmed, few radials, recombined. Message
+// 1: of 1991, 1999, damaged, four volumes in a file, 1 m/s, gates that vary within a sweep.
 INSTANTIATE_TEST_SUITE_P(
     Volumes, EncodeReal,
     ::testing::Values(
@@ -189,7 +189,7 @@ TEST(Encode, ChunksAreNamedByTheVolumesStart) {
     EXPECT_EQ(joined, encoded.joined());
 }
 
-// The bodies of message 31 that follow the first metadata record of a file, without the headers.
+// Returns the bodies of message 31 after the first metadata record of a file, without headers.
 std::vector<Bytes> first_radials(std::span<const std::byte> file) {
     ByteReader reader(file);
     reader.skip(24);
@@ -210,7 +210,7 @@ std::vector<Bytes> first_radials(std::span<const std::byte> file) {
     return bodies;
 }
 
-// An open RDA's own message 31 and ours, byte by byte.
+// Compares the message 31 of an open RDA with ours, byte by byte.
 TEST(Encode, RadialsAreTheRadarsOwnBytes) {
     STORMCELLAR_NEED_DATA();
     for (const char* name : {"KLOT20220317_000842_V06", "KTLX20170101_030027_V06"}) {

@@ -1,4 +1,5 @@
-// Every real volume against what an independent decoder found in it (data/golden), field by field.
+// Compares every real volume, field by field, with what an independent decoder found in it
+// (data/golden).
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -35,7 +36,7 @@ std::vector<std::string> golden_names() {
     return names;
 }
 
-// The chunks of a set, joined in the order of their names, or the file itself.
+// Returns the chunks of a set, joined in the order of their names, or the file itself.
 std::vector<std::byte> bytes_of(const std::filesystem::path& data, const std::string& name) {
     if (!name.starts_with("CHUNKS_")) {
         for (const char* folder : {"volumes", "sequence-kbgm", "mosaic-northeast"}) {
@@ -98,7 +99,7 @@ void expect_same(const Json& expected, const Json& found, const std::string& key
     }
 }
 
-// Fields of the whole file that the reference gives for the intact part only.
+// Fields of the whole file that the reference gives only for the intact part.
 const std::set<std::string>& prefix_only_fields() {
     static const std::set<std::string> fields = {"message_counts",
                                                  "vcp",
@@ -115,7 +116,7 @@ const std::set<std::string>& prefix_only_fields() {
     return fields;
 }
 
-// The reference's own remarks, and what it leaves to the name of the file.
+// Leaves out the reference's own remarks, and what it takes from the name of the file.
 bool is_compared(const std::string& field, const Json& golden) {
     static const std::set<std::string> remarks = {
         "sha256", "oddities", "n_oddities", "agreement", "sources", "corruption", "sweeps", "site"};
@@ -123,12 +124,12 @@ bool is_compared(const std::string& field, const Json& golden) {
     return golden.at("corruption").is_null() || !prefix_only_fields().contains(field);
 }
 
-// The reference counts a radial as intact of which 1,688 bytes are lost: see the test of it below.
+// The reference counts as intact a radial that has lost 1,688 bytes: see its test below.
 constexpr std::string_view half_radial_file = "KLVX20050106_163401.gz";
 constexpr std::size_t half_radial_sweep = 4;
 
-// KMPX20060106_184002 loses bytes inside its metadata, at 172672: radials stand at an odd place
-// from there on. The reference takes 62 frames of them for fill and sees the damage later.
+// KMPX20060106_184002 loses bytes inside its metadata, at 172672, so that all radials after that
+// are at odd places. The reference takes 62 of their frames for fill and notices the damage later.
 std::uint64_t corruption_offset(const Json& golden) {
     if (golden.at("file") == "KMPX20060106_184002.gz") return 172672;
     return golden.at("corruption").at("offset").get<std::uint64_t>();
@@ -153,7 +154,7 @@ TEST_P(GoldenTest, EveryFieldIsTheSame) {
         ASSERT_TRUE(found.contains(field)) << field;
         expect_same(value, found.at(field), field, field);
     }
-    // Headers of ARCHIVE2 files name no site; the file's name does.
+    // Headers of ARCHIVE2 files name no site; the name of the file does.
     const Json site =
         golden.at("site").is_null() ? Json(options.fallback_station) : golden.at("site");
     EXPECT_EQ(found.at("site"), site);
@@ -175,15 +176,16 @@ TEST_P(GoldenTest, EveryFieldIsTheSame) {
         if (GetParam() == half_radial_file && i == half_radial_sweep) continue;
         const auto radials = expected.at("n_radials").get<std::size_t>();
         ASSERT_GE(sweeps[i].radials.size(), radials) << "sweep " << i;
-        // Behind the damage a sweep may go on; the reference has its intact part.
+        // A sweep may continue after the damage; the reference has only its intact part.
         if (!corruption.is_null()) sweeps[i].radials.resize(radials);
         expect_same(expected, describe_sweep(sweeps[i], i), "", "sweep " + std::to_string(i));
     }
 }
 
-// KLVX20050106_163401: at 3964160 of the message stream stand 744 bytes of radial 102 of sweep 4;
-// there radial 201 begins. The reference took 2432 bytes from 3964160 for radial 102. The decoder
-// drops it ("never half a radial"); with it put back, the checksums are the reference's.
+// KLVX20050106_163401: at 3964160 of the message stream there are 744 bytes of radial 102 of sweep
+// 4, and radial 201 begins there. The reference took 2432 bytes from 3964160 for radial 102. The
+// decoder drops it ("never half a radial"). With it put back, the checksums are those of the
+// reference.
 TEST(GoldenHalfRadial, IsDroppedAndWouldGiveTheReferencesChecksum) {
     STORMCELLAR_NEED_DATA();
     const auto data = *testing::data_directory();

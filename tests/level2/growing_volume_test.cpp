@@ -1,4 +1,4 @@
-// A file that grows gives what the whole file gives, however it is cut.
+// A file that grows gives what the whole file gives, in whatever pieces it arrives.
 #include "stormcellar/level2/growing_volume.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using wire::Bytes;
 
-// Appended in pieces of random length up to `most` bytes.
+// Appends pieces of random length up to `most` bytes.
 Result<Decoded> grow(std::span<const std::byte> bytes, std::size_t most, unsigned seed,
                      std::vector<LiveSweep>* sweeps = nullptr) {
     std::mt19937 random{seed};
@@ -34,7 +34,7 @@ Result<Decoded> grow(std::span<const std::byte> bytes, std::size_t most, unsigne
     return volume.finish();
 }
 
-// The same, holding sweeps outside from when they may be dropped until the end.
+// The same, but moves sweeps out of the volume as soon as they may be dropped, until the end.
 Result<Decoded> grow_dropping(std::span<const std::byte> bytes, std::size_t most, unsigned seed) {
     std::mt19937 random{seed};
     GrowingVolume volume;
@@ -150,7 +150,7 @@ TEST(GrowingVolume, WhatHoldsNothingKnownIsHeldNoFurtherThan16MiB) {
         << "the array has room for as much more";
 }
 
-// Twenty megabytes of records behind a damaged start are read as decode() reads them.
+// Twenty megabytes of records after a damaged start are read as decode() reads them.
 TEST(GrowingVolume, WhatIsDamagedAtItsStartIsHeldToItsEnd) {
     Bytes bytes(300, std::byte{'x'});
     const Bytes volume = wire::ldm_volume(3, 360);
@@ -172,7 +172,7 @@ TEST(GrowingVolumeReal, RealFilesGrowToTheSame) {
         std::vector<LiveSweep> sweeps;
         const auto grown = grow(bytes, 100'000, 11, &sweeps).value();
         EXPECT_EQ(difference(grown, whole), "") << name;
-        // What came out on the way is what stands in the end.
+        // The sweeps returned on the way must be those of the final volume.
         for (const LiveSweep& live : sweeps) {
             Volume a, b;
             a.sweeps = {live.sweep};

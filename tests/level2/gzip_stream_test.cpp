@@ -56,7 +56,7 @@ TEST(GzipStream, TellsDamageAndGarbageApart) {
     GzipStream trailing{trailed};
     EXPECT_EQ(inflate_all(trailing).size(), 100'000);
     EXPECT_EQ(trailing.end(), GzipEnd::trailing_garbage);
-    packed[10] = std::byte{0xFF};  // a block of a type that does not exist
+    packed[10] = std::byte{0xFF};  // a block type that does not exist
     GzipStream damaged{packed};
     EXPECT_TRUE(inflate_all(damaged).empty());
     EXPECT_EQ(damaged.end(), GzipEnd::corrupt);

@@ -102,7 +102,7 @@ TEST(LdmFramer, GarbageBetweenRecordsIsSteppedOver) {
     }
     EXPECT_EQ(records, 2);
     EXPECT_EQ(padding, 100);
-    // The first record's length cannot be believed, so what follows may be counted to it.
+    // The length of the first record is wrong, so the bytes after it may be counted as its own.
     EXPECT_TRUE(dropped == garbage.size() ||
                 parts[0].bytes.size() == one.size() - 4 + garbage.size());
 }

@@ -1,10 +1,10 @@
-// list_radials: what the decoder reads, line by line, for a comparison with other readers.
+// list_radials: prints what the decoder reads, line by line, for a comparison with other readers.
 //
-// usage: list_radials FILE [REWRITTEN]
-// Prints JSON lines: one of the header and the pattern, then one a radial. Of a moment's gates it
-// prints their number, how many hold a value, and the CRC-32 of their codes, 16-bit big-endian,
-// with 0 for those below threshold and range folded, which not every reader tells apart.
-// REWRITTEN: the volume that was read is written there by stormcellar/level2/encode.h.
+// usage: list_radials FILE [REWRITTEN] Prints JSON lines: one for the header and the pattern, then
+// one for each radial. For the gates of a moment it prints their number, how many hold a value, and
+// the CRC-32 of their codes (16-bit big-endian), with 0 for codes below threshold and range folded,
+// which not every reader distinguishes. If REWRITTEN is given, the volume is written there by
+// stormcellar/level2/encode.h.
 #include <cstdio>
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// A volume that arrives in chunks: whatever the order, the outcome is that of their numbers.
+// A volume that arrives in chunks: the result depends only on their numbers, not on their order.
 #include "stormcellar/level2/live_volume.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using wire::Bytes;
 using Added = LiveVolume::Added;
 using std::chrono::seconds;
 
-// Takes every sweep but each `refuses`th; says that what it has is lost when `lost` is set.
+// Takes every sweep except each `refuses`th. If `lost` is set, it reports that its sweeps are lost.
 class MemoryDepot final : public SweepDepot {
   public:
     explicit MemoryDepot(std::size_t refuses = 0) : refuses_(refuses) {}
@@ -66,7 +66,7 @@ std::vector<ChunkFile> real_chunks(const char* set) {
     return chunks;
 }
 
-// A volume of sweeps of two records each, behind a start chunk.
+// Returns a volume of sweeps of two records each, after a start chunk.
 std::vector<ChunkFile> simple_chunks(unsigned sweeps, unsigned ms = 1000) {
     std::vector<ChunkFile> chunks;
     const auto add = [&](ChunkKind kind, Bytes bytes) {
@@ -95,7 +95,7 @@ Bytes joined(const std::vector<ChunkFile>& chunks) {
     return all;
 }
 
-// What the joined chunks cannot say.
+// Removes what the joined chunks cannot show.
 Decoded without_missing_chunks(Decoded decoded, bool complete) {
     std::erase_if(decoded.report.problems,
                   [](const Problem& problem) { return problem.code == "missing_chunks"; });
@@ -108,7 +108,8 @@ Result<Added> add(LiveVolume& volume, const ChunkFile& chunk, seconds at = {}) {
                       LiveVolume::Clock::time_point{at});
 }
 
-// Some chunks are lost, some come twice, all in another order. What came, by number, is returned.
+// Adds chunks in another order; some are lost and some come twice. Returns those that came, by
+// number.
 std::vector<ChunkFile> arrive(LiveVolume& volume, const std::vector<ChunkFile>& chunks,
                               std::mt19937& random, double lost, double repeated) {
     std::uniform_real_distribution<double> chance;
@@ -172,7 +173,7 @@ TEST(LiveVolumeReal, AnyOrderGivesTheSameForALargeVolume) {
     expect_any_order_gives_the_same(real_chunks("L2D_230"), 2);
 }
 
-// The last form in which each sweep came out is the one that stands in the volume.
+// The last version of each sweep that was returned must be that of the final volume.
 void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled,
                             SweepDepot* depot = nullptr) {
     std::mt19937 random{5};
@@ -181,7 +182,7 @@ void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled,
         order.push_back(&chunk);
     if (shuffled) std::shuffle(order.begin(), order.end(), random);
     LiveVolume volume{with(depot)};
-    std::map<std::pair<int, std::int64_t>, Sweep> newest;  // by cut and first radial's time
+    std::map<std::pair<int, std::int64_t>, Sweep> newest;  // by cut and time of the first radial
     std::size_t handed_out = 0;
     for (const ChunkFile* chunk : order) {
         ASSERT_TRUE(add(volume, *chunk));
@@ -257,7 +258,7 @@ TEST(LiveVolume, TheEndIsKnownByTheChunkTheRadialOrTheControlWord) {
         EXPECT_EQ(add(volume, chunks[i]), Added::added);
         EXPECT_FALSE(volume.has_ended()) << i;
     }
-    chunks.back().name.kind = ChunkKind::intermediate;  // a name that lies
+    chunks.back().name.kind = ChunkKind::intermediate;  // a wrong kind in the name
     EXPECT_EQ(add(volume, chunks.back()), Added::added);
     EXPECT_TRUE(volume.has_ended());
     EXPECT_TRUE(volume.is_whole());

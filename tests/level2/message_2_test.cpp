@@ -17,7 +17,7 @@ namespace {
 
 constexpr unsigned open_channel = 8, legacy_channel = 0;
 constexpr unsigned legacy_day = 13'013;           // 2005-08-17
-using Numbers = std::map<std::size_t, unsigned>;  // halfword, as the ICD counts, to number
+using Numbers = std::map<std::size_t, unsigned>;  // halfword, counted as in the ICD, to number
 
 // A radar that operates without trouble and sends everything.
 Numbers healthy() {
@@ -233,7 +233,7 @@ std::vector<RdaStatus> statuses_in(std::span<const std::byte> messages) {
     return statuses;
 }
 
-// All of a file of messages; of LDM records the first, which holds the metadata.
+// Reads all of a file of messages; of LDM records the first, which holds the metadata.
 std::vector<RdaStatus> statuses_of_file(const std::string& name) {
     const wire::Bytes file = peeled(read_file(*testing::data_directory() / name).value());
     const auto content = std::span{file}.subspan(read_archive_header(file) ? 24 : 0);

@@ -105,7 +105,7 @@ TEST(MessageReader, BytesAddedBetweenMessagesAreDroppedAndNamed) {
     EXPECT_EQ(outcome.report.problems[0].severity, Severity::error);
 }
 
-// Of a radial that has lost bytes nothing is kept, whichever they are.
+// Nothing of a radial that has lost bytes is kept, whichever bytes they are.
 TEST(MessageReader, ARadialThatLostBytesIsDropped) {
     for (const std::size_t lost : {1U, 200U, 1000U, 2000U}) {
         for (const auto& make : {ray_1, ray_31}) {
@@ -119,7 +119,7 @@ TEST(MessageReader, ARadialThatLostBytesIsDropped) {
     }
 }
 
-// In clear air a radial is mostly zeros, which look like a fill frame.
+// In clear air, a radial is mostly zeros, which look like a fill frame.
 TEST(MessageReader, ZerosOfALostRadialAreNoFillFrames) {
     wire::Ray clear;
     clear.gates = 1800;
@@ -139,15 +139,15 @@ TEST(MessageReader, AMessageCutByTheEndIsDropped) {
         const Outcome outcome = read_whole(std::span{bytes}.first(size));
         EXPECT_EQ(azimuth_numbers(outcome.volume), (std::vector<int>{1})) << size;
         if (size < second + 28 && all_zero(std::span{bytes}.subspan(second, size - second))) {
-            continue;  // a few zeros are padding
+            continue;  // a few zeros count as padding
         }
         EXPECT_EQ(outcome.report.bytes_dropped, size - second);
         EXPECT_EQ(outcome.report.corruption->offset, second);
     }
 }
 
-// The length of a radial that has lost bytes ends a few bytes before the end of the data: what is
-// left there is no message, so nothing shows that the radial ends where it says.
+// A radial that has lost bytes ends by its length a few bytes before the end of the data. What is
+// left is no message, so nothing shows that the radial ends where its length says.
 TEST(MessageReader, AFewBytesBehindARadialDoNotProveItsEnd) {
     wire::Ray large;
     large.azimuth_number = 2;

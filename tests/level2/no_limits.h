@@ -1,4 +1,4 @@
-// tests/level2/no_limits.h -- for tests that neither limit nor select.
+// tests/level2/no_limits.h -- options for tests that neither limit nor select.
 #pragma once
 
 #include <cstdint>

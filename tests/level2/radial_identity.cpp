@@ -63,7 +63,7 @@ void put_moment(ByteWriter& out, const SweepMoment& moment, std::size_t radial) 
 RadialIdentity identity(const Sweep& sweep, std::size_t radial) {
     ByteWriter out;
     put_fields(out, sweep, sweep.radials[radial]);
-    // The order of moments in a sweep depends on the radials before; their names do not.
+    // The order of the moments in a sweep depends on earlier radials; their names do not.
     for (const Moment name : all_moments) {
         for (const SweepMoment& moment : sweep.moments) {
             if (moment.moment == name && moment.gate_counts[radial] > 0)

@@ -1,9 +1,10 @@
-// tests/level2/radial_identity.h -- one number for all that a radial says.
+// tests/level2/radial_identity.h -- one number for all contents of a radial.
 //
-// Two radials have the same identity when they are the same to the bit: every field, the elevation
+// Two radials have the same identity if they are the same to the bit: every field, the elevation
 // number and message type of their sweep, and for every moment its geometry, scale, offset and the
 // codes of all gates. What a sweep takes from its first radial alone (azimuth spacing, thresholds,
-// control flags, the VCP's angle) is left out: it says nothing about the others.
+// control flags, the angle of the VCP) is left out, because it says nothing about the other
+// radials.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace stormcellar::level2 {
 
 using RadialIdentity = std::uint64_t;  // XXH3: two of 10,000 radials agree by chance in 1 of 10^11
 
-// Of the radials in file order.
+// Returns the identities of the radials in file order.
 [[nodiscard]] std::vector<RadialIdentity> identities(const Volume& volume);
 [[nodiscard]] RadialIdentity identity(const Sweep& sweep, std::size_t radial);
 

@@ -67,7 +67,7 @@ TEST(Message31, VolumeBlockIsReadFieldByField) {
     EXPECT_TRUE(block->rest.empty());
 }
 
-// Whatever is cut off, nothing outside the message is read and no half radial comes out.
+// Whatever is cut off, nothing outside the message is read and no half radial is returned.
 TEST(Message31, CutAnywhereIsRefused) {
     const wire::Bytes bytes = wire::message_31({});
     const auto body = body_of(bytes);
@@ -119,7 +119,7 @@ TEST(Message31, ABlockOfALaterBuildIsSkippedAndGarbageIsNot) {
 
 TEST(Message31, AMomentThatComesTwiceIsRefused) {
     wire::Bytes bytes = wire::message_31({});
-    // The pointer of RHO made that of REF.
+    // The pointer of RHO is replaced by that of REF.
     const auto ref = std::to_integer<unsigned>(bytes[28 + 32 + 4 * 3 + 3]);
     bytes[28 + 32 + 4 * 4 + 3] = static_cast<std::byte>(ref);
     bytes[28 + 32 + 4 * 4 + 2] = bytes[28 + 32 + 4 * 3 + 2];

@@ -6,7 +6,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Of the volumes behind the first.
+// Compares the volumes after the first.
 std::string further_difference(const DecodeReport& x, const DecodeReport& y) {
     const bool same_headers = std::equal(
         x.further_headers.begin(), x.further_headers.end(), y.further_headers.begin(),

@@ -8,8 +8,8 @@
 
 namespace stormcellar::level2 {
 
-// Where the volumes first differ (volume_difference.h), or what the reports count and name; the
-// time that it took is left out.
+// Returns where the volumes first differ (volume_difference.h), or where the counts and texts of
+// the reports differ; the time taken is ignored.
 [[nodiscard]] std::string difference(const Decoded& a, const Decoded& b);
 
 }  // namespace stormcellar::level2

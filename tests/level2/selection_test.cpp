@@ -1,4 +1,4 @@
-// Decoding only what is asked for gives that, and nothing else, of the whole decode.
+// Decoding a selection gives exactly that part of the whole volume.
 #include "stormcellar/level2/selection.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// What the selection leaves of a volume.
+// Returns what the selection leaves of a volume.
 Volume selected(Volume volume, const Selection& selection) {
     std::erase_if(volume.sweeps,
                   [&](const Sweep& sweep) { return !selection.wants_cut(sweep.elevation_number); });
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Files, SelectionReal,
                                            Case{"KBBX20060113_170337.gz", false}),
                          [](const auto& test) { return testing::test_name(test.param.file); });
 
-// A lost or a repeated record moves all that follow: nothing may be skipped then.
+// A lost or repeated record moves all that follow, so nothing may be skipped.
 TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
     STORMCELLAR_NEED_DATA();
     const auto bytes =
@@ -100,8 +100,8 @@ TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
     }
 }
 
-// The messages of a sound volume of half a degree: six records of 120 radials for each of three
-// cuts, to be spoilt. Record 0 is the metadata.
+// The messages of a sound volume at half a degree, which tests then damage: six records of 120
+// radials for each of three cuts. Record 0 is the metadata.
 constexpr unsigned sweeps = 3;
 constexpr unsigned sweep_radials = 720;
 constexpr std::size_t records_of_a_cut = 6;
@@ -125,7 +125,7 @@ wire::Bytes file_of(const std::vector<wire::Bytes>& records) {
     return file;
 }
 
-// Decodes these cuts and compares them with those of the whole decode.
+// Decodes these cuts and compares them with the same cuts of the whole volume.
 DecodeReport expect_cuts(const wire::Bytes& file, const std::vector<int>& cuts) {
     DecodeOptions options;
     options.selection.elevation_numbers = cuts;
@@ -153,7 +153,8 @@ TEST(SelectionReport, CountsEachSweepThatIsLeftOutOnce) {
     }
 }
 
-// What may change the radials that follow: the plan does not know where else it stands.
+// Metadata may change the radials that follow, and the plan does not know whether there are more of
+// them.
 TEST(SelectionPlan, IsVoidWhereMetadataStandBesideRadialsThatAreDecoded) {
     const std::array<float, sweeps> others_deg = {0.5F, 1.5F, 9.0F};
     const std::size_t first_of_cut_3 = 1 + 2 * records_of_a_cut;
@@ -170,7 +171,7 @@ TEST(SelectionPlan, IsVoidWhereMetadataStandBesideRadialsThatAreDecoded) {
     }
 }
 
-// The position is that of the first radial that gives one.
+// The position of the radar is that of the first radial that gives one.
 TEST(SelectionPlan, IsVoidWhereTheFirstRecordHoldsNoVolumeBlock) {
     auto records = sound_records();
     const wire::Bytes name = wire::Writer{}.text("RVOL").bytes;
@@ -187,16 +188,16 @@ TEST(SelectionPlan, IsVoidWhereTheFirstRecordHoldsNoVolumeBlock) {
     EXPECT_EQ(expect_cuts(file_of(records), {3}).records_skipped, 0U);
 }
 
-// As many records as a whole volume has, but not these.
+// There are as many records as in a whole volume, but not the same ones.
 TEST(SelectionPlan, IsVoidWhereARecordThatCameTwiceStandsForALostOne) {
     const auto sound = sound_records();
     const std::size_t cut_2 = 1 + records_of_a_cut, cut_3 = cut_2 + records_of_a_cut;
-    auto restarted = sound;  // cut 1 again, cut 2 lost
+    auto restarted = sound;  // cut 1 comes again, cut 2 is lost
     std::copy_n(sound.begin() + 1, records_of_a_cut,
                 restarted.begin() + static_cast<std::ptrdiff_t>(cut_2));
-    auto repeated = sound;  // the last of cut 1 again, the first of cut 2 lost
+    auto repeated = sound;  // the last record of cut 1 comes again, the first of cut 2 is lost
     repeated[cut_2] = sound[cut_2 - 1];
-    auto last_twice = sound;  // cut 3 twice, cut 2 lost
+    auto last_twice = sound;  // cut 3 comes twice, cut 2 is lost
     std::copy_n(sound.begin() + static_cast<std::ptrdiff_t>(cut_3), records_of_a_cut,
                 last_twice.begin() + static_cast<std::ptrdiff_t>(cut_2));
     EXPECT_EQ(expect_cuts(file_of(restarted), {1}).records_skipped, 0U);

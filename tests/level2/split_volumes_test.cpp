@@ -37,7 +37,7 @@ TEST(SplitVolumes, AFurtherHeaderGoesWithItsVolume) {
     EXPECT_EQ(volumes[1].station, "KTLX");
 }
 
-// Four volumes follow one another under one header; a start time of its own names each.
+// Four volumes follow one another under one header; each is named by its own start time.
 TEST(SplitVolumes, VolumesUnderOneHeaderStartAtTheirFirstRadials) {
     STORMCELLAR_NEED_DATA();
     auto decoded =
@@ -77,7 +77,7 @@ TEST(SplitVolumes, EachHasThePatternThatCameWithIt) {
     EXPECT_EQ(volumes[1].vcp_message->cuts.size(), 3U);
 }
 
-// 2026-11-21: where a selection left nothing of a volume, the next one got its header and pattern.
+// 2026-11-21: if a selection left nothing of a volume, the next one got its header and pattern.
 TEST(SplitVolumes, ASelectionKeepsTheHeadersOfTheVolumesThatHoldIt) {
     const auto volume = [](std::string_view filename, unsigned sweeps) {
         wire::Bytes bytes = wire::ldm_volume(sweeps, 4);

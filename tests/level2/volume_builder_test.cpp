@@ -22,7 +22,7 @@ struct Spec {
 
 class VolumeBuilderTest : public ::testing::Test {
   protected:
-    // Codes 10, 11, 12 ... in each radial.
+    // Each radial has the codes 10, 11, 12 ...
     bool add(const Spec& spec) {
         RadialMessage message;
         message.elevation_number = spec.elevation_number;
@@ -41,11 +41,11 @@ class VolumeBuilderTest : public ::testing::Test {
         if (spec.has_ref && !message.add(block)) return false;
         return builder_.add(message);
     }
-    // Ends the fragment: what follows comes in another one.
+    // Ends the fragment; what follows belongs to another one.
     void end_fragment() { EXPECT_TRUE(volume_.append(builder_.take())); }
     Volume finish() {
         end_fragment();
-        volume_.report_data().message_counts[31] = 1;  // the builder is fed with radials alone
+        volume_.report_data().message_counts[31] = 1;  // the builder gets only radials
         Decoded decoded = volume_.finish("").value();
         report_ = std::move(decoded.report);
         return std::move(decoded.volume);
@@ -124,7 +124,7 @@ TEST_F(VolumeBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
     EXPECT_EQ(volume.sweeps[0].moments[0].codes8.size(), 8);
 }
 
-// KBBX20060113: four volumes in one file, the radials at their ends lost.
+// KBBX20060113: four volumes in one file that have lost the radials at their ends.
 TEST_F(VolumeBuilderTest, AFallingElevationNumberBeginsAnotherVolume) {
     for (const int number : {1, 2, 3, 1, 2})
         EXPECT_TRUE(add({number}));
@@ -152,7 +152,7 @@ TEST_F(VolumeBuilderTest, AHeaderBeforeAnyRadialIsTheSameVolumes) {
     EXPECT_EQ(report_.further_headers[0].header.filename, "AR2V0006.843");
 }
 
-// A sweep does not care where the fragments end: between any two radials.
+// A fragment may end between any two radials without effect on the sweep.
 TEST_F(VolumeBuilderTest, FragmentsMayEndAnywhere) {
     const std::vector<Spec> specs = {{1, 3, 4}, {1, 1, 6}, {1, 1, 3, 1000},  {1, 2, 9},
                                      {2, 0, 5}, {2, 1, 5}, {2, 1, 5, 0, 16}, {2, 4, 7}};
@@ -203,7 +203,7 @@ TEST_F(VolumeBuilderTest, AMomentThatIsNotAskedForIsLeftOut) {
     EXPECT_TRUE(volume.sweeps.at(0).moments.empty());
 }
 
-// One radial with very many gates makes every row long: 65,535 codes for each of 4.
+// One radial with very many gates makes every row long: 65,535 codes for every 4 that were sent.
 TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     ArrayRoom room{10'000'000};
     FragmentBuilder builder{room, rows, everything};
@@ -222,7 +222,7 @@ TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     EXPECT_LT(taken, 160);
 }
 
-// Another scale in each radial makes another kind of row, padded to the end of the sweep.
+// A different scale in each radial makes another kind of row, padded to the end of the sweep.
 TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
     ArrayRoom room{ample};
     FragmentBuilder builder{room, rows, everything};

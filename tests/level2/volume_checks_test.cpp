@@ -126,7 +126,7 @@ TEST(VolumeChecks, SweepsWithoutALastRadialAreNamed) {
 TEST(VolumeChecks, CutsThatAreMissingAreNamed) {
     Volume volume = volume_of({{1}, {1}, {1}, {1}});
     volume.sweeps[1].elevation_number = 3;
-    volume.sweeps[2].elevation_number = 3;  // begun again
+    volume.sweeps[2].elevation_number = 3;  // the cut began again
     volume.sweeps[3].elevation_number = 2;
     DecodeReport report;
     EXPECT_TRUE(check_volume(volume, {.volume_starts = {3}}, ReportWriter{report}));

@@ -88,7 +88,7 @@ TEST(Volume, StartsAtTheHeadersTimeElseAtTheFirstRadial) {
     EXPECT_EQ(volume.start_time(), time_from_nexrad(19069, 600000));
     volume.header = VolumeHeader{"AR2V0006.116", 19069, 522596, "KLOT"};
     EXPECT_EQ(volume.start_time(), time_from_nexrad(19069, 522596));
-    volume.header->date = 0;  // a header that says nothing
+    volume.header->date = 0;  // a header without a date
     EXPECT_EQ(volume.start_time(), time_from_nexrad(19069, 600000));
 }
 
@@ -176,10 +176,10 @@ TEST(StartTime, IsTheHeadersUnlessItCannotBe) {
     EXPECT_EQ(volume.start_time(), first - std::chrono::seconds{5});
     volume.sweeps.resize(1);
     volume.sweeps[0].radials.resize(2);
-    volume.sweeps[0].radials[0].time = time_from_nexrad(0, 0);  // says nothing
+    volume.sweeps[0].radials[0].time = time_from_nexrad(0, 0);  // no time
     volume.sweeps[0].radials[1].time = first;
     EXPECT_EQ(volume.start_time(), first - std::chrono::seconds{5});
-    // One wrong bit in the day: 2112, and years before there were radars.
+    // One wrong bit in the day gives 2112 or years before there were radars.
     for (const std::uint32_t day : {19069U + 32768U, 0U, 2685U, 0xFFFFFFFFU}) {
         volume.header->date = day;
         EXPECT_EQ(volume.start_time(), first) << day;

@@ -72,7 +72,7 @@ Bytes with_length(const Bytes& body) {
     return bytes;
 }
 
-// The 32 bytes before the pointers.
+// the 32 bytes before the pointers
 Writer radial_header(const Ray& ray, unsigned blocks) {
     Writer writer;
     writer.text("KTLX").u32(ray.ms).u16(day).u16(ray.azimuth_number).f32(ray.azimuth_deg);
@@ -135,7 +135,7 @@ Bytes message_31_with_block(std::span<const std::byte> block) {
 
 namespace {
 
-// In units of 180/32768 degree; negative ones wrap round.
+// In units of 180/32768 degree; negative angles wrap around.
 unsigned angle(float deg) {
     return static_cast<unsigned>(static_cast<int>(deg / 180.0F * 32768.0F)) & 0xFFFFU;
 }
@@ -203,7 +203,7 @@ Bytes ldm_record(std::span<const std::byte> messages, bool last, int level) {
 
 namespace {
 
-// Codes as compress writes them: low bits first, in groups of eight of one width.
+// Writes codes as compress does: low bits first, in groups of eight codes of one width.
 class CodeWriter {
   public:
     explicit CodeWriter(Bytes& out) : out_(out) {}
@@ -233,13 +233,13 @@ Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t cle
     constexpr std::uint32_t clear_code = 256;
     Bytes out = {std::byte{0x1F}, std::byte{0x9D}, static_cast<std::byte>(0x80 | most_width)};
     CodeWriter writer(out);
-    // Of each code and next byte the code of both; 0: none.
+    // for each code and next byte, the code of both; 0: none
     std::vector<std::array<std::uint32_t, 256>> entries(clear_code + 1);
     int width = 9;
     std::size_t cleared_at = 0;
     const auto emit = [&](std::uint32_t code) {
         writer.put(code, width);
-        // With 9 bits at most compress widens to 10 all the same.
+        // With at most 9 bits, compress widens to 10 nevertheless.
         if (width < std::max(most_width, 10) && entries.size() >= (1U << width))
             writer.end_group(width++);
     };

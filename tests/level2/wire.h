@@ -1,6 +1,6 @@
-// tests/level2/wire.h -- Level II bytes made by hand, byte by byte as the ICDs have them.
+// tests/level2/wire.h -- makes Level II bytes by hand, byte by byte as the ICDs describe them.
 //
-// Independent of the writer of stormcellar/level2/encode.h, so that the two cannot agree on a
+// It is independent of the writer in stormcellar/level2/encode.h, so that the two cannot agree on a
 // mistake.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace stormcellar::level2::wire {
 
 using Bytes = std::vector<std::byte>;
 
-// Writes big-endian numbers at the end, or over what is there.
+// Writes big-endian numbers at the end, or over existing bytes.
 class Writer {
   public:
     Writer& u8(unsigned number) { return put(number, 1); }
@@ -48,32 +48,33 @@ struct Ray {
 inline constexpr unsigned day = 19069;  // 2022-03-17
 
 Bytes archive_header(std::string_view filename = "AR2V0006.116", std::string_view icao = "KTLX");
-// 28 bytes; the size in halfwords counts the 16 of them that are the message's.
+// 28 bytes; the size in halfwords includes 16 of them, which belong to the message.
 Bytes message_header(unsigned type, unsigned size_halfwords, unsigned segments = 1,
                      unsigned segment = 1);
 // A frame of 2432 bytes with this body.
 Bytes frame(unsigned type, std::span<const std::byte> body = {});
-// REF with 8 bits, RHO with 16, the volume, elevation and radial blocks.
+// A radial with REF in 8 bits, RHO in 16, and the volume, elevation and radial blocks.
 Bytes message_31(const Ray& ray);
-// A message whose only block is this one, to be broken.
+// A message with only this block, for tests of broken blocks.
 Bytes message_31_with_block(std::span<const std::byte> block);
-// The same radial with all behind its header compressed: 1 bzip2, 2 zlib (table XVII-A).
+// The same radial with everything after its header compressed: 1 bzip2, 2 zlib (table XVII-A).
 Bytes compressed_message_31(const Bytes& message, int indicator);
-// REF, and VEL and SW at twice the gates, in a frame.
+// A radial with REF, and VEL and SW at twice the gates, in a frame.
 Bytes message_1(const Ray& ray);
-// Message 5, a pattern of these elevations.
+// Message 5 with a pattern of these elevations.
 Bytes vcp_frame(unsigned pattern, std::span<const float> elevations_deg);
 
 Bytes bzip2(std::span<const std::byte> bytes, int level = 9);
 Bytes unpack_bzip2(std::span<const std::byte> bytes);  // one stream of at most 64 MiB
 Bytes ldm_record(std::span<const std::byte> messages, bool last = false, int level = 9);
 Bytes gzip(std::span<const std::byte> bytes);
-// Unix compress: codes of at most so many bits; the table is cleared after so many bytes, 0: never.
+// Compresses with Unix compress: codes of at most `most_width` bits; the table is cleared after
+// every `clear_every` bytes, 0: never.
 Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t clear_every);
 
 Bytes join(std::initializer_list<Bytes> parts);
 
-// `sweeps` sweeps of `radials` message 31 each, statuses as they should be.
+// Returns `sweeps` sweeps of `radials` messages 31 each, with correct statuses.
 Bytes radial_messages(unsigned sweeps, unsigned radials, unsigned gates = 100);
 // A small whole file: header, a metadata record, one record for each sweep.
 Bytes ldm_volume(unsigned sweeps, unsigned radials, unsigned gates = 100);

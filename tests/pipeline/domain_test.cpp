@@ -1,4 +1,4 @@
-// [[domain]] tables: what they say, and what is complained of.
+// Tests [[domain]] tables: what they mean, and which errors are reported.
 #include "pipeline/options/domain.h"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ TEST(Domain, EveryKeyIsTaken) {
     EXPECT_EQ(domain.spec.center_longitude_deg, -75);
     EXPECT_EQ(domain.spec.spacing_m, 2000);
     EXPECT_EQ(domain.spec.nx, 500);
-    EXPECT_EQ(domain.spec.ny, 401);  // what covers 801 km
+    EXPECT_EQ(domain.spec.ny, 401);  // covers 801 km
     EXPECT_EQ(domain.spec.levels_m, (std::vector<double>{1000, 2500}));
     EXPECT_EQ(domain.moments, (std::vector{level2::Moment::ref, level2::Moment::vel}));
     EXPECT_EQ(domain.interval, std::chrono::seconds{120});
@@ -95,7 +95,7 @@ TEST(Domain, BoundsAcrossTheAntimeridianGoTheShortWay) {
     EXPECT_EQ(std::abs(all.domains.at(0).spec.center_longitude_deg), 180);
 }
 
-// Every point of the bounds lies in the grid, which is no wider than they need.
+// Every point of the bounds is in the grid, which is no wider than necessary.
 TEST(Domain, BoundsOfAPlaneAreWithinTheGrid) {
     for (const std::string projection : {"azimuthal_equidistant", "lambert_conformal"}) {
         const Read all = read(

@@ -1,5 +1,5 @@
-// Frames that are brought up to date are, to the bit, those that are made whole: real volumes of
-// three sites, in every order of arrival.
+// Frames that are brought up to date must be the same to the bit as those made whole: real volumes
+// of three sites, in every order of arrival.
 #include "pipeline/mosaic/frame_parts.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ grid::GridSpec domain() {
     return spec;
 }
 
-// A partial and when its volume's middle is to be, seen from the instant.
+// A partial, and the time of its volume's middle relative to the instant.
 struct Source {
     std::string file, icao;
     minutes middle;
@@ -59,7 +59,7 @@ MadePartial make(const Source& source, GeometryCache& geometries) {
     const auto antenna = level2::antenna_position(decoded->volume);
     PartialOptions options;
     options.quantization = grid::default_quantization(level2::Moment::ref);
-    options.reach_m = 200'000;  // so that KTYX and KDOX touch no common brick
+    options.reach_m = 200'000;  // so that KTYX and KDOX have no common brick
     auto made = make_partial(
         decoded->volume,
         {source.icao, antenna->latitude_deg, antenna->longitude_deg, antenna->altitude_m}, domain(),
@@ -123,9 +123,10 @@ class FrameParts : public ::testing::Test {
     static inline std::vector<MadePartial>* partials_ = nullptr;
 };
 
-// Each new volume changes the frame that the ones before it made: 120 orders of five volumes.
+// Each new volume changes the frame made before: 120 orders of five volumes.
 TEST_F(FrameParts, AFrameBroughtUpToDateHasTheBytesOfOneMadeWhole) {
-    std::map<std::vector<std::size_t>, std::vector<std::byte>> whole;  // by what it is made of
+    // by the volumes that it is made of
+    std::map<std::vector<std::size_t>, std::vector<std::byte>> whole;
     const auto whole_of = [&](std::vector<std::size_t> which) -> const std::vector<std::byte>& {
         std::sort(which.begin(), which.end());
         const auto found = whole.find(which);
@@ -156,7 +157,7 @@ TEST_F(FrameParts, AFrameBroughtUpToDateHasTheBytesOfOneMadeWhole) {
     EXPECT_EQ(whole.size(), 31U) << "every set of volumes was seen";
 }
 
-// Codes that are altered while the table stays what it was show that nobody reads them.
+// Altering codes without changing the table shows that nobody reads them.
 TEST_F(FrameParts, ASitesGridForAnInstantIsMadeOnce) {
     InstantCache instants(std::size_t{64} << 20U);
     const MosaicFrame made = frame({0, 1, 2, 3, 4}, nullptr, {}, &instants);
@@ -244,7 +245,7 @@ TEST_F(FrameParts, AFingerprintIsOfAllThatCountsAndOfNothingElse) {
     EXPECT_NE(fingerprint_of({stands.description, altered}), fingerprint);
 }
 
-// What a file says of a partial is what memory says of it: the cache and the command line agree.
+// A partial in a file has the same fingerprint as in memory: cache and command line agree.
 TEST_F(FrameParts, AFileHasTheFingerprintOfWhatWasWritten) {
     const testing::TemporaryDirectory directory;
     for (const auto packing : {cache::Packing::none, cache::Packing::lz4}) {

@@ -1,4 +1,4 @@
-// Frames of several sites, from real volumes and from made ones.
+// Frames of several sites, from real and from synthetic volumes.
 #include "pipeline/mosaic/mosaic_frame.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ grid::GridSpec northeast() {
     return spec;
 }
 
-// KBGM's sequence of August 2005, and that a domain sees nothing of another site.
+// KBGM's sequence of August 2005, and a domain that sees nothing of another site.
 class RealFrames : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
@@ -148,7 +148,7 @@ TEST(Brackets, AreTheNearestOfEachSiteOnEitherSide) {
     ASSERT_EQ(brackets.size(), 2U);  // KAAA is too late
     EXPECT_EQ(brackets[0].before, 1U);
     EXPECT_EQ(brackets[0].after, 2U);
-    EXPECT_EQ(brackets[1].before, 4U);  // at the instant counts as before
+    EXPECT_EQ(brackets[1].before, 4U);  // a volume at the instant counts as before it
     EXPECT_FALSE(brackets[1].after);
 }
 

@@ -1,9 +1,9 @@
-// The planner of mosaics kept honest (DESIGN section 6), as tests/grid/honesty_test.cpp does for
-// one volume, over real frames of one site between volumes and of several sites:
-//   what it left off, forced on, changes the frame by less than the budget;
-//   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
-//   scene for each effect;
-//   the frame it chose is within the budget of the exact chain's.
+// Checks the promises of the planner of mosaics over real frames of one site between volumes and of
+// several sites, as tests/grid/honesty_test.cpp does for one volume:
+// - An effect that it left off changes the frame by less than the budget if it is forced on.
+// - An effect that it turned on changes the frame by more than a tenth of the budget if it is
+//   forced off, in at least one scene for each effect.
+// - The frame that it chose is within the budget of the exact chain's.
 #include "pipeline/plan/mosaic_plan.h"
 
 #include <cmath>
@@ -164,7 +164,8 @@ TEST(MosaicHonesty, EveryEffectOfMosaicsMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const MosaicFrame chosen = frame_of(*prepared, plan.choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Not what came along because it costs nothing, or with the most accurate choice.
+            // Leave out what was turned on because it costs nothing, or with the most accurate
+            // choice.
             if (!decision.on || !decision.reason.starts_with("without it")) continue;
             const accuracy::Choice without =
                 testing::forced(plan, prepared->chain, decision.effect, false);
@@ -191,7 +192,7 @@ TEST(MosaicPlan, OfVolumesWithoutAPairHasNoEffectOfTime) {
     }
 }
 
-// 13.5 m/s (docs/accuracy.md) for the minutes between a volume's middle and the instant.
+// 13.5 m/s (docs/accuracy.md) for the minutes between the middle of a volume and the instant.
 TEST(MosaicPlan, EchoMotionIsAsFarAsEchoMoves) {
     STORMCELLAR_NEED_DATA();
     const auto prepared = prepare(scenes()[0]);
@@ -216,7 +217,7 @@ TEST(MosaicPlan, WithoutABudgetIsTheDefault) {
     EXPECT_FALSE(plan->choice.fine_codes);
 }
 
-// The largest that radars send (docs/level2.md).
+// The largest values that radars send (docs/level2.md).
 TEST(MosaicPlan, FineCodesHoldAllThatRadarsSend) {
     const std::map<level2::Moment, float> largest = {{level2::Moment::ref, 94.5F},
                                                      {level2::Moment::sw, 63.5F},

@@ -1,4 +1,5 @@
-// tests/pipeline/small_domain.h -- three volumes of KBGM in a row, and a coarse domain around it.
+// tests/pipeline/small_domain.h -- three consecutive volumes of KBGM, and a coarse domain around
+// it.
 #pragma once
 
 #include <string>

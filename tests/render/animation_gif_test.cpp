@@ -43,8 +43,8 @@ TEST_F(AnimationGif, FewColoursComeBackExactly) {
         EXPECT_EQ(back.frames[i].image.rgba, frames[i].rgba) << i;
 }
 
-// Noise fills the code table and starts it again many times; every number of colours has its own
-// width of codes.
+// Noise fills the code table and restarts it many times. Every number of colors has its own width
+// of codes.
 TEST_F(AnimationGif, NoiseOfAnyNumberOfColoursComesBackExactly) {
     std::mt19937 random(20261121);
     for (const unsigned colours : {1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 100U, 254U, 255U}) {
@@ -70,7 +70,8 @@ TEST_F(AnimationGif, ColourThatStandsStillDoesNotFlicker) {
     for (int i = 0; i < 3; ++i) {
         for (int y = 0; y < 128; ++y) {
             for (int x = 0; x < 128; ++x) {
-                // The left half stands still, the right one changes; thousands of colours.
+                // The left half does not change, the right half does; there are thousands of
+                // colors.
                 const int shift = x < 64 ? 0 : 40 * i;
                 frames[static_cast<std::size_t>(i)].set(
                     x, y,

@@ -27,7 +27,7 @@ class Animation : public ::testing::TestWithParam<std::string> {
         std::ifstream stream(file, std::ios::binary);
         return {std::istreambuf_iterator<char>(stream), {}};
     }
-    // All files of an output, one after the other.
+    // Returns all files of an output, one after the other.
     static std::string all_of(const fs::path& output) {
         if (!fs::is_directory(output)) return contents(output);
         std::vector<fs::path> files(fs::directory_iterator(output), fs::directory_iterator{});
@@ -92,8 +92,8 @@ TEST_P(Animation, FailureAtAnyPointLeavesTheOldOneOrTheNewOneWhole) {
             }
             return (*writer)->finish().has_value();
         }();
-        // A directory takes two renames; when neither the second nor the way back can be done, the
-        // old one stands under its temporary name.
+        // A directory takes two renames. If neither the second nor the way back can be done, the
+        // old one remains under its temporary name.
         if (!fs::exists(path())) {
             ASSERT_EQ(GetParam(), "frames/") << "after operation " << operation;
             for (const auto& entry : fs::directory_iterator(directory_.path())) {

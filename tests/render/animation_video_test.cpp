@@ -23,7 +23,7 @@ class AnimationVideo : public ::testing::TestWithParam<std::string> {
     testing::TemporaryDirectory directory_;
 };
 
-// In the middle of flat patches, where halved chroma cannot reach: red stays red, blue blue.
+// In the middle of flat patches, halved chroma has no effect: red stays red, and blue stays blue.
 TEST_P(AnimationVideo, ColoursAndTheirPlacesComeBack) {
     const auto frames = test_frames(6, 160, 96);
     write(frames, {.last_frame_dwell_s = 0});

@@ -54,7 +54,8 @@ TEST(BaseMap, ASmallMapIsReadAsTheFormatSays) {
     EXPECT_NEAR(map->cities()[0].place.longitude_deg, -10e-4, 1e-12);
 }
 
-// Whatever one byte of the payload says, with a checksum to match: an answer, and no read beyond.
+// Whatever one byte of the payload is, with a matching checksum: there is an answer, and no read
+// beyond the end.
 TEST(BaseMap, LiesWithAGoodChecksumAreRefusedOrHarmless) {
     int refused = 0;
     for (std::size_t i = 0; i < small_payload.size(); ++i) {
@@ -150,7 +151,7 @@ TEST(BaseMap, TheBuiltInMapIsSmallAndWhole) {
     EXPECT_TRUE(sets.contains({static_cast<int>(MapKind::county), 0}));
 }
 
-// Kilometres from a place to the nearest segment of a kind, on a local plane.
+// Kilometers from a place to the nearest segment of a kind, on a local plane.
 double km_to(const BaseMap& map, MapKind kind, int detail, grid::GeoPoint place) {
     const double north = 111.2;
     const double east = north * std::cos(place.latitude_deg * 0.017453292519943295);
@@ -173,7 +174,7 @@ double km_to(const BaseMap& map, MapKind kind, int detail, grid::GeoPoint place)
     return nearest;
 }
 
-// Places whose position is known by law or by survey, not from the sources of the map.
+// Places whose position is known by law or by survey, independent of the sources of the map.
 TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
     const auto map = BaseMap::built_in().value();
     struct Known {
@@ -225,7 +226,7 @@ TEST(BaseMap, CitiesComeLargestFirstAndStandWhereTheyAre) {
     ASSERT_NE(city, cities.end());
     EXPECT_NEAR(city->place.latitude_deg, 35.47, 0.02);
     EXPECT_NEAR(city->place.longitude_deg, -97.52, 0.02);
-    // A duplicate would be drawn over itself.
+    // A duplicate would be drawn twice.
     std::set<std::pair<long, long>> places;
     for (const MapCity& c : cities) {
         EXPECT_TRUE(places

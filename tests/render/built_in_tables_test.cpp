@@ -65,7 +65,7 @@ TEST(BuiltInTables, HaveTheWeatherServicesColours) {
     EXPECT_EQ(colour_of(height_colours(), -1), height_colours().stops.front().colour);
 }
 
-// Mirrored about 0: a couplet's two sides weigh the same.
+// Symmetric about 0, so that both sides of a couplet weigh the same.
 TEST(DefaultExtinction, OfVelocityGoesBySpeed) {
     const ColourTable& table = default_colour_table(Moment::vel);
     double before = 0;
@@ -79,7 +79,7 @@ TEST(DefaultExtinction, OfVelocityGoesBySpeed) {
     EXPECT_DOUBLE_EQ(extinction_per_m(table, -63, 1) * 1000, 0.5);
 }
 
-// Of every value that the cache can hold, so that none is drawn as if it were not there.
+// For every value that the cache can hold, so that none is drawn as if it did not exist.
 TEST(DefaultExtinction, WhatHasAColourCanBeSeen) {
     for (const Moment moment : level2::all_moments) {
         const ColourTable& table = default_colour_table(moment);

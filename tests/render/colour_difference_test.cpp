@@ -12,7 +12,7 @@ struct Pair {
     double difference;
 };
 
-// Table 1 of Sharma, Wu, Dalal (2005), all 34: made so that each branch of the formula is met.
+// Table 1 of Sharma, Wu, Dalal (2005), all 34 pairs, which cover every branch of the formula.
 constexpr Pair published[] = {
     {{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},
     {{50, 3.1571, -77.2803}, {50, 0, -82.7485}, 2.8615},
@@ -74,7 +74,7 @@ TEST(Lab, GreysAreNeutralAndTheLimitsAreThoseOfTheScale) {
     }
     EXPECT_NEAR(lab_of({0, 0, 0, 255}).lightness, 0, 1e-12);
     EXPECT_NEAR(lab_of({255, 255, 255, 255}).lightness, 100, 1e-12);
-    // 119 is the grey whose lightness is about 50: ((119/255 + 0.055)/1.055)^2.4 = 0.18447.
+    // 119 is the gray whose lightness is about 50: ((119/255 + 0.055)/1.055)^2.4 = 0.18447.
     EXPECT_NEAR(linear_of(119), 0.184475, 1e-6);
     EXPECT_NEAR(lab_of({119, 119, 119, 255}).lightness, 116 * std::cbrt(0.184475) - 16, 1e-4);
 }

@@ -1,4 +1,4 @@
-// How fast each method comes nearer with more slices, and what interpolation between rays costs.
+// Tests how fast each method converges with more slices, and what interpolation between rays costs.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Smooth in value: colours blend, extinction rises straight.
+// Smooth in value: colors blend, extinction rises linearly.
 ColourTable smooth_table() {
     ColourTable table;
     table.stops = {{0, {20, 40, 250, 255}, {250, 60, 20, 255}},
@@ -20,8 +20,8 @@ ColourTable smooth_table() {
     return table;
 }
 
-// A ball whose value falls off smoothly from its middle, which lies so high that rays from above
-// begin inside; on cells so fine that its bends count.
+// A ball whose value falls off smoothly from its middle. It is so high that rays from above begin
+// inside, and the cells are so fine that its curvature counts.
 grid::BrickGrid ball(const grid::GridSpec& spec) {
     return grid::BrickGrid::from(
         make_grid_of(spec,

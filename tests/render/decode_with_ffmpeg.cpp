@@ -1,4 +1,4 @@
-// Reads with FFmpeg's demuxers and decoders, so that what we wrote is seen by somebody else's code.
+// Reads with FFmpeg's demuxers and decoders, so that our files are checked by foreign code.
 #include "render/animation/ffmpeg_handles.h"
 #include "tests/render/decoded_animation.h"
 

@@ -18,8 +18,8 @@ constexpr Cell unseen = {CellStatus::not_seen, 0};
 constexpr Cell quiet = {CellStatus::no_echo, 0};
 constexpr Cell folded = {CellStatus::range_folded, 0};
 
-// Levels at 500, 1000 ... m. One row of columns, each a list of cells from the lowest up; the rest
-// is no echo.
+// Levels at 500, 1000 ... m. One row of columns, each a list of cells from the lowest up; all other
+// cells have no echo.
 grid::BrickGrid columns_of(const std::vector<std::vector<Cell>>& columns, int levels = 20) {
     grid::GridSpec spec = small_spec(static_cast<int>(columns.size()), levels);
     spec.ny = 1;
@@ -64,14 +64,14 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
     EXPECT_FLOAT_EQ(at(250).values[0], 10) << "the first cell reaches half a level lower";
     EXPECT_FLOAT_EQ(at(625).values[0], 15);
     EXPECT_FLOAT_EQ(at(1000).values[0], 30);
-    // A value and no echo: the heavier one; the value stays as it is.
+    // A value and no echo: the heavier state counts, and the value is unchanged.
     EXPECT_EQ(at(700).status[1], CellStatus::value);
     EXPECT_FLOAT_EQ(at(700).values[1], 40);
     EXPECT_EQ(at(750).status[1], CellStatus::value) << "not less than no echo";
     EXPECT_EQ(at(800).status[1], CellStatus::no_echo);
 }
 
-// DESIGN section 5, for every pair of states at a third of the way.
+// The status rule (docs/geometry.md), for every pair of states at a third of the way.
 TEST(Cappi, MixesStatesByTheRule) {
     const std::vector<Cell> kinds = {unseen, quiet, folded, valued(20)};
     std::vector<std::vector<Cell>> columns;
@@ -87,7 +87,7 @@ TEST(Cappi, MixesStatesByTheRule) {
         const CellStatus lower = columns[i][0].status;
         const CellStatus upper = columns[i][1].status;
         EXPECT_EQ(near_lower.status[i], lower) << i << ": two thirds of the weight";
-        // Half and half: not more than half is not seen, so what was seen stands.
+        // Half and half: "not seen" needs more than half, so the seen state counts.
         CellStatus wanted = lower;
         if (lower == CellStatus::not_seen) wanted = upper;
         if (lower != upper && lower != CellStatus::not_seen && upper != CellStatus::not_seen) {
@@ -149,7 +149,7 @@ TEST(EchoTops, AreInterpolatedBetweenLevelsInDecibels) {
     EXPECT_EQ(field.at_least, at_least);
 }
 
-// 3.44e-6 Z^(4/7) for each metre of the 20 levels of 500 m.
+// 3.44e-6 Z^(4/7) for each meter of the 20 levels of 500 m.
 TEST(Vil, OfAnEvenColumnIsItsClosedForm) {
     const auto bricks =
         columns_of({repeated(valued(45), 20), repeated(valued(56), 20), repeated(valued(70), 20),

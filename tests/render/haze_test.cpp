@@ -12,7 +12,7 @@ namespace {
 
 constexpr Rgba8 ground = {20, 20, 20, 255};
 
-// The share of haze that a grey picture tells.
+// Returns the share of haze in a gray picture.
 double haze_at(const Image& picture, int x, int y) {
     return (picture.at(x, y)[0] - ground[0]) / static_cast<double>(shades::haze[0] - ground[0]);
 }
@@ -23,7 +23,8 @@ Image hazy(const grid::BrickView& view, const ViewGeometry& geometry, int thread
     return picture;
 }
 
-// From straight above, with nothing seen in the western half: a ray's way is the box's height.
+// From straight above, with nothing seen in the western half: the path of a ray is the height of
+// the box.
 TEST(Haze, IsAsThickAsTheWayThroughAirThatWasNotSeen) {
     const grid::GridSpec spec = small_spec(48, 16);
     const auto bricks = bricks_of(make_grid_of(spec, [](int ix, int, int iz) {
@@ -44,7 +45,8 @@ TEST(Haze, IsAsThickAsTheWayThroughAirThatWasNotSeen) {
     EXPECT_EQ(hazy(bricks.view(), geometry, 3).rgba, picture.rgba);
 }
 
-// Half of each coarse cell's levels: half the way. Uniform bricks of either state need no codes.
+// Half of the levels of each coarse cell give half the path. Uniform bricks of either state need no
+// codes.
 TEST(Haze, CountsTheShareOfEachCell) {
     const grid::GridSpec spec = small_spec(48, 16);
     const auto half = bricks_of(make_grid_of(spec, [](int, int, int iz) {

@@ -54,7 +54,7 @@ PictureFacts picture_of(Scene scene, level2::Moment moment, const ColourTable& t
     return {legend, 50e3, Coverage{0.9958, 0.4}};
 }
 
-// Long everything.
+// All texts are long.
 FrameFacts troubled(int sites) {
     FrameFacts facts = facts_for(std::string(64, 'W'), sites, true);
     facts.local_time = "2026-11-22 18:56:21 America/Argentina/ComodRivadavia";

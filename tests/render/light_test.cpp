@@ -48,12 +48,12 @@ Layer draw(const grid::BrickView& view, const ViewGeometry& geometry, const Ligh
         .draw(view, threads);
 }
 
-// One class of colour: every lit pixel is a multiple of the unlit one.
+// One class of color: every lit pixel is a multiple of the unlit one.
 TEST(Light, ChangesNoHueAndNoOpacity) {
     const grid::GridSpec spec = small_spec(60, 16, 4000, 500);
     auto grid = storm_grid(spec);
     for (std::size_t i = 0; i < grid.values.size(); ++i)
-        grid.values[i] = 50 + 0.06F * std::max(0.0F, grid.values[i]);  // all of the red class
+        grid.values[i] = 50 + 0.06F * std::max(0.0F, grid.values[i]);  // all in the red class
     const auto bricks = bricks_of(grid);
     const ViewGeometry view(spec, {180, 50, 1}, 5, 160, 120);
     const Layer plain = draw(bricks.view(), view, {});
@@ -87,7 +87,7 @@ double mean_red(const Layer& layer, int from_x, int to_x) {
     return sum / alpha;
 }
 
-// An opaque dome under a low sun: the side that looks to the sun is lighter.
+// An opaque dome under a low sun: the side toward the sun is lighter.
 TEST(Light, TheSideTurnedToTheSunIsLighter) {
     const grid::GridSpec spec = small_spec(64, 32);
     const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) -> Cell {
@@ -114,8 +114,8 @@ LightVolume volume_of(const grid::BrickGrid& bricks, const grid::GridSpec& spec,
     return {bricks.view(), transfer, 1000, geometry, light, threads};
 }
 
-// A homogeneous slab under the sun at the zenith: exp(-k d), d from the slab's top to the coarse
-// cell's.
+// A homogeneous slab under the sun at the zenith: exp(-k d), with d from the top of the slab to
+// that of the coarse cell.
 TEST(LightVolume, UnderASlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(64, 32);  // 500 m apart: a coarse cell is 1 km high
     constexpr double dbz = 41.875 + 0.5 * 0.3125;
@@ -131,7 +131,7 @@ TEST(LightVolume, UnderASlabIsTheClosedForm) {
         EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 8000), 1e-4) << "below it nothing is lost";
 }
 
-// The shadow of a tower lies on the far side of the sun, as long as the sun is low.
+// The shadow of a tower points away from the sun, and is longer if the sun is lower.
 TEST(LightVolume, ATowersShadowFallsAwayFromTheSun) {
     const grid::GridSpec spec = small_spec(128, 32);
     const auto bricks = bricks_of(make_grid_of(spec, [](int ix, int iy, int) -> Cell {

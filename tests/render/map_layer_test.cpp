@@ -32,7 +32,7 @@ grid::GridSpec spec_of(Projection projection, double latitude_deg, double longit
     return spec;
 }
 
-// A map, as it is made for the flat products.
+// A map as for the flat products.
 ViewGeometry flat(const grid::GridSpec& spec, int width, int height, double zoom = 1) {
     return {spec, Camera{180, 0, zoom}, 1, width, height};
 }
@@ -62,7 +62,7 @@ Point exact_pixel(const GroundMap& ground, const ViewGeometry& view, GeoPoint pl
     return {pixel.x, pixel.y};
 }
 
-// A parallel of latitude of two vertices, 40 degrees apart, against every point of it projected.
+// A parallel of latitude with two vertices, 40 degrees apart, against all of its points projected.
 TEST(MapLayer, LongSegmentsFollowTheirCurve) {
     const auto bytes = SmallMap{}.set(MapKind::country, 0, 0, {{{49, -120}, {49, -80}}}).bytes();
     const auto map = BaseMap::read(bytes).value();
@@ -82,7 +82,7 @@ TEST(MapLayer, LongSegmentsFollowTheirCurve) {
                 worst = std::max(worst, distance_px(p, layer, MapKind::country));
             }
             EXPECT_LT(worst, 0.2 + 0.3) << static_cast<int>(projection);
-            // Sparing: no more points than the curve asks for.
+            // No more points than the curve requires.
             EXPECT_LT(layer.strokes.front().points.size(), 400U);
         }
     }
@@ -113,7 +113,7 @@ TEST(MapLayer, LinesEndWhereTheGridAndThePictureEnd) {
     }
 }
 
-// What is left out is not seen: the finest map lies on the lines that are drawn.
+// Simplification is not visible: the finest map agrees with the lines that are drawn.
 TEST(MapLayer, CoarseLinesLieOnTheFinest) {
     const auto map = BaseMap::built_in().value();
     for (const double spacing_m : {2e3, 10e3, 40e3}) {
@@ -152,7 +152,7 @@ TEST(MapLayer, CountiesAreThereWhereTheyCanBeRead) {
     EXPECT_FALSE(has_counties(4000, 1));
 }
 
-// The Aleutians: lines east and west of 180 degrees lie on both sides of the middle.
+// The Aleutians: lines east and west of 180 degrees are on both sides of the middle.
 TEST(MapLayer, GoesOnAcrossTheAntimeridian) {
     const auto map = BaseMap::built_in().value();
     const grid::GridSpec spec = spec_of(Projection::azimuthal_equidistant, 52, 179.9, 200, 5000);

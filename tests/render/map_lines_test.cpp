@@ -1,4 +1,4 @@
-// Rings and sites stand where the map has them, whatever its projection.
+// Tests that rings and sites are at their places on the map, whatever its projection.
 #include "render/map/map_lines.h"
 
 #include <cmath>
@@ -43,7 +43,7 @@ bool is_ring(Rgba8 pixel) {
     return true;
 }
 
-// Distance along WGS84 from the site to what a pixel shows.
+// Distance along WGS84 from the site to the place of a pixel.
 double arc_m(const grid::GridSpec& spec, const ViewGeometry& view, const grid::SitePosition& site,
              Pixel pixel) {
     const auto ground = view.ground(pixel);
@@ -56,7 +56,7 @@ double arc_m(const grid::GridSpec& spec, const ViewGeometry& view, const grid::S
     return arc;
 }
 
-// Every pixel of a ring is at one of the rings' distances, within two pixels' width.
+// Every pixel of a ring is at the distance of one of the rings, within two pixels.
 void expect_rings(const grid::GridSpec& spec, const grid::SitePosition& site) {
     const auto fonts = Fonts::load();
     ASSERT_TRUE(fonts);
@@ -66,7 +66,7 @@ void expect_rings(const grid::GridSpec& spec, const grid::SitePosition& site) {
     lines.geometry = &view;
     lines.spec = &spec;
     lines.sites = &sites;
-    lines.scale = 3;  // lines wide enough to cover pixels whole
+    lines.scale = 3;  // lines wide enough to cover whole pixels
     Canvas canvas(side, side, {255, 255, 255, 255});
     draw_rings(canvas, lines);
     const Image image = canvas.image();
@@ -89,7 +89,7 @@ void expect_rings(const grid::GridSpec& spec, const grid::SitePosition& site) {
 }
 
 TEST(MapLines, RingsAreAtTheirDistanceOnEveryProjection) {
-    const MaskedTraps masked;  // GeographicLib overflows in passing
+    const MaskedTraps masked;  // GeographicLib overflows in intermediate results
     for (const Projection projection :
          {Projection::azimuthal_equidistant, Projection::latitude_longitude,
           Projection::lambert_conformal}) {

@@ -82,7 +82,7 @@ void expect_tidy(const Planned& planned) {
             EXPECT_FALSE(overlap(boxes[i].first, boxes[j].first))
                 << boxes[i].second << " and " << boxes[j].second;
         }
-        // No name stands on a mark, its own or another's.
+        // No name is on a mark, its own or another.
         for (const auto* points : {&planned.marks.sites, &planned.marks.cities}) {
             for (const Point& p : *points) {
                 EXPECT_FALSE(overlap(boxes[i].first, {p.x - 1, p.y - 1, 2, 2})) << boxes[i].second;
@@ -139,8 +139,8 @@ TEST(MapMarks, NamesTheLargestCitiesAndTheDistances) {
     EXPECT_EQ(planned.marks.site_texts[0].text, "KTLX");
 }
 
-// Tulsa lies 10 km inside this grid's eastern edge, its name is longer than that: it stands west of
-// the town. Nothing else is there, so it would fit across the edge.
+// Tulsa is 10 km inside this grid's eastern edge, and its name is longer than that, so the name is
+// west of the town. Nothing else is there, so it would fit across the edge.
 TEST(MapMarks, NamesOfCitiesDoNotCrossTheGridsEdge) {
     const Planned planned(spec_of(Projection::azimuthal_equidistant, 36.0, -97.05, 220, 230, 1000),
                           Camera{180, 0, 0.8}, 672, 462, 1, {});
@@ -195,7 +195,7 @@ TEST(MapMarks, AViewAlongTheGroundHasNoScaleBar) {
     EXPECT_FALSE(planned.marks.height_texts.empty());
 }
 
-// The arrow's tip is its only bright part away from the middle: it points where north is.
+// The tip of the arrow is its only bright part away from the middle: it points north.
 TEST(MapMarks, TheArrowPointsNorth) {
     for (const double azimuth_deg : {180.0, 90.0, 0.0, 270.0}) {
         const Planned planned(spec_of(Projection::azimuthal_equidistant, 40, -97, 100, 100, 4000),

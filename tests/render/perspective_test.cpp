@@ -1,4 +1,4 @@
-// Cameras with a place, and an earth that falls away: geometry and slicer.
+// Tests cameras with a position, and a curved earth: geometry and slicer.
 #include <cmath>
 #include <numbers>
 
@@ -27,7 +27,7 @@ Camera standing_at(const Eye& eye, double azimuth_deg, double tilt_deg, double f
     return camera;
 }
 
-// All kinds of views of one grid, from outside, inside and below.
+// All kinds of views of one grid: from outside, inside and below.
 std::vector<Camera> cameras() {
     return {Camera{200, 50, 1},
             perspective(180, 55, 40),
@@ -93,7 +93,8 @@ TEST(Perspective, AboveTheHorizonIsNoGround) {
     EXPECT_FALSE(ViewGeometry(small_spec(100, 16), up, 1, 80, 60).ground({40, 30}));
 }
 
-// From 2 km up the horizon is where the line of sight touches the parabola: sqrt(2 h / R) below.
+// From 2 km up, the horizon is where the line of sight touches the parabola: sqrt(2 h / R) below
+// level.
 TEST(Perspective, TheHorizonOfACurvedEarthLiesBelowTheLevel) {
     const Camera camera = standing_at({0, 0, 2e3}, 180, 90, 40);
     const ViewGeometry view(small_spec(100, 16), camera, 1, 800, 600, true);
@@ -142,7 +143,8 @@ Layer slice_from(const grid::BrickView& view, const ViewGeometry& geometry, int 
         .draw(view, threads);
 }
 
-// Straight down, a ray d off the axis goes 1 / cos(its angle) times as far through a slab.
+// Looking straight down, the path of a ray through a slab is 1 / cos(its angle) times the
+// thickness.
 TEST(Perspective, ASlabIsThickerTowardsThePicturesEdge) {
     const grid::GridSpec spec = small_spec(100, 8);
     const auto bricks = homogeneous(spec);
@@ -202,7 +204,7 @@ TEST(Perspective, EveryCameraAgreesWithTheReference) {
     }
 }
 
-// A layer at 3 km over 960 km: at the edge the curved earth has it 18 km lower.
+// A layer at 3 km over 960 km: at its edge the curved earth puts it 18 km lower.
 TEST(CurvedEarth, AWideLayerBends) {
     const grid::GridSpec spec = small_spec(240, 12, 4000, 500);
     const auto bricks = bricks_of(

@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// libpng's own simplified reader is the oracle.
+// libpng's own simplified reader is the reference.
 Image decode(const std::vector<std::byte>& bytes) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;

@@ -13,7 +13,7 @@ namespace {
 
 using grid::CellStatus;
 
-// 100 x 100 columns; the column of 30, 70 has 45 dBZ at 2.5 km; nothing is seen below 1 km.
+// 100 x 100 columns. The column 30, 70 has 45 dBZ at 2.5 km; nothing is seen below 1 km.
 class ProbeTest : public ::testing::Test {
   protected:
     ProbeTest()
@@ -87,7 +87,7 @@ TEST_F(ProbeTest, AtAPlaceIsThatColumn) {
               ErrorCode::bad_argument);
 }
 
-// Labels move the picture: the same column is then at another pixel.
+// Labels move the picture, so the same column is at another pixel.
 TEST_F(ProbeTest, CountsPixelsOfTheWholePicture) {
     scene_.labels = true;
     scene_.width = 796;
@@ -97,7 +97,7 @@ TEST_F(ProbeTest, CountsPixelsOfTheWholePicture) {
     };
     EXPECT_FALSE(at_pixel(300, 40)) << "the header";
     EXPECT_FALSE(at_pixel(790, 300)) << "the panel";
-    // The map is as wide as high, in the middle of the picture, with a margin of 4 %.
+    // The map is square and in the middle of the picture, with a margin of 4 %.
     const auto layout =
         lay_out_labels(*Fonts::load(), scene_, facts_of(grid_), {legend_of(scene_), 50e3, {}});
     ASSERT_TRUE(layout);
@@ -123,7 +123,7 @@ TEST_F(ProbeTest, OfASectionGivesDistanceAndHeight) {
     scene_.section = SectionLine{place(10, 70), place(50, 70)};
     scene_.width = 400;  // 10 pixels a column
     scene_.height = 210;
-    // The top of the cells is 5.25 km: 40 pixels a kilometre.
+    // The cells reach up to 5.25 km: 40 pixels a kilometer.
     const auto probe = probe_pixel(bricks_.view(), facts_of(grid_), scene_, 200, 210 - 1 - 100, 1);
     ASSERT_TRUE(probe) << probe.error().message;
     EXPECT_NEAR(*probe->distance_m, 20050, 30);

@@ -1,4 +1,4 @@
-// 2D products of a real volume against its gates.
+// Tests 2D products of a real volume against its gates.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -46,8 +46,8 @@ class RealProducts : public ::testing::Test {
     std::optional<grid::BrickGrid> bricks_;
 };
 
-// Gates of echo that lie at a level's height and near a column's centre, placed by the beam's
-// formula and not by the gridder: a CAPPI at their height shows them.
+// Takes gates of echo at the height of a level and near the center of a column, placed by the beam
+// formula and not by the gridder: a CAPPI at their height must show them.
 TEST_F(RealProducts, ACappiShowsTheGatesAtItsHeight) {
     const grid::BeamGeometry beam(site_.latitude_deg, site_.altitude_m);
     std::vector<std::optional<FlatField>> cappis(spec_.levels_m.size());
@@ -97,8 +97,8 @@ TEST_F(RealProducts, ACappiShowsTheGatesAtItsHeight) {
     EXPECT_LT(std::sqrt(squares / valued), 0.5);
 }
 
-// What another decoder found to be the largest value of the volume bounds the column maxima; a
-// point sample at 1 km need not meet it.
+// The largest value of the volume that another decoder found is an upper bound of the column
+// maxima; a point sample at 1 km need not reach it.
 TEST_F(RealProducts, TheCompositesMaximumIsThatOfTheGolden) {
     std::ifstream file(*testing::data_directory() / "golden/KTLX19990503_235621.gz.json");
     ASSERT_TRUE(file);
@@ -117,8 +117,8 @@ TEST_F(RealProducts, TheCompositesMaximumIsThatOfTheGolden) {
     EXPECT_GT(found, most - 6);
 }
 
-// The tornadic supercells of that evening: tops between 13 km and the grid's top, and the most
-// liquid in a column that is strong and deep.
+// The tornadic supercells of that evening: tops between 13 km and the top of the grid, and the most
+// liquid where a column is strong and deep.
 TEST_F(RealProducts, EchoTopsAndVilAreThoseOfSevereStorms) {
     const auto view = bricks_->view();
     const FlatField tops = echo_top_field(view, 18.5, 2);

@@ -46,7 +46,7 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
     EXPECT_EQ(map_pixel(*image, 30, 20), shades::seen) << "below the table";
     EXPECT_EQ(map_pixel(*image, 50, 50), shades::seen);
     EXPECT_EQ(image->at(1, 1), shades::page);
-    // Not seen is hatched: neither clear air nor one colour.
+    // Not seen is hatched, and so is neither clear air nor a single color.
     int lines = 0;
     int between = 0;
     for (int ix = 81; ix < 99; ++ix) {
@@ -113,7 +113,7 @@ TEST(RenderFrame, WhatIsKeptChangesNoPixel) {
     };
     expect_same(bricks, Product::composite, 32);
     expect_same(bricks, Product::composite, 32);
-    expect_same(bricks, Product::volume, 400);  // so many that the corner table serves
+    expect_same(bricks, Product::volume, 400);  // so many that the corner table is used
     expect_same(other, Product::volume, 400);
     expect_same(bricks, Product::volume, 400);
     expect_same(other, Product::volume, 16);
@@ -162,7 +162,7 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
               ErrorCode::bad_argument);
 }
 
-// Every product of reflectivity and every moment, with labels: pictures of the whole size.
+// Every product of reflectivity and every moment, with labels, gives pictures of the full size.
 TEST(RenderFrame, DrawsEveryProductAndMoment) {
     const auto grid = storm_grid(small_spec(60, 16, 4000, 1000));
     const auto bricks = bricks_of(grid);
@@ -206,7 +206,7 @@ TEST(RenderFrame, TakesTheScenesColours) {
               ErrorCode::bad_argument);
 }
 
-// A dotted place shows both its colour and the dots.
+// A dotted place shows its color and the dots.
 TEST(EchoTops, ThatMayBeHigherAreDotted) {
     const auto grid = make_grid_of(small_spec(100, 4), [](int ix, int, int iz) -> Cell {
         if (iz == 3) return {CellStatus::no_echo, 0};

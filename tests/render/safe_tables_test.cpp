@@ -1,5 +1,5 @@
-// Simulates colour-vision deficiencies and looks whether neighbouring classes can still be told
-// apart.
+// Simulates color-vision deficiencies and checks that neighboring classes can still be
+// distinguished.
 #include <algorithm>
 #include <array>
 
@@ -64,7 +64,7 @@ bool lightness_rises(const ColourTable& table, std::size_t first, std::size_t en
     return true;
 }
 
-// A grey stays what it is, and who sees neither red nor green sees these two alike.
+// Gray stays gray, and these two colors look alike to people who see neither red nor green.
 TEST(Sights, KeepGreysAndMixWhatTheyShould) {
     for (const Sight& sight : sights) {
         EXPECT_LT(ciede2000(seen_by(sight, {128, 128, 128, 255}), lab_of({128, 128, 128, 255})),
@@ -116,7 +116,7 @@ TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
     EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "towards";
 }
 
-// So that the test above can fail: the Weather Service's tables do.
+// Shows that the test above can fail: the tables of the Weather Service do.
 TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(nws_reflectivity(), sights[1]), 4);
     EXPECT_LT(least_step(nws_reflectivity(), sights[2]), 4);

@@ -19,7 +19,7 @@ SectionLine between(const grid::GridSpec& spec, double x0, double y0, double x1,
     return {projection.to_geo({x0, y0}), projection.to_geo({x1, y1})};
 }
 
-// What trilinear interpolation must give exactly: a plane.
+// Trilinear interpolation must reproduce a plane exactly.
 TEST(Section, OfAPlaneIsThatPlane) {
     const grid::GridSpec spec = small_spec(100, 20);
     const auto bricks = bricks_of(

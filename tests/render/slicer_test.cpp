@@ -21,8 +21,8 @@ Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slice
         .draw(view, threads);
 }
 
-// Closed form: a slab of one value, H high, seen at tilt t has the opacity 1 - exp(-k H e / cos t)
-// wherever a ray crosses it from top to bottom. Its value is the middle of a bin.
+// Closed form: a slab of one value and height H, seen at tilt t, has the opacity 1 - exp(-k H e /
+// cos t) wherever a ray crosses it from top to bottom. Its value is the middle of a bin.
 TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(200, 16);
     constexpr double dbz = 41.875 + 0.5 * 0.3125;
@@ -47,7 +47,7 @@ TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     }
 }
 
-// Where one cell lands in the picture, from all sides: the orientation of everything.
+// Tests where one cell appears in the picture, from all sides, which fixes the orientation.
 void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
     struct Place {
         int ix, iy, iz;
@@ -77,7 +77,7 @@ void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
             const Pixel expected =
                 geometry.project(spec.x_m(place.ix), spec.y_m(place.iy),
                                  spec.levels_m[static_cast<std::size_t>(place.iz)]);
-            // At the grid's edge half of the cell's reach is cut off, which moves its middle.
+            // At the edge of the grid, half of the cell's reach is cut off, which moves its middle.
             const double pixels_per_cell = std::max(1000.0, 1500.0) / geometry.metres_per_pixel();
             const bool at_edge = place.ix == 39 || place.iz == 0;
             EXPECT_NEAR(x / sum, expected.x, at_edge ? 0.4 * pixels_per_cell : 0.35);
@@ -95,7 +95,7 @@ struct Difference {
     double rms = 0, worst = 0;
 };
 
-// The slicer against the reference at every few pixels.
+// Compares the slicer with the reference at every few pixels.
 Difference against_reference(const grid::BrickView& view, const ViewGeometry& geometry,
                              const Layer& layer, int steps, double opacity) {
     const ReferenceMarcher reference(view, nws_reflectivity(), geometry, opacity);
@@ -151,7 +151,7 @@ TEST(Slicer, MoreSlicesComeNearerToTheReference) {
     }
 }
 
-// Random blocks of every state, so that each corner of the skipping is met.
+// Random blocks of every state, so that every case of the skipping occurs.
 TEST(Slicer, SkippingEmptyBricksChangesNothing) {
     const grid::GridSpec spec = small_spec(60, 33);
     std::mt19937 random(5);
@@ -189,7 +189,7 @@ TEST(Slicer, NothingIsDrawnForCellsWithoutAValue) {
     }
 }
 
-// Beside cells without a value, whatever their state, echo keeps its own colour and only fades.
+// Next to cells without a value, whatever their state, echo keeps its own color and only fades.
 TEST(Slicer, EdgesFadeInTheEchosOwnColour) {
     const grid::GridSpec spec = small_spec(40, 16);
     for (const auto status :

@@ -51,7 +51,7 @@ class SmallMap {
         return with_head(payload);
     }
 
-    // Any payload, with a head and a checksum that fit.
+    // Returns any payload with a matching head and checksum.
     static std::vector<std::byte> with_head(const std::vector<std::uint8_t>& payload) {
         std::vector<std::byte> all(24);
         std::memcpy(all.data(), "SCBASMAP", 8);

@@ -1,4 +1,5 @@
-// tests/render/synthetic_storm.h -- grids for the renderer's tests, from a function of place.
+// tests/render/synthetic_storm.h -- grids for tests of the renderer, defined by a function of
+// place.
 #pragma once
 
 #include <array>
@@ -42,7 +43,7 @@ inline Cell valued(double dbz) {
     return {grid::CellStatus::value, static_cast<float>(dbz)};
 }
 
-// `cell` is asked with the cell's numbers.
+// Calls `cell` with the indices of each cell.
 inline grid::Grid make_grid_of(const grid::GridSpec& spec,
                                const std::function<Cell(int, int, int)>& cell) {
     grid::Grid grid;
@@ -65,8 +66,8 @@ inline grid::BrickGrid bricks_of(const grid::Grid& grid, int code_bytes = 1) {
     return grid::BrickGrid::from(grid, {code_bytes, -32, code_bytes == 1 ? 0.5F : 0.01F});
 }
 
-// A storm with nothing symmetric about it, in a made-up radar's coverage: a leaning core with an
-// anvil to the north-east, a line to the south-west, a cone of silence, a missing sector.
+// A storm without any symmetry, in the coverage of a synthetic radar: a leaning core with an anvil
+// to the northeast, a line to the southwest, a cone of silence, a missing sector.
 inline Cell storm_cell(const grid::GridSpec& spec, int ix, int iy, int iz) {
     const double x = spec.x_m(ix) / 1000;
     const double y = spec.y_m(iy) / 1000;

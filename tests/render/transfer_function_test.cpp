@@ -23,7 +23,7 @@ double alpha_of(const TransferEntry& entry) {
     return -std::expm1(-static_cast<double>(entry.depth));
 }
 
-// Every code of every quantisation falls into the bin whose bounds hold its value.
+// Every code of every quantization falls into the bin whose bounds contain its value.
 TEST(TransferFunction, BinsHoldTheirValues) {
     for (const grid::Quantization& quantization :
          {half_db, grid::Quantization{2, -32, 0.01F}, grid::Quantization{1, -30, 1}}) {
@@ -77,7 +77,7 @@ TEST(TransferFunction, ATableOfOneStopIsATable) {
     EXPECT_FLOAT_EQ(transfer.entry(bin_of(transfer, 21), bin_of(transfer, 70)).depth, 1);
 }
 
-// The integral in the order from the nearer value to the farther, in 20,000 pieces.
+// The integral in the order from the nearer value to the farther one, in 20,000 pieces.
 struct Exact {
     double alpha = 0;
     std::array<double, 3> colour{};
@@ -100,7 +100,7 @@ Exact integrate(double from, double to, double step_m) {
     return sum;
 }
 
-// Between the middles of two bins; what is below the table counts from its lowest value.
+// Between the middles of two bins. Values below the table count as its lowest value.
 TEST(TransferFunction, SecondOrderIsTheIntegralInItsOrder) {
     for (const double step_m : {50.0, 700.0, 8000.0}) {
         const auto transfer = of_reflectivity(step_m, Integration::second_order);
@@ -130,7 +130,7 @@ TEST(TransferFunction, SecondOrderTellsFrontFromBack) {
     EXPECT_EQ(first.entry(weak, strong).green, first.entry(strong, weak).green);
 }
 
-// A thin step hides nothing: both orders are the mean by extinction.
+// A thin step hides nothing, so both orders give the mean by extinction.
 TEST(TransferFunction, OrdersMeetInThinSteps) {
     const auto first = of_reflectivity(0.01, Integration::first_order);
     const auto second = of_reflectivity(0.01, Integration::second_order);

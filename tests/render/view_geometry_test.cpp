@@ -13,11 +13,11 @@ ViewGeometry view_from(double azimuth_deg, double tilt_deg, double zoom = 1) {
     return {small_spec(100, 16), Camera{azimuth_deg, tilt_deg, zoom}, 8, 800, 600};
 }
 
-// The whole orientation in one table: where east, north and up go in the picture.
+// The whole orientation in one table: the directions of east, north and up in the picture.
 TEST(ViewGeometry, EastNorthAndUpGoWhereAForecasterExpects) {
     struct Case {
         double azimuth_deg, tilt_deg;
-        int east_x, east_y, north_x, north_y, up_y;  // signs in the picture, y downwards
+        int east_x, east_y, north_x, north_y, up_y;  // signs in the picture, y downward
     };
     const Case cases[] = {
         {180, 0, 1, 0, 0, -1, 0},    // a map

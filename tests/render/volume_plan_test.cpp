@@ -1,8 +1,8 @@
-// The planner of pictures is honest, over scenes of real volumes and of a simulated storm:
-//   what it left off, forced on, changes the picture by less than the budget;
-//   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
-//   scene for each effect;
-//   the picture it chose is within the budget of the exact chain's.
+// Tests that the planner of pictures is honest, over scenes of real volumes and of a simulated
+// storm. An effect that it left off, if forced on, changes the picture by less than the budget. An
+// effect that it turned on, if forced off, changes it by more than a tenth of the budget, in at
+// least one scene for each effect. The picture that it chose is within the budget of that of the
+// exact chain.
 #include "render/plan/volume_plan.h"
 
 #include <cmath>
@@ -111,7 +111,7 @@ struct Prepared {
     }
 };
 
-// Made once for all tests: each draws some 15 pictures.
+// Made once for all tests, because each draws some 15 pictures.
 Prepared& prepared(std::size_t number) {
     static std::map<std::size_t, std::unique_ptr<Prepared>> all;
     auto& one = all[number];
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PictureHonesty, ::testing::Range(std::size_t{0}
 
 TEST(PictureHonesty, EveryEffectMattersSomewhere) {
     STORMCELLAR_NEED_DATA();
-    std::map<std::string, double> largest;  // part of the budget, of an effect that was on
+    std::map<std::string, double> largest;  // as parts of the budget, of effects that were on
     for (const accuracy::Step& step : volume_chain().steps) {
         for (const accuracy::Effect& effect : step.effects)
             largest[effect.name] = 0;
@@ -166,15 +166,15 @@ TEST(PictureHonesty, EveryEffectMattersSomewhere) {
                          scene.difference(plan.choice, without) / *scene.budget.image_de);
         }
     }
-    // With 2,048 slices no step is thick enough to hide its own far part: so it is never called
-    // for.
+    // With 2,048 slices, no step is thick enough to hide its own far part, so the effect is never
+    // needed.
     EXPECT_EQ(largest["step_attenuation"], 0);
     largest.erase("step_attenuation");
     for (const auto& [effect, part] : largest)
         EXPECT_GT(part, stated_part) << effect;
 }
 
-// Light that the scene does not ask for is told its size, and changes neither plan nor budget.
+// For light that the scene does not ask for, the size is reported; plan and budget do not change.
 TEST(PictureHonesty, LightIsOffUnlessTheSceneAsksForIt) {
     STORMCELLAR_NEED_DATA();
     const PlannedScene unlit = scenes().front();

@@ -1,4 +1,4 @@
-// Beam width: the quadrature against closed forms and against a finer one.
+// Tests the beam width: the quadrature against closed forms and against a finer quadrature.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,7 +39,7 @@ TEST(BeamQuadrature, HasTheMomentsOfThePattern) {
         EXPECT_NEAR(mean_of(up, [](double x) { return x; }), 0, 1e-12);
         EXPECT_NEAR(std::sqrt(mean_of(up, [](double x) { return x * x; })), deviation_deg,
                     0.003 * deviation_deg);
-        // A Gaussian and a turn of one degree: variances add, 1/12 for the turn.
+        // A Gaussian and a turn of one degree: variances add, with 1/12 for the turn.
         for (const double elevation_deg : {0.5, 19.5, 60.0}) {
             const double own_deg = deviation_deg / std::cos(elevation_deg * degree);
             const auto across = azimuth_nodes(width_deg, elevation_deg, 1, points);
@@ -53,7 +53,7 @@ TEST(BeamQuadrature, HasTheMomentsOfThePattern) {
     EXPECT_NEAR(mean_of(along, [](double) { return 1; }), 1, 1e-12);
 }
 
-// One volume's first sweep of one feature, seen by a beam.
+// The first sweep of a volume with one feature, seen by a beam.
 struct Observed {
     Scene scene;
     Cut cut;
@@ -77,11 +77,11 @@ struct Observed {
     }
 };
 
-// A column with no height: dBZ falls with the square of the distance across, so Z is a Gaussian of
-// deviation s and the mean over a Gaussian beam of deviation b is known:
+// A storm that is independent of height: dBZ falls with the square of the distance across the beam,
+// so Z is a Gaussian of deviation s, and the mean over a Gaussian beam of deviation b is known:
 //   peak + 10 log10(s / sqrt(s^2 + b^2)) - (10 / ln 10) x^2 / (2 (s^2 + b^2)).
-// The azimuth's turn is made small; the arc's curve across the beam and the pattern's end allow
-// 0.1.
+// The turn in azimuth is small. The curvature of the arc across the beam and the end of the pattern
+// allow 0.1.
 TEST(BeamWidth, AGaussianStormIsSmearedAsItMustBe) {
     Observed observed;
     observed.cut.azimuth_spacing_deg = 0.01F;
@@ -114,8 +114,8 @@ TEST(BeamWidth, AGaussianStormIsSmearedAsItMustBe) {
     }
 }
 
-// A wide plateau that drifts east, seen along north: v = V sin(azimuth), so at the north's azimuth
-// the mean is 0 and the deviation V times that of the azimuth pattern, turn included.
+// A wide plateau that drifts east, seen looking north: v = V sin(azimuth). So at azimuth north the
+// mean is 0, and the deviation is V times that of the azimuth pattern, turn included.
 TEST(BeamWidth, TheSpreadOfVelocityWidensTheSpectrum) {
     Observed observed;
     Box box;
@@ -134,7 +134,7 @@ TEST(BeamWidth, TheSpreadOfVelocityWidensTheSpectrum) {
     }
 }
 
-// The mean of linear Z over the pattern by brute force: 3 times as fine as the finest quadrature.
+// The mean of linear Z over the pattern by brute force, 3 times as fine as the finest quadrature.
 double fine_dbz(const Observed& observed, double azimuth_deg, double range_m) {
     const double elevation_deg = observed.cut.elevation_deg;
     const auto up = elevation_nodes(width_deg, 12);
@@ -158,7 +158,7 @@ struct Convergence {
     double largest_db = 0;
 };
 
-// Beside half a code of rounding, gates from 5 dBZ on.
+// In addition to half a code of rounding, for gates from 5 dBZ on.
 Convergence convergence_of(const char* scene, std::int32_t gates_apart) {
     constexpr double elevation_deg = 1.5;
     Observed observed;

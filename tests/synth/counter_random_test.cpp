@@ -7,7 +7,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// The generator's published answers (Random123, kat_vectors).
+// The published answers for the generator (Random123, kat_vectors).
 TEST(CounterRandom, GivesThePublishedAnswers) {
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}),
               (RandomWords{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
@@ -24,7 +24,7 @@ TEST(CounterRandom, UniformNumbersStayInsideTheirEnds) {
     EXPECT_LT(std::abs(normals_of(0, 0).first), 6.8);
 }
 
-// Neighbours in every direction, the seed and the purpose included, are uncorrelated.
+// Neighbors in every direction, and in seed and purpose, are uncorrelated.
 TEST(CounterRandom, NormalNumbersHaveTheirMomentsAndDoNotHangTogether) {
     constexpr int side = 400;
     const auto normal = [](std::uint32_t seed, Draw purpose, DrawPlace place) {

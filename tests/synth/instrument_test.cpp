@@ -1,4 +1,4 @@
-// Instrument effects as they show in whole volumes, through the bytes.
+// Tests the effects of the instrument in whole volumes that are written and read back.
 #include <cmath>
 #include <numbers>
 
@@ -39,7 +39,7 @@ std::uint64_t checksum_of(const SweepMoment& moment) {
     return xxh3_64(std::as_bytes(std::span(moment.codes8)));
 }
 
-// The codes of 2026-11-20, before there were effects.
+// The codes of 2026-11-20, before effects existed.
 TEST(Instrument, WithoutEffectsTheCodesAreWhatTheyWere) {
     const level2::Volume volume = observe(scene_of("small-storm.toml"), 1);
     std::vector<std::uint64_t> sums;
@@ -80,7 +80,7 @@ TEST(Instrument, VelocityFoldingWrapsOntoTheNyquistInterval) {
     EXPECT_GT(folded, 1000U);
 }
 
-// Two columns in one direction: the far one beyond the 137 km of the Doppler cut's PRF 6.
+// Two columns in one direction: the far one is beyond the 137 km of PRF 6 of the Doppler cut.
 TEST(Instrument, RangeFoldingMarksTheWeakerTripInDopplerCuts) {
     Scene scene = scene_of("small-storm.toml");
     Storm near = scene.weather.storms[0];
@@ -107,14 +107,14 @@ TEST(Instrument, RangeFoldingMarksTheWeakerTripInDopplerCuts) {
     const auto gate_at = [](double range_m) {
         return static_cast<std::int32_t>(std::lround((range_m - 2125) / 250));
     };
-    // As strong, but 13 dB less of power for its distance.
+    // equally strong, but with 13 dB less power because of its distance
     EXPECT_EQ(vel.status(north, gate_at(177000)), GateStatus::range_folded);
     EXPECT_EQ(doppler.find(Moment::sw)->status(north, gate_at(177000)), GateStatus::range_folded);
     EXPECT_EQ(ref.status(north, gate_at(177000)), GateStatus::valid);
     EXPECT_EQ(vel.status(north, gate_at(40000)), GateStatus::valid);
     EXPECT_EQ(surveillance.find(Moment::ref)->status(north_of(surveillance), gate_at(177000)),
               GateStatus::valid);
-    // Without the near one there is nothing to fold.
+    // Without the near one, nothing folds.
     scene.weather.storms.erase(scene.weather.storms.begin());
     const level2::Decoded alone = written_and_read(scene);
     EXPECT_EQ(alone.volume.sweeps[1].find(Moment::vel)->status(north, gate_at(177000)),
@@ -136,7 +136,7 @@ TEST(Instrument, LostRadialsAndCutsAreNotInTheVolume) {
         }
     }
     EXPECT_TRUE(level2::has_ended(read.volume));
-    // What is left is what it was.
+    // The other radials are unchanged.
     Scene whole = scene;
     whole.instrument = {};
     const level2::Volume all = observe(whole, 0);
@@ -159,7 +159,7 @@ TEST(Instrument, JitterIsSaidByTheRadialsAndTheirGatesAreTrueThere) {
     Scene scene = scene_of("small-storm.toml");
     scene.instrument.azimuth_jitter_deg = 0.2;
     scene.instrument.elevation_jitter_deg = 0.15;
-    scene.instrument.noise_db = 1e-12;  // by the way of the effects
+    scene.instrument.noise_db = 1e-12;  // so that the code of the effects runs
     const level2::Volume volume = observe(scene, 0);
     const grid::BeamGeometry beam(scene.site.latitude_deg, scene.site.antenna_altitude_m);
     double most_off_deg = 0;
@@ -217,7 +217,7 @@ TEST(Instrument, NoiseInVolumesHasItsDeviationAndIsOfItsSeed) {
     }
     const double k = 1.5 * std::numbers::ln10 / 10;
     EXPECT_NEAR(db[1] / db[0], -10 / std::numbers::ln10 * k * k / 2, 0.03);
-    // Rounding to half a decibel or half a metre a second adds 0.5^2 / 12 to the variance.
+    // Rounding to half a decibel or half a meter a second adds 0.5^2 / 12 to the variance.
     EXPECT_NEAR(std::sqrt(db[2] / db[0] - std::pow(db[1] / db[0], 2) - 0.25 / 12), 1.5, 0.03);
     EXPECT_NEAR(mps[1] / mps[0], 0, 0.04);
     EXPECT_NEAR(std::sqrt(mps[2] / mps[0] - 0.25 / 12), 2, 0.04);
@@ -226,7 +226,7 @@ TEST(Instrument, NoiseInVolumesHasItsDeviationAndIsOfItsSeed) {
     EXPECT_NE(checksum_of(*observe(scene, 0).sweeps[1].find(Moment::ref)), checksum_of(ref));
 }
 
-// Lost radials or other cuts do not change what a gate draws.
+// Lost radials or other cuts do not change the random numbers of a gate.
 TEST(Instrument, NoiseBelongsToTheGateWhateverElseIsObserved) {
     Scene scene = scene_of("small-storm.toml");
     scene.instrument.noise_db = 1;

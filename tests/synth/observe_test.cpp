@@ -1,4 +1,4 @@
-// What a simulated radar writes is read back and held against the truth.
+// Reads back what a simulated radar writes and compares it with the truth.
 #include "synth/observe.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Scene small_storm() {
     return std::move(*scene);
 }
 
-// Through the bytes, as everybody else gets it.
+// Writes and reads the bytes, as every user does.
 level2::Decoded written_and_read(const Scene& scene, int number) {
     const auto encoded = level2::encode(observe(scene, number));
     if (!encoded) throw std::runtime_error(encoded.error().message);
@@ -130,7 +130,7 @@ TEST(Observe, VelocityIsTheRadialPartOfTheMotionPositiveAway) {
         }
     }
     EXPECT_GT(valid, 1000U);
-    // The storm lies in the south-west and moves north-east: towards the radar.
+    // The storm is southwest of the radar and moves northeast: toward it.
     const auto& vel = *read.volume.sweeps[1].find(Moment::vel);
     const auto& radials = read.volume.sweeps[1].radials;
     const auto south_west = std::find_if(radials.begin(), radials.end(), [](const auto& radial) {
@@ -143,7 +143,7 @@ TEST(Observe, VelocityIsTheRadialPartOfTheMotionPositiveAway) {
     EXPECT_LT(vel.value_of(vel.code(row, 191)), -15);
 }
 
-// Of a sweep's reflectivity in mm^6/m^3, each gate weighted by its area.
+// The centroid of a sweep's reflectivity in mm^6/m^3, each gate weighted by its area.
 Point centroid(const Scene& scene, const Sweep& sweep) {
     const auto& ref = *sweep.find(Moment::ref);
     double weight = 0;
@@ -170,7 +170,7 @@ TEST(Observe, StormsMoveFromVolumeToVolume) {
     const Point after = centroid(scene, observe(scene, 1).sweeps[0]);
     EXPECT_NEAR(after.x_m - before.x_m, 15 * 60, 30);
     EXPECT_NEAR(after.y_m - before.y_m, 10 * 60, 30);
-    // The 217th degree of the sweep is seen some seconds after the start.
+    // The 217th degree of the sweep is seen some seconds after its start.
     EXPECT_NEAR(before.x_m, -30000 + 15 * 7.2, 100);
     EXPECT_NEAR(before.y_m, -40000 + 10 * 7.2, 100);
 }

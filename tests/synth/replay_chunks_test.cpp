@@ -1,4 +1,4 @@
-// Chunks of replayed volumes, files that are kept open, and stations that mix.
+// Tests chunks of replayed volumes, files that are kept open, and stations that mix.
 #include <algorithm>
 #include <array>
 
@@ -82,7 +82,7 @@ TEST_F(Replay, ChunksOfRealVolumesAreTheVolume) {
     }
 }
 
-// How many descriptors of this process lead into the drop directory.
+// Counts the descriptors of this process that lead into the drop directory.
 std::size_t open_below(const fs::path& directory) {
     std::size_t open = 0;
     for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
@@ -119,7 +119,7 @@ TEST_F(Replay, StationsMix) {
     options.speed = 10'000;  // both take 30 ms
     std::atomic<bool> stop{false};
     options.stop = &stop;
-    // The first to be done stops the other: it has begun, and is not done.
+    // The first to finish stops the other, which has begun and is not done.
     options.replayed = [&](std::size_t) { stop = true; };
     const auto report = play(options);
     ASSERT_TRUE(report);

@@ -55,7 +55,7 @@ TEST(ReplayFaults, EachKindAlone) {
     EXPECT_THAT(order_of(arrivals_of({}, 3, 4)), ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(order_of(arrivals_of(certainly(&FaultRates::repeat), 3, 2)),
                 ElementsAre(0, 0, 1, 1));
-    // Every second one is the one behind which another comes; the last is alone.
+    // Every second piece is delayed until after the next one; the last is alone.
     EXPECT_THAT(order_of(arrivals_of(certainly(&FaultRates::reorder), 3, 5)),
                 ElementsAre(1, 0, 3, 2, 4));
     const auto dropped = arrivals_of(certainly(&FaultRates::drop), 3, 2);
@@ -81,7 +81,7 @@ TEST(ReplayFaults, ComeAsOftenAsAsked) {
     for (const Arrival& arrival : arrivals_of(rates, 1, pieces)) {
         if (!arrival.again) ++count[arrival.fault];
     }
-    // Those behind which a reordered one comes are left out of the draw: 2 % fewer.
+    // Pieces after which a delayed one comes are not drawn: 2 % fewer.
     const double drawn = pieces / (1 + rates.reorder);
     for (const auto& [fault, rate] : {std::pair{Fault::drop, 0.1},
                                       {Fault::repeat, 0.05},
@@ -102,7 +102,7 @@ TEST(ReplayFaults, DependOnSeedAndRowAlone) {
     EXPECT_NE(order_of(arrivals_of(rates, 5, 100)), order_of(arrivals_of(other, 5, 100)));
 }
 
-// What lies in the drop directory is what the report says, for every way of writing.
+// The drop directory contains what the report says, for every way of writing.
 class ReplayWithFaults : public Replay {
   protected:
     void SetUp() override {

@@ -1,4 +1,4 @@
-// tests/synth/replay_fixture.h -- a directory of small volumes, and a drop directory to play them
+// tests/synth/replay_fixture.h -- a directory of small volumes, and a drop directory to replay them
 // to.
 #pragma once
 
@@ -28,7 +28,7 @@ inline wire::Bytes volume_at(std::uint32_t ms, unsigned sweeps = 1) {
     return bytes;
 }
 
-// `station`: four letters.
+// `station` has four letters.
 inline wire::Bytes volume_of(std::string_view station, std::uint32_t ms, unsigned sweeps = 1) {
     wire::Bytes bytes = volume_at(ms, sweeps);
     for (std::size_t i = 0; i < station.size(); ++i)
@@ -36,7 +36,7 @@ inline wire::Bytes volume_of(std::string_view station, std::uint32_t ms, unsigne
     return bytes;
 }
 
-// Of a volume_at() so many seconds, in chunks' names: "20220317-000002".
+// The time of volume_at(second) as in the names of chunks: "20220317-000002".
 inline std::string day_and_second(std::size_t second) {
     const auto header = level2::read_archive_header(wire::archive_header());
     const UtcTime time =

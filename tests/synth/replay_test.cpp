@@ -24,7 +24,7 @@ std::vector<std::string> names(const std::vector<ReplayItem>& items) {
 
 TEST_F(Replay, PlaysByTheTimesInTheHeadersThenByName) {
     put("a", volume_at(3000));
-    put("b", wire::gzip(volume_at(1000)));  // the header stands inside the gzip
+    put("b", wire::gzip(volume_at(1000)));  // the header is inside the gzip
     put("day/c", volume_at(2000));
     put("z", {});
     put("noise", wire::Bytes(100, std::byte{1}));
@@ -127,7 +127,7 @@ TEST_F(Replay, TimeBetweenFilesComesFromTheirHeadersOrTheInterval) {
     options.speed = 5;
     const auto begin = std::chrono::steady_clock::now();
     ASSERT_TRUE(play(options));
-    // 1 s, five times faster; sleeping is never shorter.
+    // 1 s, five times faster; a sleep never ends early.
     EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));
 }
 

@@ -32,7 +32,7 @@ TEST(TruthStorm, IsStrongestInItsCoreAndTenAtItsEdges) {
     EXPECT_NEAR(truth_dbz(weather, {0, 20000, 4000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-10000, 0, 4000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {0, 0, 12000}, 0), 10, 1e-9);
-    // Half way out, a quarter of the fall: 60 - 50 / 4.
+    // Halfway out, a quarter of the fall: 60 - 50 / 4.
     EXPECT_NEAR(truth_dbz(weather, {5000, 0, 4000}, 0), 47.5, 1e-9);
 }
 
@@ -62,7 +62,7 @@ TEST(TruthStorm, DriftsAndLeans) {
     const Weather weather = only(storm);
     EXPECT_NEAR(truth_dbz(weather, {-30000, 7000, 4000}, 0), 60, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-28000, 6000, 4000}, 100), 60, 1e-9);
-    // 8 km above the core the axis stands 4 km further east and 8 km further north.
+    // 8 km above the core, the axis is 4 km farther east and 8 km farther north.
     EXPECT_NEAR(truth_dbz(weather, {-26000, 15000, 12000}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-32000, 3000, 0}, 0), 60, 1e-9);
 }
@@ -90,11 +90,11 @@ TEST(TruthHook, FollowsItsArcAndLeavesTheGap) {
     storm.footprint.major_m = storm.footprint.minor_m = 1000;  // out of the way
     storm.hook = Hook{-20000, 0, 5000, 90, 360, 1000, 6000, 50};
     const Weather weather = only(storm);
-    // On the arc in the south, at a width's distance from it, and at its top.
+    // On the arc in the south, one width away from it, and at its top.
     EXPECT_NEAR(truth_dbz(weather, {-20000, -5000, 0}, 0), 50, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, -6000, 0}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, -5000, 6000}, 0), 10, 1e-9);
-    // The ends are at azimuths 90 and 0; north-east of the centre is the gap.
+    // The ends are at azimuths 90 and 0; the gap is northeast of the center.
     EXPECT_NEAR(truth_dbz(weather, {-15000, 0, 0}, 0), 50, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, 5000, 0}, 0), 50, 1e-9);
     const double diagonal_m = 5000 / std::sqrt(2);
@@ -129,7 +129,7 @@ TEST(Truth, FeaturesAddInLinearUnitsAndWeighTheirMotion) {
     EXPECT_NEAR(equal.dbz, 60 + 10 * std::log10(2), 1e-9);
     EXPECT_NEAR(equal.motion.east_mps, 15, 1e-9);
     EXPECT_NEAR(equal.motion.north_mps, 7.5, 1e-9);
-    north.peak_dbz = 50;  // a tenth of the other
+    north.peak_dbz = 50;  // a tenth of the other in power
     const Echo unequal = truth({{east, north}, {}}, {0, 0, 4000}, 0);
     EXPECT_NEAR(unequal.motion.east_mps, 30 / 1.1, 1e-9);
     EXPECT_NEAR(unequal.motion.north_mps, 1.5 / 1.1, 1e-9);
@@ -240,7 +240,7 @@ TEST(Truth, SeenFromAnotherPlaceIsTheSameWeather) {
     int with_echo = 0;
     for (int i = 0; i < 2000; ++i) {
         const Point point{place(random), place(random), 0.05 * std::abs(place(random))};
-        // The new plane's axes are the old one's, turned clockwise.
+        // The axes of the new plane are those of the old one, turned clockwise.
         const double east = point.x_m * std::cos(turn) + point.y_m * std::sin(turn) + stand.x_m;
         const double north = point.y_m * std::cos(turn) - point.x_m * std::sin(turn) + stand.y_m;
         const Echo here = truth(weather, {east, north, point.z_m}, 100);

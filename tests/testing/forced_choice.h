@@ -8,7 +8,8 @@
 
 namespace stormcellar::testing {
 
-// The choice with one effect, and what it needs, on; or with it, and what needs it, off.
+// Returns the choice with one effect and all that it requires on, or with it and all that requires
+// it off.
 inline accuracy::Choice forced(const accuracy::Plan& plan, const accuracy::Chain& chain,
                                const std::string& effect, bool on) {
     accuracy::Choice choice = plan.choice;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int trapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-// What is pending from untrapped code must not fire when traps come on.
+// Pending exceptions of untrapped code must not fire when traps are turned on.
 int set_traps(int traps) {
     const int before = fegetexcept();
     std::feclearexcept(FE_ALL_EXCEPT);
@@ -44,7 +44,7 @@ void write_out(std::string_view text) {
     if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;
 }
 
-// Says what and where, then lets the signal end the program.
+// Prints what happened and where, then lets the signal end the program.
 void report(int signal, siginfo_t* info, void* /*context*/) {
     write_out("floating-point trap: ");
     write_out(kind_of(info->si_code));
@@ -55,7 +55,7 @@ void report(int signal, siginfo_t* info, void* /*context*/) {
     std::raise(signal);
 }
 
-// Around each test's body, so that GoogleTest's own bookkeeping is not trapped.
+// Around the body of each test, so that GoogleTest's own code is not trapped.
 class TrapEachTest : public ::testing::EmptyTestEventListener {
   public:
     void OnTestStart(const ::testing::TestInfo& /*test*/) override {

@@ -1,9 +1,10 @@
-// tests/testing/metered_file_system.h -- a file system that weighs a directory after every
+// tests/testing/metered_file_system.h -- a file system that measures a directory after every
 // operation.
 //
-// Works on real files, one operation at a time, whichever thread asks. After each one it adds up
-// the blocks of all files below the directory, temporary ones included, and keeps the largest sum.
-// It can also be full: a write beyond `capacity` fails with no_space, and removing files helps.
+// It works on real files, one operation at a time, whichever thread calls. After each one it adds
+// up the blocks of all files below the directory, temporary ones included, and keeps the largest
+// sum. It can also be full: a write beyond `capacity` fails with no_space, and removing files makes
+// room.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace stormcellar::testing {
 
-// Bytes on disk of all regular files below a directory; directories are not counted.
+// Returns the bytes on disk of all regular files below a directory; directories are not counted.
 [[nodiscard]] std::uint64_t allocated_bytes(const std::filesystem::path& directory);
 
 class MeteredFileSystem final : public FileSystem {
@@ -36,13 +37,13 @@ class MeteredFileSystem final : public FileSystem {
     void set_capacity(std::uint64_t bytes);
     [[nodiscard]] std::uint64_t most() const;  // the largest sum so far
     [[nodiscard]] std::uint64_t removals() const;
-    void forget();  // what was counted so far
+    void forget();  // resets the counts
 
   private:
     Status weigh(Status outcome);
 
     const std::filesystem::path directory_;
-    mutable std::mutex mutex_;  // all below, and every operation
+    mutable std::mutex mutex_;  // guards all members below, and every operation
     std::uint64_t capacity_ = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t most_ = 0, removals_ = 0;
 };

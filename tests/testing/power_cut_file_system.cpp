@@ -48,7 +48,7 @@ void PowerCutFileSystem::close(int descriptor) {
     real_file_system().close(descriptor);
 }
 
-// A second name for a file: its blocks stay what they are, holes included.
+// Makes a second name for a file, which keeps its blocks, holes included.
 Result<std::filesystem::path> PowerCutFileSystem::keep(const std::filesystem::path& path) {
     const std::filesystem::path kept = attic_ / std::to_string(kept_++);
     std::error_code error;
@@ -82,7 +82,7 @@ Status PowerCutFileSystem::sync_directory(const std::filesystem::path& directory
     return {};
 }
 
-// A file that was never synced may come back empty; one that was, as it is.
+// A file that was never synced may come back empty; one that was synced comes back unchanged.
 Status PowerCutFileSystem::remove(const std::filesystem::path& path) {
     if (Status counted = count_operation(); !counted) return counted;
     if (unsynced_contents_.erase(path) == 0 && std::filesystem::exists(path)) {

@@ -1,9 +1,9 @@
 // tests/testing/power_cut_file_system.h -- a file system that forgets what was not synced.
 //
-// Works on real files in a directory and remembers which contents and names were made durable.
+// It works on real files in a directory and remembers which contents and names were made durable.
 // power_cut() then puts the directory into the worst state that a crash may leave: contents that
-// were never synced are cut to nothing, renames whose directory was not synced are undone.
-// It can also run out of space after a number of bytes, and fail the n-th operation.
+// were never synced become empty, and renames whose directory was not synced are undone. It can
+// also run out of space after a number of bytes, and fail the n-th operation.
 #pragma once
 
 #include <cstdint>
@@ -30,17 +30,17 @@ class PowerCutFileSystem final : public FileSystem {
     Status sync_directory(const std::filesystem::path& directory) override;
     Status remove(const std::filesystem::path& path) override;
 
-    // From now on the operation with this number (counting from 0) and all later ones fail with io.
+    // The operation with this number (counted from 0) and all later ones fail with io.
     void fail_from(std::uint64_t operation) { fail_from_ = operation; }
     void set_space(std::uint64_t bytes) { space_ = bytes; }
     [[nodiscard]] std::uint64_t operation_count() const { return operations_; }
     void power_cut();
 
   private:
-    // A rename, or (with no `from`) a removal.
+    // A rename, or (without `from`) a removal.
     struct NameChange {
         std::filesystem::path from, to;
-        std::optional<std::filesystem::path> kept;  // what stood at `to` before
+        std::optional<std::filesystem::path> kept;  // what was at `to` before
     };
     Status count_operation();
     Result<std::filesystem::path> keep(const std::filesystem::path& path);

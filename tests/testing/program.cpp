@@ -30,7 +30,7 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
     for (std::string& copy : copies)
         argv.push_back(copy.data());
     argv.push_back(nullptr);
-    // Tests that run in the background of a script were started to ignore Ctrl-C.
+    // Tests that run in the background of a script inherit an ignored Ctrl-C.
     sigset_t ends;
     sigemptyset(&ends);
     sigaddset(&ends, SIGINT);
@@ -48,7 +48,7 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
     return child;
 }
 
-// Nothing to read; what it prints goes to the files out and err of the directory.
+// There is no input; the output goes to the files out and err of the directory.
 pid_t start_quietly(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                     const std::filesystem::path& directory) {
     posix_spawn_file_actions_t actions;

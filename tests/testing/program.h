@@ -1,4 +1,4 @@
-// tests/testing/program.h -- runs a program as a user would and keeps what it printed.
+// tests/testing/program.h -- runs a program as a user does and keeps its output.
 #pragma once
 
 #include <filesystem>
@@ -13,23 +13,23 @@
 namespace stormcellar::testing {
 
 struct ProgramResult {
-    int status = -1;  // exit status; -1 when a signal ended it
+    int status = -1;  // exit status; -1 if a signal ended it
     std::string out;
     std::string err;
 };
 
-// Waits for the program to end. Throws std::runtime_error when it cannot be started.
+// Waits for the program to end. Throws std::runtime_error if it cannot be started.
 [[nodiscard]] ProgramResult run_program(const std::filesystem::path& program,
                                         const std::vector<std::string>& arguments);
 
-// Starts the program, waits until `seen` holds (at most a minute), sends it SIGINT and waits for
-// its end: the number of the signal that ended it, 0 when it ended by itself. Its output is the
-// test's.
+// Starts the program, waits until `seen` returns true (at most a minute), sends it SIGINT and waits
+// for its end. Returns the number of the signal that ended it, 0 if it ended by itself. Its output
+// is that of the test.
 [[nodiscard]] int interrupt_program(const std::filesystem::path& program,
                                     const std::vector<std::string>& arguments,
                                     const std::function<bool()>& seen);
 
-// A program that goes on beside the test. Killed when the object goes.
+// A program that runs beside the test. Killed when the object is destroyed.
 class RunningProgram {
   public:
     RunningProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments);
@@ -38,12 +38,12 @@ class RunningProgram {
     ~RunningProgram();
 
     [[nodiscard]] pid_t id() const { return child_; }
-    // What it has printed so far.
+    // Returns its output so far.
     [[nodiscard]] std::string out() const;
     [[nodiscard]] std::string err() const;
-    // Looks again and again for at most a minute; false when it does not come true.
+    // Checks repeatedly for at most a minute. Returns false if it does not become true.
     static bool wait_for(const std::function<bool()>& seen);
-    // Sends the signal and waits: the exit status, or minus the signal that ended it.
+    // Sends the signal and waits. Returns the exit status, or minus the signal that ended it.
     int end(int signal);
 
   private:

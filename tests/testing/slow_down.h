@@ -1,4 +1,4 @@
-// tests/testing/slow_down.h -- how much less a test may do where everything takes far longer.
+// tests/testing/slow_down.h -- the factor by which tests are slower with a sanitizer.
 #pragma once
 
 namespace stormcellar::testing {

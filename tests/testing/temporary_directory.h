@@ -1,4 +1,4 @@
-// tests/testing/temporary_directory.h -- a directory that goes when the test ends.
+// tests/testing/temporary_directory.h -- a directory that is removed when the test ends.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// tests/testing/test_name.h -- names of parameterised tests.
+// tests/testing/test_name.h -- names of parametrized tests.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace stormcellar::testing {
 
-// A file's name as GoogleTest takes names: what is neither letter nor digit becomes '_'.
+// Returns a file's name as GoogleTest allows names: anything but letters and digits becomes '_'.
 [[nodiscard]] std::string test_name(std::string_view file_name);
 
 }  // namespace stormcellar::testing

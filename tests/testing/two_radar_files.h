@@ -1,4 +1,5 @@
-// tests/testing/two_radar_files.h -- the volumes of tests/testing/two_radars.h as Level II files.
+// tests/testing/two_radar_files.h -- writes the volumes of tests/testing/two_radars.h as Level II
+// files.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,8 @@
 
 namespace stormcellar::testing {
 
-// Two volumes of each of XSYA and XSYB, five minutes apart; XSYB's are too weak by so much. In
-// order of time. Throws where that cannot be.
+// Writes two volumes of each of XSYA and XSYB, five minutes apart; those of XSYB are too weak by
+// `b_too_weak_db`. Returns them in order of time. Throws if that fails.
 inline std::vector<std::filesystem::path> write_two_radars(const std::filesystem::path& directory,
                                                            float b_too_weak_db) {
     struct Place {

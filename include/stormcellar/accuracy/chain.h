@@ -26,7 +26,7 @@ namespace stormcellar::accuracy {
 struct Step {
     std::string name;
     std::string cheapest;         // what rung 0 uses, e.g. "sphere"
-    std::vector<Effect> effects;  // from rung 0 upwards
+    std::vector<Effect> effects;  // from rung 0 upward
 
     [[nodiscard]] std::size_t rung_count() const { return effects.size() + 1; }
     [[nodiscard]] const std::string& rung_name(std::size_t rung) const;

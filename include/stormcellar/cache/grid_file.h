@@ -1,13 +1,16 @@
-// stormcellar/cache/grid_file.h -- one grid, one immutable file, readable by mmap with no copy.
+// stormcellar/cache/grid_file.h -- one grid in one immutable file, which mmap reads without a copy.
 //
-// The bytes are specified in docs/cache-format.md. A file is written whole by temporary file,
-// fsync and rename, and validated before anything in it is trusted: magic, version, sizes, offsets
-// and the checksum of header, brick table and states at open; checksums of bricks on verify().
-// Header, table, states and names are read into memory and checked there; only the codes are
-// mapped, or, where they are packed, unpacked into memory and checked, too. So a file that another
-// program alters later may show wrong values until verify(), but never leads a reader outside its
-// memory. Each open file holds one descriptor. Thread contract: a GridFile is immutable after open;
-// views may be used from many threads.
+// docs/cache-format.md specifies the bytes. A file is written whole by temporary file, fsync and
+// rename. Nothing in it is trusted before it is validated: opening checks magic, version, sizes,
+// offsets and the checksum of header, brick table and states; verify() checks the checksums of
+// bricks. Header, table, states and names are read into memory and checked there. Only the codes
+// are mapped; packed codes are unpacked into memory and checked, too. So a file that another
+// program changes later may show wrong values until verify(), but never leads a reader outside its
+// memory.
+//
+// Units     Sizes are in bytes. Each open file holds one descriptor.
+// Threads   A GridFile is immutable after open(). Many threads may use its views.
+// Errors    See each function.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +25,11 @@
 
 namespace stormcellar::cache {
 
-// How bricks of codes stand in a file. Packed ones take a third to three quarters of the space, are
-// unpacked into memory of the reader's own when the file is opened, and need no map.
+// How bricks of codes are stored in a file. Packed ones take a third to three quarters of the
+// space. They are unpacked into the reader's own memory when the file is opened, and need no map.
 enum class Packing { none, lz4 };
 
-// All of a grid but its cells.
+// Everything in a grid except its cells.
 struct GridDescription {
     grid::GridSpec spec;
     level2::Moment moment = level2::Moment::ref;
@@ -36,29 +39,30 @@ struct GridDescription {
 };
 [[nodiscard]] GridDescription describe(const grid::Grid& grid);
 
-// Writes the file and gives its size on disk in bytes (holes not counted). io and no_space leave
-// nothing behind (where only the directory's sync failed, the new file stands, whole);
-// bad_argument for names or notes of more than 1 MiB, more than 4,194,304 bricks, a time beyond
-// the years 1970 to 9999, or a view that does not fit its spec. The same cells and description
-// give the same bytes.
+// Writes the file and returns its size on disk in bytes, without holes. The same cells and
+// description give the same bytes. Errors: io and no_space, which leave nothing behind (if only the
+// directory's sync failed, the new file is there, whole); bad_argument for names or notes of more
+// than 1 MiB, more than 4,194,304 bricks, a time beyond the years 1970 to 9999, or a view that does
+// not fit its spec.
 [[nodiscard]] Result<std::uint64_t> write_grid_file(FileSystem& file_system,
                                                     const std::filesystem::path& path,
                                                     const GridDescription& description,
                                                     const grid::BrickView& view,
                                                     Packing packing = Packing::none);
 
-// What that file may take on disk at most, in bytes, on a file system that allocates blocks of
-// `block_bytes` (a power of two): each block that a byte falls into, and room for the lists of
-// blocks that the file system itself keeps (1 in 64, and 4). Bounds such as those of
-// write_grid_file are not checked. Too low only where a file system allocates what nobody wrote.
+// Returns an upper bound of what that file takes on disk, in bytes, on a file system that allocates
+// blocks of `block_bytes` (a power of two): each block that a byte falls into, and room for the
+// lists of blocks that the file system itself keeps (1 in 64, and 4). Limits such as those of
+// write_grid_file() are not checked. The bound is too low only if a file system allocates what
+// nobody wrote.
 [[nodiscard]] std::uint64_t most_bytes_on_disk(const GridDescription& description,
                                                const grid::BrickView& view,
                                                std::uint64_t block_bytes);
 
 class GridFile {
   public:
-    // not_found, io, truncated, corrupt (checksum, impossible sizes) or unsupported (a later
-    // version); every message begins with the path.
+    // Opens a file. Errors: not_found, io, truncated, corrupt (checksum, impossible sizes) or
+    // unsupported (a later version). Every message begins with the path.
     static Result<GridFile> open(const std::filesystem::path& path);
 
     GridFile(GridFile&&) noexcept;
@@ -71,15 +75,15 @@ class GridFile {
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this GridFile lives
     [[nodiscard]] std::uint64_t bytes_on_disk() const;
     [[nodiscard]] Packing packing() const;
-    // Whether the file still has the size that it had when it was opened: truncated or corrupt when
-    // another program cut or lengthened it. One system call. Codes of a file that is cut before
-    // their use raise SIGBUS, as with any map, unless the program has the guard of
-    // cache/map_guard.h: then they read as 0 (not seen), and this says truncated afterwards. So ask
-    // after a view was used, too. Nothing of ours ever cuts a file.
+    // Checks, with one system call, that the file still has the size that it had when it was
+    // opened. Returns truncated or corrupt if another program cut or lengthened it. Reading the
+    // codes of a file that was cut raises SIGBUS, as with any map, unless the program has the guard
+    // of cache/map_guard.h: then they read as 0 (not seen), and this function returns truncated
+    // afterward. So call it after using a view, too. Nothing of ours ever cuts a file.
     [[nodiscard]] Status check_whole() const;
-    // Reads the whole file again (not through the map, so a cut file is an error here): header,
-    // table and states are as they were opened; every stored brick has its checksum, minimum,
-    // maximum and count; the places of absent bricks read as zeros.
+    // Reads the whole file again, not through the map, so that a cut file is an error here. Checks
+    // that header, table and states are as they were opened, that every stored brick has its
+    // checksum, minimum, maximum and count, and that the places of absent bricks read as zeros.
     [[nodiscard]] Status verify() const;
 
   private:

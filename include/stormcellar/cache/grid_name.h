@@ -1,10 +1,12 @@
-// stormcellar/cache/grid_name.h -- what a grid in the cache is called, and where it stands.
+// stormcellar/cache/grid_name.h -- the name of a grid in the cache, and the path of its file.
 //
-// A name is domain, moment and time; its file is
-// DOMAIN/MOMENT/YYYYMMDD/DOMAIN_MOMENT_YYYYMMDD_HHMMSS_mmm.scg below the cache's directory.
-// A domain is NAME, or NAME.ICAO for what one site gave to NAME's grid (a part). Budgets count a
+// A name is a domain, a moment and a time. Its file is
+// DOMAIN/MOMENT/YYYYMMDD/DOMAIN_MOMENT_YYYYMMDD_HHMMSS_mmm.scg below the cache's directory. A
+// domain is NAME, or NAME.ICAO for what one site gave to the grid of NAME (a part). Budgets count a
 // domain and its parts together, as the group NAME.
-// Thread contract: pure functions.
+//
+// Threads   Pure functions.
+// Errors    None; a text of another form gives none or false.
 #pragma once
 
 #include <compare>
@@ -22,20 +24,20 @@ struct GridName {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
     UtcTime time;
-    // By domain, then moment, then time.
+    // Ordered by domain, then moment, then time.
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
     auto operator<=>(const GridName&) const = default;
 };
 
-// Whether a name may stand for a domain: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, and with or without a part
-// behind it, '.' and an ICAO ([A-Z][A-Z0-9]{3}).
+// Returns true if a name has the form of a domain's: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, with or
+// without a part after it, which is '.' and an ICAO ([A-Z][A-Z0-9]{3}).
 [[nodiscard]] bool is_domain_name(std::string_view name);
 
-// What stands before the first '.': "northeast" of "northeast" and of "northeast.KBOX".
+// Returns what comes before the first '.': "northeast" for "northeast" and for "northeast.KBOX".
 [[nodiscard]] std::string_view group_of(std::string_view domain);
 [[nodiscard]] bool is_part(std::string_view domain);
 
-// Times from 1970 to 9999 have a name.
+// Returns true for times from 1970 to 9999, which have a name.
 [[nodiscard]] bool is_possible(UtcTime time);
 inline constexpr UtcTime last_possible_time{
     std::chrono::sys_days{std::chrono::year{10000} / 1 / 1} - std::chrono::milliseconds{1}};
@@ -43,10 +45,10 @@ inline constexpr UtcTime last_possible_time{
 [[nodiscard]] std::string day_name(UtcTime time);  // "20220317"
 [[nodiscard]] bool is_day_name(std::string_view name);
 
-// Below the cache's directory.
+// Returns the path below the cache's directory.
 [[nodiscard]] std::filesystem::path relative_path(const GridName& name);
 
-// The time in a file's name that is exactly of the form above; none for every other.
+// Returns the time in a file's name that has exactly the form above; none for every other name.
 [[nodiscard]] std::optional<UtcTime> time_in_file_name(std::string_view domain,
                                                        level2::Moment moment,
                                                        std::string_view file_name);

@@ -1,8 +1,12 @@
-// stormcellar/catalog/radar_set.h -- one object a station: its files in time, raw and decoded.
+// stormcellar/catalog/radar_set.h -- one object for each station: its files in time, raw and
+// decoded.
 //
-// The shape is that of the 2008 paper's storage-broker client, so that programs written to it can
-// be moved. A file is given only where it is still the one that was cataloged
-// (stormcellar/catalog/read_cataloged.h). Thread contract: as CatalogReader.
+// The interface is that of the storage-broker client of the 2008 paper, so that programs written
+// for it can be moved. A file is only returned if it is still the one that was cataloged
+// (stormcellar/catalog/read_cataloged.h).
+//
+// Threads   As CatalogReader: many threads may use one object.
+// Errors    See each function, and those of CatalogReader.
 #pragma once
 
 #include <cstddef>
@@ -20,21 +24,21 @@ namespace stormcellar::catalog {
 
 class RadarSet {
   public:
-    // One for each station of a catalog directory whose database can be read, sorted by ICAO.
+    // Opens one for each station of a catalog directory whose database can be read, sorted by ICAO.
     static Result<std::vector<RadarSet>> open_all(const std::filesystem::path& catalog_directory);
-    // not_found when the catalog has no such station.
+    // Errors: not_found if the catalog has no such station.
     static Result<RadarSet> open(const std::filesystem::path& catalog_directory,
                                  const std::string& station);
 
     [[nodiscard]] const std::string& station() const { return station_; }
 
-    // The names (without directories) of the files whose volumes start within [from, to], oldest
-    // first, each once.
+    // Returns the names (without directories) of the files whose volumes start within [from, to],
+    // oldest first, each once.
     [[nodiscard]] Result<std::vector<std::string>> build_data_list(UtcTime from, UtcTime to) const;
-    // not_found when the station has no volume.
+    // Errors: not_found if the station has no volume.
     [[nodiscard]] Result<std::string> oldest_file_name() const;
-    // Raw bytes of a file named by build_data_list. Errors: not_found when the catalog or the disk
-    // has it no more, and those of read_cataloged().
+    // Returns the raw bytes of a file that build_data_list() named. Errors: not_found if the
+    // catalog or the disk no longer has it, and those of read_cataloged().
     [[nodiscard]] Result<std::vector<std::byte>> radar_file(const std::string& name) const;
     [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
 

@@ -44,7 +44,7 @@ struct ColourTable {
     level2::Moment moment = level2::Moment::ref;
     std::string unit;               // "dBZ"; empty: no unit
     std::vector<ColourStop> stops;  // at least one
-    float end = 0;  // where the last class ends in a colour bar; above the last stop
+    float end = 0;                  // where the last class ends in a color bar; above the last stop
     // Where a color bar begins, if not with the first class, which may reach far down.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
