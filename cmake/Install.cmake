@@ -21,3 +21,12 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 # Scenes of pictures, for stormcellar frame and loop.
 install(FILES scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
   scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
+# For one release: headers that moved within their room are found at their old place too.
+foreach(moved animation/animation colour/colour_table products/product volume/integration volume/light)
+  get_filename_component(name ${moved} NAME)
+  file(WRITE ${PROJECT_BINARY_DIR}/old-headers/render/${moved}.h
+    "// This header moved to stormcellar/render/${name}.h; this place goes with the next release.\n"
+    "#include \"stormcellar/render/${name}.h\"\n")
+endforeach()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/old-headers/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar
+  COMPONENT development)
