@@ -8,7 +8,7 @@ namespace stormcellar::accuracy {
 namespace {
 
 // Sums of weights and products with q may be off by this much, which must not cost a rank.
-constexpr double rounding_slack = 1e-12;
+constexpr double share_slack = 1e-12;
 
 struct Weighted {
     double magnitude = 0;
@@ -22,7 +22,7 @@ Weighted weigh(double error, double weight) {
 
 // Returns a quantile of a list that is sorted by magnitude and not empty.
 double quantile(const std::vector<Weighted>& sorted, double total_weight, double q) {
-    const double needed = q * total_weight * (1 - rounding_slack);
+    const double needed = q * total_weight * (1 - share_slack);
     double sum = 0;
     for (const Weighted& entry : sorted) {
         sum += entry.weight;

@@ -54,7 +54,7 @@ std::size_t width_of(const std::string& text) {
     }));
 }
 
-struct Column {
+struct TableColumn {
     std::string key;
     std::vector<std::string> cells;
     bool is_text = false;
@@ -68,8 +68,8 @@ struct Column {
     }
 };
 
-std::vector<Column> columns_of(std::span<const LadderRow> rows, ValueUnit unit) {
-    std::vector<Column> columns;
+std::vector<TableColumn> columns_of(std::span<const LadderRow> rows, ValueUnit unit) {
+    std::vector<TableColumn> columns;
     for (const LadderRow& row : rows) {
         const auto list = fields(row, unit);
         columns.resize(list.size());
@@ -82,11 +82,11 @@ std::vector<Column> columns_of(std::span<const LadderRow> rows, ValueUnit unit) 
                 columns[i].empty && std::holds_alternative<std::monostate>(list[i].value);
         }
     }
-    std::erase_if(columns, [](const Column& column) { return column.empty; });
+    std::erase_if(columns, [](const TableColumn& column) { return column.empty; });
     return columns;
 }
 
-std::string padded(const Column& column, const std::string& text) {
+std::string padded(const TableColumn& column, const std::string& text) {
     const std::string blanks(column.width() - width_of(text), ' ');
     return column.is_text ? text + blanks : blanks + text;
 }
@@ -132,7 +132,7 @@ std::string format_table(std::span<const LadderRow> rows, ValueUnit unit) {
     std::string text;
     const auto add_line = [&](const auto& cell_of) {
         std::string line;
-        for (const Column& column : columns) {
+        for (const TableColumn& column : columns) {
             if (!line.empty()) line += "  ";
             line += padded(column, cell_of(column));
         }
@@ -140,9 +140,9 @@ std::string format_table(std::span<const LadderRow> rows, ValueUnit unit) {
         text += line + "\n";
     };
     if (rows.empty()) return text;
-    add_line([](const Column& column) { return column.key; });
+    add_line([](const TableColumn& column) { return column.key; });
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        add_line([&](const Column& column) { return column.cells[i]; });
+        add_line([&](const TableColumn& column) { return column.cells[i]; });
     }
     return text;
 }

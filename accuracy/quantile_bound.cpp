@@ -10,7 +10,7 @@ namespace stormcellar::accuracy {
 namespace {
 
 // A weight times a count may be off by this much.
-constexpr double rounding_slack = 1e-9;
+constexpr double weight_slack = 1e-9;
 
 double magnitude(double error) {
     return std::isnan(error) ? std::numeric_limits<double>::infinity() : std::fabs(error);
@@ -97,7 +97,7 @@ std::optional<double> quantile_upper_bound(std::span<const ErrorCluster> cluster
     for (const ErrorCluster& cluster : clusters) {
         if (!std::isfinite(cluster.weight) || cluster.weight <= 0) return std::nullopt;
         const double held = cluster.weight * static_cast<double>(cluster.errors.size());
-        if (held > most_weight * (1 + rounding_slack)) return std::nullopt;
+        if (held > most_weight * (1 + weight_slack)) return std::nullopt;
         if (cluster.errors.empty()) continue;
         Column column{cluster.errors, cluster.weight};
         for (double& error : column.sorted)

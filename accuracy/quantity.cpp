@@ -13,7 +13,7 @@ constexpr int digits = 3;
 constexpr double smallest_plain = 1e-4;
 constexpr double largest_plain = 1e7;
 // The difference between binary and decimal fractions must not round 0.3 up to 0.301.
-constexpr double rounding_slack = 1e-12;
+constexpr double digit_slack = 1e-12;
 
 }  // namespace
 
@@ -55,9 +55,9 @@ std::string format_number(double number) {
     // A power of ten cannot scale such a number, so it is not rounded up.
     if (std::abs(exponent) > 290) return fmt::format("{:.3g}", number);
     const double scale = std::pow(10, digits - 1 - exponent);
-    const double rounded = std::ceil(number * scale * (1 - rounding_slack)) / scale;
+    const double rounded = std::ceil(number * scale * (1 - digit_slack)) / scale;
     if (rounded < smallest_plain || rounded >= largest_plain) return fmt::format("{:.3g}", rounded);
-    exponent = static_cast<int>(std::floor(std::log10(std::fabs(rounded)) + rounding_slack));
+    exponent = static_cast<int>(std::floor(std::log10(std::fabs(rounded)) + digit_slack));
     const int decimals = std::max(0, digits - 1 - exponent);
     std::string text = fmt::format("{:.{}f}", rounded, decimals);
     if (decimals > 0) {

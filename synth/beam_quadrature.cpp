@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/degree.h"
+
 namespace stormcellar::synth {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double nepers_a_db = std::numbers::ln10 / 10;
 constexpr double reach_deviations = 4;
 constexpr double least_points = 0.75;

@@ -5,9 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/degree.h"
 #include "grid/beam/detection_limit.h"
 #include "synth/counter_random.h"
 #include "synth/observe.h"
+#include "synth/truth.h"
 
 namespace stormcellar::synth {
 namespace {
@@ -15,8 +17,6 @@ namespace {
 using level2::Moment;
 using level2::SweepMoment;
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
 constexpr std::int32_t first_gate_m = 2125;
 constexpr std::int32_t gate_spacing_m = 250;
 constexpr int most_gates = 1832;

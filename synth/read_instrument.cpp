@@ -7,7 +7,6 @@
 namespace stormcellar::synth {
 namespace {
 
-constexpr TomlRange directions_deg{-360, 360};
 // With larger jitters radials would overtake one another.
 constexpr TomlRange jitters_deg{0, 0.25};
 

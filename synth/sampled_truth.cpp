@@ -2,15 +2,13 @@
 
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/site_frame.h"
 
 namespace stormcellar::synth {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double elevation_cosine(const Place& site, double arc_m, double height_m) {
     const grid::BeamGeometry beam(site.latitude_deg, site.height_m);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "synth/counter_random.h"
@@ -11,7 +10,6 @@
 namespace stormcellar::synth {
 namespace {
 
-constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
 constexpr double most_normal = 6.8;  // the largest number that normals_of() returns
 
 double linear(double db) {

@@ -16,7 +16,6 @@ constexpr TomlRange lengths_km{0.05, 1000};
 constexpr TomlRange heights_km{0, 30};
 constexpr TomlRange speeds_mps{-200, 200};
 constexpr TomlRange peaks_dbz{edge_dbz + 1, 90};
-constexpr TomlRange directions_deg{-360, 360};
 constexpr double km = 1000;
 
 // Reads a required key. If it is missing or wrong, that is recorded as a complaint, and the least

@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/degree.h"
+
 namespace stormcellar::synth {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
 double square(double number) {

@@ -26,6 +26,7 @@
 // Threads   Pure functions.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,8 @@ namespace stormcellar::synth {
 
 inline constexpr double edge_dbz = 10;      // of a feature at its radii
 inline constexpr double weakest_dbz = -20;  // a feature ends here
+// where there is no feature
+inline constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
 
 struct Point {
     double x_m = 0;

@@ -2,19 +2,19 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "base/degree.h"
 
 namespace stormcellar::grid {
 namespace {
 
-constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr double refraction_factor = 4.0 / 3.0;
 
 }  // namespace
 
 // sqrt(M N) = a sqrt(1 - e^2) / (1 - e^2 sin^2 latitude), with a sqrt(1 - e^2) = a (1 - f).
 double gaussian_radius_m(double latitude_deg) noexcept {
-    const double sine = std::sin(latitude_deg * radians_per_degree);
+    const double sine = std::sin(latitude_deg * degree);
     const double eccentricity2 = wgs84_flattening * (2 - wgs84_flattening);
     return wgs84_semi_major_m * (1 - wgs84_flattening) / (1 - eccentricity2 * sine * sine);
 }
@@ -27,7 +27,7 @@ BeamGeometry::BeamGeometry(double site_latitude_deg, double antenna_altitude_m) 
 // The textbook height sqrt(r^2 + a^2 + 2 r a sin e) - a subtracts two numbers of 8,500 km. With
 // q = r^2 + 2 r a sin e it is q / (sqrt(a^2 + q) + a), where nothing cancels.
 EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
-    const double elevation = gate.elevation_deg * radians_per_degree;
+    const double elevation = gate.elevation_deg * degree;
     const double up_m = gate.range_m * std::sin(elevation);
     const double along_m = gate.range_m * std::cos(elevation);
     const double q = gate.range_m * gate.range_m + 2 * antenna_m_ * up_m;
@@ -44,13 +44,13 @@ AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     const double half_sine = std::sin(angle / 2);
     const double along_m = point_m * std::sin(angle);
     const double up_m = above_antenna_m - 2 * point_m * half_sine * half_sine;
-    return {std::hypot(along_m, up_m), std::atan2(up_m, along_m) / radians_per_degree};
+    return {std::hypot(along_m, up_m), std::atan2(up_m, along_m) / degree};
 }
 
 // The law of sines in the triangle of center, antenna and point gives range = a sin t / cos(e + t),
 // and the height above the antenna = 2 a sin(e + t/2) sin(t/2) / cos(e + t).
 BeamGeometry::BeamPoint BeamGeometry::over(double arc_m, double elevation_deg) const noexcept {
-    const double elevation = elevation_deg * radians_per_degree;
+    const double elevation = elevation_deg * degree;
     const double angle = arc_m / radius_m_;
     const double cosine = std::cos(elevation + angle);
     if (!std::isgreater(cosine, 0.0)) {
@@ -63,7 +63,7 @@ BeamGeometry::BeamPoint BeamGeometry::over(double arc_m, double elevation_deg) c
 }
 
 BeamGeometry::Angle BeamGeometry::elevation_angle(double elevation_deg) noexcept {
-    const double elevation = elevation_deg * radians_per_degree;
+    const double elevation = elevation_deg * degree;
     return {std::sin(elevation), std::cos(elevation)};
 }
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
+
+#include "base/degree.h"
 
 namespace stormcellar::grid {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double radians_per_degree = std::numbers::pi / 180;
 constexpr double close_enough_m = 1e-3;
 constexpr int most_steps = 100;
 constexpr double raise_deg = 0.1;
@@ -89,8 +89,8 @@ BeamPath BeamModel::path(double elevation_deg) const {
     path.elevation_deg_ = elevation_deg;
     path.altitude_m_ = altitude_m_;
     if (kind_ == BeamKind::flat_earth) {
-        path.cosine_ = std::cos(elevation_deg * radians_per_degree);
-        path.sine_ = std::sin(elevation_deg * radians_per_degree);
+        path.cosine_ = std::cos(elevation_deg * degree);
+        path.sine_ = std::sin(elevation_deg * degree);
     }
     path.four_thirds_ = four_thirds_;
     if (kind_ == BeamKind::traced) {
@@ -104,7 +104,7 @@ AntennaPoint BeamModel::inverse(EarthPoint point) const {
     switch (kind_) {
         case BeamKind::flat_earth:
             return {std::hypot(point.arc_m, above_antenna_m),
-                    std::atan2(above_antenna_m, point.arc_m) / radians_per_degree};
+                    std::atan2(above_antenna_m, point.arc_m) / degree};
         case BeamKind::four_thirds:
             return four_thirds_.inverse(point);
         case BeamKind::traced:

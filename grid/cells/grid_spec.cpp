@@ -1,8 +1,8 @@
 #include "stormcellar/grid/grid_spec.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.h"
 #include "base/floating_point.h"
 #include "base/name_list.h"
 #include "stormcellar/grid/beam_geometry.h"
@@ -82,13 +82,12 @@ std::optional<Projection> projection_from_name(std::string_view name) {
 }
 
 DegreeLength degree_length(double latitude_deg) noexcept {
-    constexpr double radians = std::numbers::pi / 180;
     constexpr double e2 = wgs84_flattening * (2 - wgs84_flattening);
-    const double sine = std::sin(latitude_deg * radians);
+    const double sine = std::sin(latitude_deg * degree);
     const double w2 = 1 - e2 * sine * sine;
     const double prime_vertical_m = wgs84_semi_major_m / std::sqrt(w2);
-    return {prime_vertical_m * std::cos(latitude_deg * radians) * radians,
-            prime_vertical_m * (1 - e2) / w2 * radians};
+    return {prime_vertical_m * std::cos(latitude_deg * degree) * degree,
+            prime_vertical_m * (1 - e2) / w2 * degree};
 }
 
 double GridSpec::width_at_center_m() const {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.h"
 #include "base/parallel.h"
 #include "grid/beam/gate_places.h"
 #include "grid/fill/beam_choice.h"
@@ -13,8 +13,6 @@
 
 namespace stormcellar::grid {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // What is known about one sweep beside its gates.
 struct SweepFacts {

@@ -1,28 +1,25 @@
 #include "grid/frame/sphere_frame.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/degree.h"
 
 namespace stormcellar::grid {
-namespace {
-constexpr double radians = std::numbers::pi / 180;
-}  // namespace
-
 SphereFrame::SphereFrame(double latitude_deg, double longitude_deg) noexcept
     : latitude_deg_(latitude_deg),
       longitude_deg_(longitude_deg),
-      sine_(std::sin(latitude_deg * radians)),
-      cosine_(std::cos(latitude_deg * radians)) {}
+      sine_(std::sin(latitude_deg * degree)),
+      cosine_(std::cos(latitude_deg * degree)) {}
 
 // North is sin(lat2 - lat1) + 2 sin(lat1) cos(lat2) sin^2(dlon / 2). The textbook's difference of
 // products would lose accuracy close to the site.
 PolarPoint SphereFrame::to_polar(GeoPoint point) const noexcept {
-    const double half_turn = 0.5 * radians * (point.longitude_deg - longitude_deg_);
+    const double half_turn = 0.5 * degree * (point.longitude_deg - longitude_deg_);
     const double half_sine = std::sin(half_turn);
     const double half_cosine = std::cos(half_turn);
-    const double there_sine = std::sin(point.latitude_deg * radians);
-    const double there_cosine = std::cos(point.latitude_deg * radians);
-    const double rise = std::sin((point.latitude_deg - latitude_deg_) * radians);
+    const double there_sine = std::sin(point.latitude_deg * degree);
+    const double there_cosine = std::cos(point.latitude_deg * degree);
+    const double rise = std::sin((point.latitude_deg - latitude_deg_) * degree);
     const double east = 2 * there_cosine * half_sine * half_cosine;
     const double north = rise + 2 * sine_ * there_cosine * half_sine * half_sine;
     const double up = sine_ * there_sine +

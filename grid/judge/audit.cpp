@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "base/degree.h"
 #include "base/parallel.h"
 #include "grid/beam/detection_limit.h"
 #include "grid/beam/gate_places.h"
@@ -19,7 +19,6 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t classes = audit_range_borders_m.size() + 1;
 
 // Returns the state of a cell for that of a gate; none for no data, where the gate says nothing.

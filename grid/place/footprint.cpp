@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/degree.h"
 
 namespace stormcellar::grid {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct Vector {
     double east_m = 0;

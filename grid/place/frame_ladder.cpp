@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/degree.h"
 #include "grid/frame/sphere_frame.h"
 #include "grid/place/frame_table.h"
 #include "stormcellar/grid/beam_geometry.h"
@@ -13,7 +13,6 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
 constexpr double geodesic_error_m = 1e-6;
 constexpr double half_meridian_m = 20003931.5;  // of WGS84: no two points are farther apart
 constexpr double quarter_meridian_m = 10001965.7;
@@ -25,7 +24,7 @@ struct ScaleError {
 };
 ScaleError scale_error(double latitude_deg) {
     constexpr double e2 = wgs84_flattening * (2 - wgs84_flattening);
-    const double sine = std::sin(latitude_deg * radians);
+    const double sine = std::sin(latitude_deg * degree);
     const double w2 = 1 - e2 * sine * sine;
     const double prime_vertical_m = wgs84_semi_major_m / std::sqrt(w2);
     return {SphereFrame::radius_m / (prime_vertical_m * (1 - e2) / w2) - 1,
@@ -115,7 +114,7 @@ double reach_m(const SitePosition& site, const GridSpec& spec) {
 double storage_error_bound_m(double reach_m) noexcept {
     // The error is half a unit in the last place of a float: for an azimuth below 360, and for the
     // arc.
-    constexpr double azimuth_rad = 0x1p-16 * radians;
+    constexpr double azimuth_rad = 0x1p-16 * degree;
     const double arc_m = std::ldexp(1.0, std::ilogb(std::max(reach_m, 1e-30)) - 24);
     return std::hypot(reach_m * azimuth_rad, arc_m);
 }

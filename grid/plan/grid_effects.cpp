@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
+#include "base/degree.h"
 #include "grid/cells/moment_rules.h"
 
 namespace stormcellar::grid {
@@ -13,8 +13,6 @@ namespace {
 
 using accuracy::Effect;
 using accuracy::Step;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // The times for 460 x 460 x 32 cells over a convective volume, relative to nearest gates
 // (docs/accuracy.md).

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "accuracy/timing.h"
+#include "base/degree.h"
 #include "stormcellar/grid/gridder.h"
 
 namespace stormcellar::grid {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct Position {
     double max_m = 0, rms_m = 0;

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/degree.h"
 #include "grid/sweep/sweep_stack.h"
 #include "stormcellar/accuracy/quantity.h"
 
 namespace stormcellar::grid {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double table_bound_m = 1e-3;
 
 double jitter_m(const PositionScene& scene, double reach) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/degree.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -10,8 +11,6 @@ namespace {
 // This stands for a beam that never passes over an arc: it is above everything, so far that the
 // line from the arc before does not pass any height that could be meant.
 constexpr float above_everything_m = 1e30F;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // An edge is lost if it is on the wrong side of the beam's center. NaN: it never passes over the
 // arc.

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 #include <vector>
 
+#include "base/degree.h"
+
 namespace stormcellar::render {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double linear_channel(int stored) {
     const double share = stored / 255.0;

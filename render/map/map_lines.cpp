@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/degree.h"
 #include "render/image/shades.h"
 #include "render/map/map_ground.h"
 
 namespace stormcellar::render {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
 constexpr int ring_vertices = 240;
 constexpr int most_rings = 40;
 
@@ -29,7 +29,7 @@ class SiteMap {
             return {site_.x_m + arc_m * std::sin(azimuth_rad),
                     site_.y_m + arc_m * std::cos(azimuth_rad)};
         }
-        return map_.ground(frame_.to_geo({azimuth_rad / radians, arc_m}));
+        return map_.ground(frame_.to_geo({azimuth_rad / degree, arc_m}));
     }
 
   private:

@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.h"
 #include "render/image/shades.h"
 #include "render/map/map_marks.h"
 
 namespace stormcellar::render {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 Point moved(const MapLines& lines, Point p) {
     return {p.x + lines.left, p.y + lines.top};
@@ -25,7 +23,7 @@ void draw_texts(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
 std::vector<Point> circle_about(Point middle, double radius) {
     std::vector<Point> circle;
     for (int i = 0; i < 16; ++i) {
-        const double turn = i * 22.5 * radians;
+        const double turn = i * 22.5 * degree;
         circle.push_back({middle.x + radius * std::sin(turn), middle.y - radius * std::cos(turn)});
     }
     return circle;
@@ -73,8 +71,8 @@ class GroundTurn {
 
     [[nodiscard]] bool is_visible() const { return visible_; }
     [[nodiscard]] Point towards(double azimuth_deg) const {
-        const double x = std::sin(azimuth_deg * radians) * scale_;
-        const double y = std::cos(azimuth_deg * radians) * scale_;
+        const double x = std::sin(azimuth_deg * degree) * scale_;
+        const double y = std::cos(azimuth_deg * degree) * scale_;
         return {x * east_.x + y * north_.x, x * east_.y + y * north_.y};
     }
 

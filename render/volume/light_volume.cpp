@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.h"
 #include "base/parallel.h"
 
 namespace stormcellar::render {
 namespace {
 
-constexpr double to_radians = std::numbers::pi / 180;
 constexpr double sky_elevation_deg = 35;
 constexpr int sky_directions = 9;  // the zenith and eight directions around it
 // The shares of the light from the sky and from the sun.
@@ -19,8 +18,8 @@ constexpr double forward_g = 0.4;    // parameter of the phase function
 constexpr double least_phase = 0.4;  // what is left of the sun's share where the phase is weakest
 
 Vec3 direction(double azimuth_deg, double elevation_deg) {
-    const double azimuth = azimuth_deg * to_radians;
-    const double elevation = elevation_deg * to_radians;
+    const double azimuth = azimuth_deg * degree;
+    const double elevation = elevation_deg * degree;
     return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
             std::sin(elevation)};
 }

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/degree.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "synth/beam_quadrature.h"
 #include "synth/radial_observer.h"
-#include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {

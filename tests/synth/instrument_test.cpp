@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
+#include "base/degree.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/encode.h"
 #include "synth/observe.h"
 #include "synth/synth_effects.h"
-#include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {

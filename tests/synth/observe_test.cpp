@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/degree.h"
 #include "grid/beam/detection_limit.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/encode.h"
-#include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/degree.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/site_frame.h"
-#include "tests/synth/degree.h"
 
 namespace stormcellar::synth {
 namespace {
