@@ -23,7 +23,7 @@ namespace {
 // No option and no argument means anything when it is empty.
 void refuse_empty(CLI::App& command) {
     const auto complaint = [](const std::string& value) {
-        return value.empty() ? std::string{"is empty"} : std::string{};
+        return value.empty() ? std::string{"must not be empty"} : std::string{};
     };
     for (CLI::Option* option : command.get_options()) {
         if (option->get_expected_max() > 0) option->check(complaint);
@@ -63,7 +63,7 @@ std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
 int flushed(int status) {
     const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     if (!failed) return status;
-    fmt::print(stderr, "stormcellar: standard output cannot be written\n");
+    fmt::print(stderr, "stormcellar: cannot write to standard output\n");
     return status == exit_done ? exit_failed : status;
 }
 
@@ -71,7 +71,7 @@ int flushed(int status) {
 int print_reference(const CLI::App& app, const std::string& kind) {
     const std::optional<std::string> text = reference_text(app, kind);
     if (!text) {
-        fmt::print(stderr, "stormcellar: --reference: man, bash, zsh or fish\n");
+        fmt::print(stderr, "stormcellar: --reference takes man, bash, zsh or fish\n");
         return exit_bad_usage;
     }
     fmt::print("{}", *text);
@@ -81,7 +81,7 @@ int print_reference(const CLI::App& app, const std::string& kind) {
 int run(int argc, char** argv) {
     keep_freed_memory();
     cache::install_map_guard();
-    CLI::App app{"Weather radar Level II volumes: catalog, grids, loops."};
+    CLI::App app{"Catalogs, grids and draws NEXRAD Level II weather radar volumes."};
     app.name("stormcellar");
     app.set_version_flag("--version", std::string{software_version});
     app.require_subcommand(1);
@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     try {
         return stormcellar::cli::flushed(stormcellar::cli::run(argc, argv));
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "stormcellar: it takes more memory than there is\n");
+        fmt::print(stderr, "stormcellar: this work needs more memory than the machine can give\n");
         return stormcellar::cli::exit_failed;
     } catch (const std::exception& error) {
         fmt::print(stderr, "stormcellar: {}\n", stormcellar::cli::printable(error.what()));

@@ -327,41 +327,43 @@ int run_accuracy(AccuracyOptions options) {
 Run set_up_accuracy(CLI::App& command) {
     const auto options = std::make_shared<AccuracyOptions>();
     options->grid.threads = 1;
-    command.add_option(
-        "FILE", options->grid.files,
-        "One Level II file; or several of several sites, or of one at a --time: the "
-        "steps that make one frame of them; or three or more of one site, of which "
-        "each is made again from its neighbours in time; or, with --compare-sites, of several");
+    command.add_option("FILE", options->grid.files,
+                       "The Level II files to measure. One file is measured alone. Files of "
+                       "several sites, or of one site with --time, are measured as one mosaic. Of "
+                       "three or more files of one site, each is made again from its neighbors in "
+                       "time. --compare-sites needs files of several sites");
     command.add_option("--time", options->grid.time,
-                       "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
-                       "repeated sweeps is taken");
-    command.add_flag("--held-out", options->held_out,
-                     "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
-                     "the repeats beside it; of a scene: its second volume");
+                       "Instant in UTC (ISO 8601). For several FILEs, it is the instant of their "
+                       "mosaic; for one FILE, the nearest of repeated sweeps is used");
+    command.add_flag(
+        "--held-out", options->held_out,
+        "Make held-out data again from their neighbors in time and compare. For one FILE these are "
+        "the repeats of its lowest cut (SAILS, MRLE); for a scene, its second volume");
     command.add_flag("--compare-sites", options->compare_sites,
-                     "Compare sites that overlap: bias, azimuth, elevation and clock of each "
-                     "pair; of a site with two FILEs the motion of the weather is known");
+                     "Compare sites that overlap: bias, azimuth, elevation and clock of each pair. "
+                     "Two FILEs of one site also show the motion of the weather");
     command.add_flag("--picture", options->picture,
-                     "Of one FILE or a scene: what the accuracy of its picture costs instead: "
-                     "slices, integration, rays and light");
-    command.add_option("--scene", options->scene,
-                       "A simulated scene instead; its truth is compared with too");
+                     "Measure the picture of one FILE or a scene instead of its grid: slices, "
+                     "integration, rays and light");
+    command.add_option(
+        "--scene", options->scene,
+        "A simulated scene (TOML) to measure instead of FILEs, also against its own truth");
     add_spec_options(command, options->grid);
     command
-        .add_option(
-            "--profile", options->effects.profile,
-            "Of refractivity, what the exact beams are traced through: exponential, standard "
-            "or a sounding file")
+        .add_option("--profile", options->effects.profile,
+                    "Profile of refractivity through which the exact beams are traced: "
+                    "exponential, standard or a sounding file")
         ->capture_default_str();
-    command.add_option("--columns", options->columns, "How many columns are compared")
+    command.add_option("--columns", options->columns, "Number of columns to compare")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000000));
-    command.add_option("--rounds", options->rounds, "How often each time is taken")
+    command.add_option("--rounds", options->rounds, "Number of times that each time is measured")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    command.add_option("--plot", options->plot, "Write error against time as FILE.svg");
+    command.add_option("--plot", options->plot,
+                       "Write a plot of error against time to this file (.svg)");
     command.add_flag("--markdown", options->markdown,
-                     "Tables as Markdown, as docs/accuracy.md has them; not with --json");
+                     "Print the tables as Markdown, as in docs/accuracy.md; not with --json");
     return [options] { return run_accuracy(*options); };
 }
 

@@ -124,25 +124,28 @@ int run_fetch(FetchOptions options) {
 Run set_up_fetch(CLI::App& fetch) {
     const auto options = std::make_shared<FetchOptions>();
     add_time_range(fetch, options->times);
-    fetch.add_option("--stations", options->stations, "ICAOs, e.g. KTLX,KFDR");
+    fetch.add_option("--stations", options->stations,
+                     "ICAO identifiers of the stations, such as KTLX,KFDR");
     fetch.add_option("--bounds", options->bounds,
-                     "WEST,SOUTH,EAST,NORTH in degrees: the stations that stand within");
+                     "Fetch the stations within these bounds: WEST,SOUTH,EAST,NORTH in degrees");
     fetch
         .add_option("-o,--output", options->directory,
-                    "The directory to put them in; it is made when it is missing")
+                    "Directory for the files; it is made if it does not exist")
         ->required();
     fetch
         .add_option("--source", options->request.source,
-                    "Address of a bucket that answers as Amazon S3 does (ListObjectsV2)")
+                    "Address of the bucket, which must answer as Amazon S3 does (ListObjectsV2)")
         ->capture_default_str();
-    fetch.add_option("--parallel", options->request.parallel, "Transfers at a time")
+    fetch.add_option("--parallel", options->request.parallel, "Number of transfers at a time")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
-    fetch.add_option("--tries", options->request.tries, "How often each is tried")
+    fetch
+        .add_option("--tries", options->request.tries,
+                    "Number of times that each transfer is tried")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    fetch.add_flag("--quiet", options->quiet, "Say nothing but what went wrong");
-    fetch.add_flag("--json", options->json, "Say what was done as one JSON document");
+    fetch.add_flag("--quiet", options->quiet, "Print only what went wrong");
+    fetch.add_flag("--json", options->json, "Print what was done as one JSON document");
     return [options] { return run_fetch(*options); };
 }
 

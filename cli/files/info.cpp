@@ -284,19 +284,21 @@ int run_info(const InfoOptions& options) {
 
 Run set_up_info(CLI::App& info) {
     const auto options = std::make_shared<InfoOptions>();
-    info.add_option(
-            "FILE", options->file,
-            "The file, or a directory of chunks; what it is, is found by content. Of a tar or "
-            "zip archive, or of a directory of files, each file; - is standard input")
+    info.add_option("FILE", options->file,
+                    "The file to describe: a Level II file, a directory of chunks, or - for "
+                    "standard input. Of a tar or zip archive or a directory of files, each file is "
+                    "described. The kind is found from the content")
         ->required();
-    info.add_flag("--json", options->json, "One JSON document");
+    info.add_flag("--json", options->json, "Print one JSON document");
     CLI::Option* to = info.add_option("--to", options->to,
-                                      "Also write the volume to this file, as CfRadial netCDF");
-    info.add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
+                                      "Also write the volume to this file as CfRadial netCDF");
+    info.add_option("--volume", options->volume,
+                    "Number of the volume to write, from 1, if the file holds several")
         ->check(CLI::Range(1, 1000))
         ->needs(to);
     add_site_options(info, options->site);
-    info.add_option("--threads", options->threads, "Threads to decompress with")
+    info.add_option("--threads", options->threads,
+                    "Number of threads for decompression. Default: all processors")
         ->check(CLI::Range(1, 256));
     return [options] { return run_info(*options); };
 }

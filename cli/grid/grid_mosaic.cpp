@@ -67,12 +67,14 @@ Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
     app.add_option(
         "--overlap", options.overlap,
-        fmt::format("Where several sites see a cell: {} (the default); {} allow nearest alone",
-                    names_in(grid::overlap_facts, ", ", " or "), never_mixed()));
-    app.add_option("--overlap-km", options.overlap_km,
-                   "L of the weight exp(-r^2/L^2) of a site r away; else 250");
+        fmt::format(
+            "Rule for cells that several sites see: {} (the default). {} allow only nearest",
+            names_in(grid::overlap_facts, ", ", " or "), never_mixed()));
+    app.add_option(
+        "--overlap-km", options.overlap_km,
+        "Length L in km of the weight exp(-r^2/L^2) of a site at the distance r. Default: 250");
     app.add_option("--time-method", effects.time_method,
-                   fmt::format("Between two volumes of a site: {} (the default)",
+                   fmt::format("How to interpolate between two volumes of a site: {} (the default)",
                                names_in(grid::time_method_facts, ", ", " or ")));
 }
 

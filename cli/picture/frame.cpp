@@ -247,19 +247,23 @@ int run_frame(FrameOptions options) {
 Run set_up_frame(CLI::App& frame) {
     const auto options = std::make_shared<FrameOptions>();
     add_scene_file(frame, options->scene_file, options->scene, options->plan, nullptr);
-    frame.add_option("--cache", options->cache, "The cache's directory")->required();
-    frame.add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
+    frame.add_option("--cache", options->cache, "Directory of the cache")->required();
+    frame
+        .add_option("DOMAIN,--domain", options->domain,
+                    "Domain of the grid; that of a station is its ICAO identifier")
         ->required();
     frame.add_option("--time", options->time,
-                     "UTC, or relative as -1h: the grid at or next before it (default: latest)");
+                     "Draw the newest grid at or before this time, in UTC or relative as -1h. "
+                     "Default: the latest grid");
     frame.add_option("-o,--output", options->output,
-                     "The picture, .png, or - for standard output; needed unless something is "
-                     "probed");
-    frame.add_option("--probe", options->probe,
-                     "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
+                     "The picture to write (.png), or - for standard output. It may be left out "
+                     "with --probe and --probe-at");
+    frame.add_option(
+        "--probe", options->probe,
+        "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");
     frame.add_option("--probe-at", options->probe_at,
-                     "LAT,LON: say what is at that place (maps and volumes)");
-    frame.add_flag("--json", options->json, "Say what was done as one JSON document");
+                     "Print the value at this place: LAT,LON in degrees (maps and volumes)");
+    frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);
     return [options] { return run_frame(*options); };

@@ -95,16 +95,17 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
     const std::string group = "Accuracy of a volume's picture";
     app.add_option(
            "--tolerance", options.tolerance,
-           "What the picture may be off, \"dE 2\" (99 % of the pixels, CIEDE2000), or take, "
-           "\"20 ms\": slices and rays are chosen for it")
+           "Allowed error of the picture, as in \"dE 2\" (CIEDE2000, for 99 % of the pixels), or "
+           "allowed time, as in \"20 ms\". Slices and rays are chosen to meet it")
         ->group(group)
         ->each([&options](const std::string&) { options.tolerance_typed = true; });
     app.add_option("--effect", options.effects,
-                   "NAME=on|off|auto, any number; --explain lists the effects")
+                   "Turn an effect on or off, or let the plan decide: NAME=on|off|auto. The option "
+                   "may be given several times; --explain lists the effects")
         ->group(group)
         ->each([&options](const std::string&) { options.effects_typed = true; });
     app.add_flag("--explain", options.explain,
-                 "Say how large each effect is, and why it is on or off")
+                 "Print how large each effect is, and why it is on or off")
         ->group(group);
 }
 

@@ -258,7 +258,7 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
     };
     app.add_option_function<std::string>(
            "--scene", read,
-           "A .toml file that says what the picture is; options given beside it win")
+           "A .toml file that describes the picture; options on the command line override it")
         ->group("Picture");
 }
 

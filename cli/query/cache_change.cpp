@@ -142,30 +142,33 @@ int run_pin(const PinOptions& options, bool pin) {
 
 Command add_evict(CLI::App& cache) {
     CLI::App* evict = cache.add_subcommand(
-        "evict", "Remove the oldest grids, beside a running daemon too; pinned ones stay");
+        "evict", "Remove the oldest grids, even while a daemon runs; pinned grids stay");
     const auto options = std::make_shared<EvictOptions>();
-    evict->add_option("--cache", options->directory, "The cache's directory")->required();
-    evict->add_option("--domain", options->domain, "One domain and its parts; all when left out");
+    evict->add_option("--cache", options->directory, "Directory of the cache")->required();
+    evict->add_option("--domain", options->domain,
+                      "Name of one domain, whose partials are included. Default: all domains");
     evict->add_option("--to", options->to,
-                      "All up to this time, itself and the newest included: UTC, or -1h, now");
+                      "Remove all grids up to and including this time, even the newest: UTC, or "
+                      "relative as -1h or now");
     evict->add_option(
         "--bytes", options->bytes,
-        "The oldest, until the rest takes no more than this, as 20 GB; those of stations "
-        "that nobody knows first; the newest of each other domain stays");
+        "Remove the oldest grids until the rest take at most this much, such as 20 GB. The grids "
+        "of unknown stations go first, and the newest grid of each other domain stays");
     evict->add_option("--older-than", options->older_than_h,
-                      "All more hours than this before the newest of the same domain");
-    evict->add_flag("--dry-run", options->dry_run, "Only say what would go");
+                      "Remove the grids that are more than this many hours older than the newest "
+                      "of their domain");
+    evict->add_flag("--dry-run", options->dry_run, "Only print what would be removed");
     evict->add_flag("--json", options->json, "Print one JSON document");
     return {evict, [=] { return run_evict(*options); }};
 }
 
 Command add_pin(CLI::App& cache, bool pin) {
     CLI::App* command =
-        pin ? cache.add_subcommand("pin", "Have grids stay until they are unpinned")
-            : cache.add_subcommand("unpin", "Let pinned grids go with the others again");
+        pin ? cache.add_subcommand("pin", "Pin grids, so that they stay until they are unpinned")
+            : cache.add_subcommand("unpin", "Unpin grids, so that they may be removed again");
     const auto options = std::make_shared<PinOptions>();
-    command->add_option("--cache", options->directory, "The cache's directory")->required();
-    command->add_option("--domain", options->domain, "Whose grids")->required();
+    command->add_option("--cache", options->directory, "Directory of the cache")->required();
+    command->add_option("--domain", options->domain, "Domain of the grids")->required();
     add_time_range(*command, options->times);
     command->add_flag("--json", options->json, "Print one JSON document");
     return {command, [=] { return run_pin(*options, pin); }};

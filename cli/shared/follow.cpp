@@ -104,9 +104,10 @@ bool end_with(pid_t parent) {
 
 void add_follow_options(CLI::App& app, FollowOptions& options) {
     app.add_flag("--follow", options.wanted,
-                 "Stay, and make it again whenever its grids come or go");
+                 "Keep running, and make the loop again whenever its grids change");
     // For stormcellard, whose end shall be this one's; of no use by hand.
-    app.add_option("--with-parent", options.parent, "End when that process does")->group("");
+    app.add_option("--with-parent", options.parent, "End when the process of this number ends")
+        ->group("");
 }
 
 int follow(const Following& following, const FollowOptions& options,

@@ -172,32 +172,34 @@ Run set_up_replay(CLI::App& replay) {
     const auto options = std::make_shared<ReplayCommandOptions>();
     replay
         .add_option("PLACES", options->places,
-                    "Files, archives or directories to play, and the drop directory as the last")
+                    "Files, archives or directories to replay, and the drop directory as the last")
         ->required()
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");
     replay
         .add_option("--as", options->delivery,
-                    "Whole: renamed when complete (default); growing: appended and closed for each "
-                    "chunk; open: appended and kept open; chunks: a file for each chunk, "
+                    "How the files arrive: whole (the default) renames each file when it is "
+                    "complete; growing appends chunk by chunk and closes the file each time; open "
+                    "appends and keeps the file open; chunks writes a file for each chunk, "
                     "DROP/STATION/NUMBER/DATE-TIME-CHUNK-S|I|E")
         ->check(CLI::IsMember({"whole", "growing", "open", "chunks"}))
         ->option_text("whole|growing|open|chunks");
     auto* interval = replay.add_option("--interval", options->interval_s,
-                                       "Seconds from file to file, whatever their times");
+                                       "Seconds from one file to the next, whatever their times");
     interval->check(CLI::Range(0.0, 86400.0));
     replay
         .add_option("--speed", options->speed,
-                    "How many times faster than the files' own times (default: 1); stations mix")
+                    "How many times faster than in real time the files arrive; those of several "
+                    "stations are mixed. Default: 1")
         ->check(CLI::Range(0.001, 1e6))
         ->excludes(interval);
     replay
         .add_option("--faults", options->faults,
-                    "What goes wrong, with which probability for each chunk (of whole files: for "
-                    "each file), as drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7; "
-                    "--json names each one")
+                    "Faults to make, each with its probability for a chunk (for a file, if files "
+                    "are whole): drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7. --json "
+                    "names each fault that was made")
         ->option_text("SPEC");
-    replay.add_flag("--json", options->json, "Say what was done as one JSON document");
+    replay.add_flag("--json", options->json, "Print what was done as one JSON document");
     return [options] { return run_replay(*options); };
 }
 
