@@ -98,7 +98,7 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
     accuracy::Plot plot;
     plot.title = title;
     plot.error_label =
-        of_picture ? "Colour difference, 99th percentile (CIEDE2000)"
+        of_picture ? "Color difference, 99th percentile (CIEDE2000)"
                    : fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
     plot.time_label = of_picture ? "Time of a picture" : "Time of a whole grid, geometry kept";
     for (const accuracy::LadderRow& row : rows) {
@@ -142,7 +142,7 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
         rows.begin(), rows.end(),
         [](const accuracy::LadderRow& row) { return row.value && row.value->count > 0; });
     if (!any_value) {
-        print_note("no cell that was compared has a value, so there are no errors of values");
+        print_note("none of the compared cells has a value, so there are no value errors");
     }
 }
 
@@ -176,11 +176,11 @@ Status check_site_options(const AccuracyOptions& options) {
     if (options.grid.files.size() < 2 || options.held_out || !options.scene.empty() ||
         !options.plot.empty()) {
         return fail(ErrorCode::bad_argument,
-                    "--compare-sites takes two FILEs or more, of different sites, and neither "
-                    "--scene, --plot nor --held-out");
+                    "--compare-sites needs two or more FILEs of different sites, and cannot be "
+                    "used with --scene, --plot or --held-out");
     }
     if (options.grid.json && options.markdown) {
-        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+        return fail(ErrorCode::bad_argument, "--markdown and --json cannot be used together");
     }
     return {};
 }
@@ -189,24 +189,25 @@ Status check_options(AccuracyOptions& options) {
     const std::size_t files = options.grid.files.size();
     if (options.picture && (options.compare_sites || options.held_out || files > 1)) {
         return fail(ErrorCode::bad_argument,
-                    "--picture takes one FILE or a scene, and neither --held-out nor "
+                    "--picture takes one FILE or a scene, and cannot be used with --held-out or "
                     "--compare-sites");
     }
     if (options.compare_sites) return check_site_options(options);
     if (options.scene.empty() == (files == 0)) {
-        return fail(ErrorCode::bad_argument, "name one FILE or more, or a scene with --scene");
+        return fail(ErrorCode::bad_argument, "name one or more FILEs, or a scene with --scene");
     }
     if (options.held_out && !options.plot.empty()) {
-        return fail(ErrorCode::bad_argument, "--plot shows a ladder, not what was held out");
+        return fail(ErrorCode::bad_argument,
+                    "--plot cannot show held-out volumes; leave out --held-out");
     }
     if (!options.scene.empty()) options.grid.files = {options.scene};
     if (options.grid.json && options.markdown) {
-        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+        return fail(ErrorCode::bad_argument, "--markdown and --json cannot be used together");
     }
     if (options.plot.empty()) return {};
     if (!options.plot.ends_with(".svg")) {
         return fail(ErrorCode::bad_argument,
-                    "--plot writes SVG: its name must end in .svg, unlike '{}'", options.plot);
+                    "--plot writes SVG: the name must end in .svg, not '{}'", options.plot);
     }
     return check_target(options.plot);
 }
@@ -225,7 +226,7 @@ int report_over_time(const AccuracyOptions& options, const GridRequest& request,
         return exit_done;
     }
     fmt::print(
-        "Each volume between two others, held out and made again from those; against what was "
+        "Each volume between two others, made again from those two and compared with what was "
         "seen:\n\n{}",
         format_held_out(*rows, options.markdown));
     return exit_done;
@@ -268,8 +269,8 @@ int run_files(const AccuracyOptions& options, const GridRequest& request) {
     if (!sources) return report_error(sources.error());
     if (!request.frame_time && sources->site_count() == 1) {
         if (!options.plot.empty()) {
-            return report_error({ErrorCode::bad_argument,
-                                 "--plot shows a ladder, not what was held out: give a --time"});
+            return report_error(
+                {ErrorCode::bad_argument, "--plot cannot show held-out volumes; give a --time"});
         }
         return report_over_time(options, request, sequence_of(std::move(*sources)));
     }

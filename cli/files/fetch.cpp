@@ -43,7 +43,8 @@ Result<std::vector<std::string>> stations_within(const std::string& text) {
         }
     }
     if (stations.empty()) {
-        return fail(ErrorCode::bad_argument, "--bounds {}: no station stands there", text);
+        return fail(ErrorCode::bad_argument, "--bounds {}: no station lies within these bounds",
+                    text);
     }
     return stations;
 }
@@ -55,7 +56,7 @@ Status complete_request(FetchOptions& options) {
         return fail(ErrorCode::bad_argument, "fetch needs --from and --to");
     }
     if (options.stations.empty() == options.bounds.empty()) {
-        return fail(ErrorCode::bad_argument, "fetch needs --stations or --bounds, and not both");
+        return fail(ErrorCode::bad_argument, "fetch needs either --stations or --bounds");
     }
     auto stations =
         options.bounds.empty() ? parse_stations(options.stations) : stations_within(options.bounds);
@@ -84,13 +85,14 @@ int report_of(const FetchOptions& options, const fetch::FetchReport& report) {
     if (options.json) {
         print_json(json_of(report));
     } else if (!options.quiet) {
-        fmt::print(stderr, "{} {} of {} {} ({}) into {}; {} were there already{}\n", report.fetched,
-                   plural(report.fetched, "volume"), options.request.stations.size(),
+        fmt::print(stderr, "fetched {} {} of {} {} ({}) into {}; {} were there already{}\n",
+                   report.fetched, plural(report.fetched, "volume"),
+                   options.request.stations.size(),
                    plural(options.request.stations.size(), "station"),
                    format_byte_size(report.bytes), printable(options.directory), report.present,
                    report.failures.empty()
                        ? ""
-                       : fmt::format("; {} failed: the same command tries them again",
+                       : fmt::format("; {} failed, and the same command tries them again",
                                      report.failures.size()));
     }
     if (!report.failures.empty()) return exit_failed;
@@ -112,7 +114,7 @@ int run_fetch(FetchOptions options) {
     if (!report) return report_error(report.error());
     if (report->stopped) {
         fmt::print(stderr,
-                   "stormcellar: interrupted; the same command goes on from the {} {} that came\n",
+                   "stormcellar: interrupted after {} {}; the same command continues from there\n",
                    report->fetched, plural(report->fetched, "volume"));
         interrupt.end_by_signal();
     }

@@ -52,7 +52,8 @@ std::string never_mixed() {
 Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                    GridRequest request) {
     if (sites.empty() && !request.center_deg) {
-        return fail(ErrorCode::bad_argument, "no station says where the grid lies: give --center");
+        return fail(ErrorCode::bad_argument,
+                    "the position of none of the stations is known; give --center");
     }
     const grid::GeoPoint center =
         request.center_deg ? grid::GeoPoint{(*request.center_deg)[0], (*request.center_deg)[1]}
@@ -87,7 +88,7 @@ Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const Eff
                                        : !effects.time_method.empty() ? "--time-method"
                                                                       : "";
         if (given.empty()) return mosaic;
-        return fail(ErrorCode::bad_argument, "{} is for several FILEs", given);
+        return fail(ErrorCode::bad_argument, "{} needs several FILEs", given);
     }
     mosaic.moment = request.moment;
     mosaic.overlap = grid::default_overlap(request.moment);

@@ -86,7 +86,7 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
     if (cells <= most) return static_cast<int>(cells);
     return fail(
         ErrorCode::bad_argument,
-        "an extent of {0} {2} is too large for cells of {1} {2}: at most {3} of them, {4} {2}",
+        "an extent of {0} {2} is too large for cells of {1} {2}; the limit is {3} cells, {4} {2}",
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
@@ -95,8 +95,9 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
     if (!whole) {
-        return fail(ErrorCode::bad_argument, "an extent of {} {} is no whole number of {} {} cells",
-                    extent, unit_name(unit), spacing, unit_name(unit));
+        return fail(ErrorCode::bad_argument,
+                    "an extent of {} {} is not a whole number of cells of {} {}", extent,
+                    unit_name(unit), spacing, unit_name(unit));
     }
     return count_of(cells, extent, spacing, unit);
 }
@@ -105,8 +106,9 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
 Result<int> cells_over(double extent_deg, double spacing_deg) {
     const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
     if (!(cells >= 1)) {
-        return fail(ErrorCode::bad_argument, "an extent of {} degrees in cells of {} degrees",
-                    extent_deg, spacing_deg);
+        return fail(ErrorCode::bad_argument,
+                    "an extent of {} degrees is too small for cells of {} degrees", extent_deg,
+                    spacing_deg);
     }
     return count_of(cells, extent_deg, spacing_deg, SizeUnit::degrees);
 }
@@ -116,13 +118,13 @@ Status parse_size(const GridOptions& options, GridRequest& request) {
     const bool any_degrees = options.spacing_deg || !options.extent_deg.empty();
     if (any_degrees && !grid::facts_of(request.projection).in_degrees) {
         return fail(ErrorCode::bad_argument,
-                    "--spacing-deg and --extent-deg are for --projection latitude_longitude");
+                    "--spacing-deg and --extent-deg need --projection latitude_longitude");
     }
     const bool twice = (options.spacing_deg && options.spacing_km) ||
                        (!options.extent_deg.empty() && !options.extent_km.empty());
     if (twice) {
         return fail(ErrorCode::bad_argument,
-                    "give the spacing and the extent once each, in km or in degrees");
+                    "give the spacing once and the extent once, in km or in degrees");
     }
     request.spacing_unit = options.spacing_deg ? SizeUnit::degrees : SizeUnit::km;
     request.spacing = options.spacing_deg.value_or(options.spacing_km.value_or(request.spacing));
@@ -152,7 +154,7 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
     }
     if (options.parallels.empty()) return {};
     if (!grid::facts_of(request.projection).takes_parallels) {
-        return fail(ErrorCode::bad_argument, "--parallels is for --projection lambert_conformal");
+        return fail(ErrorCode::bad_argument, "--parallels needs --projection lambert_conformal");
     }
     const auto parallels = parse_pair("--parallels", "LAT1,LAT2 in degrees", options.parallels);
     if (!parallels) return pass_on(parallels);
@@ -194,18 +196,19 @@ Status parse_fields(const GridOptions& options, GridRequest& request) {
         names.reserve(grid::all_details.size());
         for (const grid::Detail known : grid::all_details)
             names.push_back(grid::detail_name(known));
-        return fail(ErrorCode::bad_argument,
-                    "--fields takes any of {} or all, of several FILEs {}, {} or all, not '{}'",
-                    fmt::join(names, ", "), counts_field, weights_field, name);
+        return fail(
+            ErrorCode::bad_argument,
+            "--fields takes {} or all for one FILE, and {}, {} or all for several FILEs, not '{}'",
+            fmt::join(names, ", "), counts_field, weights_field, name);
     }
     if (mosaic && request.details.any()) {
-        return fail(ErrorCode::bad_argument,
-                    "--fields {}: what tells of single gates is for one "
-                    "FILE; of several there are {} and {}",
-                    text, counts_field, weights_field);
+        return fail(
+            ErrorCode::bad_argument,
+            "--fields {}: details of single gates need one FILE; several FILEs have {} and {}",
+            text, counts_field, weights_field);
     }
     if (!mosaic && (request.site_counts || request.site_weights)) {
-        return fail(ErrorCode::bad_argument, "--fields {}: {} and {} are for several FILEs", text,
+        return fail(ErrorCode::bad_argument, "--fields {}: {} and {} need several FILEs", text,
                     counts_field, weights_field);
     }
     return {};

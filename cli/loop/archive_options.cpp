@@ -54,7 +54,7 @@ Result<grid::GridSpec> spec_over(const pipeline::Bounds& bounds, GridRequest req
     if (!half) return pass_on(half);
     if (!(half->x > 0) || !(half->y > 0)) {
         return fail(ErrorCode::bad_argument,
-                    "--bounds are too wide for a plane: add --projection lat-lon");
+                    "--bounds are too wide for a flat projection; add --projection lat-lon");
     }
     request.extent = {2 * std::ceil(half->x - 1e-6) * request.spacing,
                       2 * std::ceil(half->y - 1e-6) * request.spacing};
@@ -70,10 +70,10 @@ Result<std::vector<std::string>> parse_stations(const std::string& text) {
         const std::string name = text.substr(from, to - from);
         from = to + 1;
         if (!is_icao(name)) {
-            return fail(ErrorCode::bad_argument,
-                        "--stations takes ICAOs with commas between them, as in KBGM,KENX, not "
-                        "'{}'",
-                        text);
+            return fail(
+                ErrorCode::bad_argument,
+                "--stations takes ICAO identifiers separated by commas, as in KBGM,KENX, not '{}'",
+                text);
         }
         names.insert(name);
     }
@@ -115,8 +115,8 @@ Result<ArchiveRequest> parse_archive(const ArchiveOptions& options) {
     ArchiveRequest request;
     if (!options.asked()) {
         if (const auto stray = stray_option(options); !stray.empty()) {
-            return fail(ErrorCode::bad_argument, "{} is for a loop from an archive (--catalog)",
-                        stray);
+            return fail(ErrorCode::bad_argument,
+                        "{} needs --catalog, because it is for a loop from an archive", stray);
         }
         return request;
     }
@@ -133,8 +133,9 @@ Result<ArchiveRequest> parse_archive(const ArchiveOptions& options) {
         const auto bounds = parse_bounds(options.bounds);
         if (!bounds) return pass_on(bounds);
         if (!options.place.center.empty() || extent_given) {
-            return fail(ErrorCode::bad_argument,
-                        "--bounds says where the grid lies: give no --center and no extent");
+            return fail(
+                ErrorCode::bad_argument,
+                "--bounds sets the place and size of the grid; leave out --center and the extent");
         }
         request.bounds = *bounds;
     }

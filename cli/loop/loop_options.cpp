@@ -57,7 +57,7 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
     }
     if (options.time_method.empty()) return rhythm;
     if (!rhythm.interval && !options.archive.asked()) {
-        return fail(ErrorCode::bad_argument, "--time-method goes with --interval");
+        return fail(ErrorCode::bad_argument, "--time-method needs --interval");
     }
     const auto method = grid::time_method_from_name(options.time_method);
     if (!method) {
@@ -70,7 +70,8 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
 
 Status check_sources(const LoopOptions& options) {
     if (options.follow.wanted && (options.archive.asked() || !options.interval.empty())) {
-        return fail(ErrorCode::bad_argument, "--follow goes with neither --catalog nor --interval");
+        return fail(ErrorCode::bad_argument,
+                    "--follow cannot be used with --catalog or --interval");
     }
     if (!options.archive.asked() && (options.cache.empty() || options.domain.empty())) {
         return fail(ErrorCode::bad_argument,
@@ -83,7 +84,7 @@ Status check_outputs(const std::vector<std::string>& outputs) {
     std::set<std::filesystem::path> names;
     for (const std::string& output : outputs) {
         if (!names.insert(std::filesystem::path(output).lexically_normal()).second) {
-            return fail(ErrorCode::bad_argument, "{}: named twice as an output", output);
+            return fail(ErrorCode::bad_argument, "{}: this output is named twice", output);
         }
     }
     return {};

@@ -204,11 +204,12 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
 Status check_options(const FrameOptions& options) {
     const bool probes = !options.probe.empty() || !options.probe_at.empty();
     if (!options.probe.empty() && !options.probe_at.empty()) {
-        return fail(ErrorCode::bad_argument, "--probe and --probe-at exclude each other");
+        return fail(ErrorCode::bad_argument, "--probe and --probe-at cannot be used together");
     }
     if (options.output.empty()) {
         if (probes) return {};
-        return fail(ErrorCode::bad_argument, "nothing to do: -o, --probe or --probe-at is needed");
+        return fail(ErrorCode::bad_argument,
+                    "there is nothing to do; give -o, --probe or --probe-at");
     }
     return check_output_file(options.output, {".png"}, "a frame is written as PNG", options.json);
 }

@@ -80,12 +80,14 @@ std::string error_text(const accuracy::Plan& plan) {
 // made another product by --product it has nothing to say.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
-        return fail(ErrorCode::bad_argument,
-                    "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
-                    render::product_name(product));
+        return fail(
+            ErrorCode::bad_argument,
+            "--tolerance, --effect and --explain need --product volume; they do not work with {}",
+            render::product_name(product));
     }
     if (options.scene->of_volume) return std::string{};
-    return fail(ErrorCode::bad_argument, "{}: [plan] is for volumes: {} is drawn as it is",
+    return fail(ErrorCode::bad_argument,
+                "{}: [plan] needs the product volume; it does not work with {}",
                 options.scene->file, render::product_name(product));
 }
 
@@ -121,15 +123,15 @@ Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
     if (keeps_slices(kept)) return kept;
     if (typed) {
         return fail(ErrorCode::bad_argument,
-                    "{} and --{} exclude each other: {} how many slices there are", slices.option,
+                    "{} and --{} cannot be used together: {} the number of slices", slices.option,
                     kept.tolerance.empty() ? "effect slices_..." : "tolerance",
-                    kept.tolerance.empty() ? "the effect says" : "the tolerance chooses");
+                    kept.tolerance.empty() ? "the effect sets" : "the tolerance chooses");
     }
-    return fail(ErrorCode::bad_argument,
-                "{}: {} and [plan] {} exclude each other: the plan chooses how many slices there "
-                "are",
-                plan.scene ? plan.scene->file : "", key_of(slices),
-                kept.tolerance.empty() ? "effects slices_..." : "tolerance");
+    return fail(
+        ErrorCode::bad_argument,
+        "{}: {} and [plan] {} cannot be used together: the plan chooses the number of slices",
+        plan.scene ? plan.scene->file : "", key_of(slices),
+        kept.tolerance.empty() ? "effects slices_..." : "tolerance");
 }
 
 Result<std::string> plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
@@ -157,7 +159,7 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
         scene.slices = planned->choice.slices;
     } else if (options.explain && scene.slices != planned->choice.slices) {
         fmt::print(json ? stderr : stdout,
-                   "The picture has the {} slices that were asked for, the plan is of {}.\n",
+                   "The picture has the {} slices that you asked for; the plan has {}.\n",
                    scene.slices, planned->choice.slices);
     }
     scene.integration = planned->choice.integration;

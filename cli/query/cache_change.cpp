@@ -30,7 +30,7 @@ Result<cache::EvictionOrder> order_of(const EvictOptions& options) {
     order.domain = options.domain;
     if (options.to.empty() && options.bytes.empty() && !options.older_than_h) {
         return fail(ErrorCode::bad_argument,
-                    "say what shall go: --to TIME, --bytes SIZE or --older-than HOURS");
+                    "say what to remove: --to TIME, --bytes SIZE or --older-than HOURS");
     }
     if (!options.to.empty()) {
         const auto to = parse_utc(options.to, now_utc());
@@ -44,7 +44,7 @@ Result<cache::EvictionOrder> order_of(const EvictOptions& options) {
     }
     if (options.older_than_h) {
         if (!(*options.older_than_h >= 0 && *options.older_than_h <= 1e6)) {
-            return fail(ErrorCode::bad_argument, "--older-than: {} is not 0 to 1000000 hours",
+            return fail(ErrorCode::bad_argument, "--older-than must be 0 to 1000000 hours, not {}",
                         *options.older_than_h);
         }
         order.older_than = std::chrono::milliseconds{std::llround(*options.older_than_h * 3.6e6)};
@@ -81,7 +81,7 @@ void print_evicted(const EvictOptions& options, const cache::EvictionPlan& plan,
         return;
     }
     fmt::print("{} of {} {} {}, {}; {} {} pinned\n", gone.size(), plan.looked_at,
-               plural(plan.looked_at, "grid"), options.dry_run ? "would go" : "went",
+               plural(plan.looked_at, "grid"), options.dry_run ? "would be removed" : "removed",
                format_byte_size(bytes), plan.pinned, plan.pinned == 1 ? "is" : "are");
 }
 
@@ -100,10 +100,10 @@ int run_evict(const EvictOptions& options) {
     for (const std::string& problem : report.problems)
         status = report_error({ErrorCode::io, problem});
     if (order->bytes && plan->bytes_left > *order->bytes) {
-        status =
-            report_error({ErrorCode::over_budget,
-                          fmt::format("{} remain: they are pinned or the newest of their domains",
-                                      format_byte_size(plan->bytes_left))});
+        status = report_error(
+            {ErrorCode::over_budget,
+             fmt::format("{} remain, because these grids are pinned or the newest of their domains",
+                         format_byte_size(plan->bytes_left))});
     }
     return status;
 }

@@ -32,9 +32,9 @@ int run_status(const StatusOptions& options) {
     const std::optional<double> age_s = age_of(found->document, now);
     const bool answered = found->silent.empty();
     if (!answered) {
-        fmt::print(stderr, "stormcellar: no daemon answers ({}); {} is {} old\n",
-                   printable(found->silent), printable(found->from.native()),
-                   short_duration(age_s));
+        fmt::print(
+            stderr, "stormcellar: no daemon answers ({}); the status is that of {}, {} old\n",
+            printable(found->silent), printable(found->from.native()), short_duration(age_s));
     }
     if (options.json) {
         nlohmann::json age = nullptr;

@@ -111,7 +111,7 @@ Result<grid::Averaging> parse_averaging(const std::string& text, level2::Moment 
         return fail(ErrorCode::bad_argument, "--averaging takes dB or Z, not '{}'", text);
     }
     if (moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "--averaging Z is for REF: only Z adds up");
+        return fail(ErrorCode::bad_argument, "--averaging Z works only with REF");
     }
     return grid::Averaging::in_z;
 }
@@ -177,7 +177,7 @@ Result<EffectRequest> parse_effects(const EffectOptions& options, level2::Moment
         }
         if (budget->image_de) {
             return fail(ErrorCode::bad_argument,
-                        "--tolerance: a grid has no colours; dE is for pictures");
+                        "--tolerance: a grid has no colors; dE is for pictures");
         }
         request.budget = *budget;
     }

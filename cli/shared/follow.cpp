@@ -130,7 +130,7 @@ int follow(const Following& following, const FollowOptions& options,
                 std::error_code ignored;
                 const bool has_cache = std::filesystem::exists(following.cache, ignored);
                 print_note(fmt::format(
-                    "{}no grid of domain '{}' is there; waiting for one",
+                    "{}there is no grid of domain '{}' yet; waiting for one",
                     has_cache ? "" : following.cache.native() + ": there is no cache here yet; ",
                     following.domain));
             }

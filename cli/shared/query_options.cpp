@@ -44,8 +44,8 @@ void print_json(const nlohmann::json& document) {
 void warn_of_future(UtcTime newest) {
     if (is_believed(newest, now_utc())) return;
     fmt::print(stderr,
-               "stormcellar: warning: the newest is of {}, which lies in the future: the clock of "
-               "the radar or of this machine is wrong\n",
+               "stormcellar: warning: the newest time, {}, lies in the future; the clock of the "
+               "radar or of this machine is wrong\n",
                format_utc(newest));
 }
 

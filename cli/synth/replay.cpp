@@ -40,11 +40,11 @@ void say_plan(const synth::ReplayPlan& plan) {
     std::string times;
     if (plan.first)
         times = fmt::format(" of {} to {}", format_utc(*plan.first), format_utc(*plan.last));
-    fmt::print(stderr, "stormcellar: {}{}, to be played in {}{}\n", counted(plan.files, "file"),
+    fmt::print(stderr, "stormcellar: {}{}; the replay takes {}{}\n", counted(plan.files, "file"),
                times, duration_of(plan.takes_s),
-               plan.takes_s > worth_a_hint_s
-                   ? " (--speed N: faster; --interval S: one every S seconds, whatever their times)"
-                   : "");
+               plan.takes_s > worth_a_hint_s ? " (--speed N makes it faster; --interval S sends a "
+                                               "file every S seconds, whatever their times)"
+                                             : "");
 }
 
 // Says so at the first wait, and again when one is more than twice as long as what was said.
@@ -116,8 +116,8 @@ void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
     std::erase_if(items, [](const synth::ReplayItem& item) {
         const auto why = synth::why_not_in_chunks(item);
         if (why.empty()) return false;
-        print_note(
-            fmt::format("left out: {}: {}: it cannot come in chunks", item.source.native(), why));
+        print_note(fmt::format("left out: {}: {}, so it cannot come in chunks",
+                               item.source.native(), why));
         return true;
     });
 }
@@ -136,7 +136,7 @@ int run_replay(const ReplayCommandOptions& options) {
     if (!items) return report_error(items.error());
     if (delivery_of(options.delivery) == synth::Delivery::chunks) leave_out_unfit(*items);
     if (items->empty()) {
-        return report_error({ErrorCode::bad_argument, "no file of them can come in chunks"});
+        return report_error({ErrorCode::bad_argument, "none of the files can come in chunks"});
     }
     Interrupt interrupt;
     Progress progress("files", items->size(), !options.json);

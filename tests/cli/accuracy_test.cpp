@@ -45,14 +45,14 @@ TEST(Accuracy, BadUsageIsNamed) {
     expect_refused({"--markdown", "--json"}, "exclude each other");
     expect_refused({"--picture", "--held-out"}, "--picture takes one FILE");
     expect_refused({"--plot", "d.png"}, "must end in .svg");
-    expect_refused({"--plot", ""}, "--plot: is empty");
+    expect_refused({"--plot", ""}, "--plot: must not be empty");
     expect_refused({"--fields", "age"}, "--fields");
     expect_refused({"--time", "noon"}, "--time");
 }
 
 TEST(Accuracy, HelpSaysHowManyThreadsEachCommandTakes) {
     EXPECT_NE(run({"accuracy", "--help"}).out.find("Else 1"), std::string::npos);
-    EXPECT_NE(run({"grid", "--help"}).out.find("Else as many as the machine has"),
+    EXPECT_NE(run({"grid", "--help"}).out.find("Number of threads. Default: all processors"),
               std::string::npos);
 }
 

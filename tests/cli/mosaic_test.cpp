@@ -160,7 +160,7 @@ TEST_F(Mosaic, ToHoldOutTakesAFileOfThreeRepeatsOrThreeFiles) {
     EXPECT_NE(two.err.find("3 FILEs or more"), std::string::npos) << two.err;
     const ProgramResult once = run({"accuracy", "--held-out", real(bgm)});
     EXPECT_EQ(once.status, 1);
-    EXPECT_NE(once.err.find("takes three"), std::string::npos) << once.err;
+    EXPECT_NE(once.err.find("there must be three"), std::string::npos) << once.err;
 }
 
 }  // namespace

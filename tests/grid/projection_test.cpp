@@ -296,11 +296,11 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
         },
         "centre");
     refused(
-        lambert_conformal, {88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "no pole");
+        lambert_conformal, {88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
     refused(
-        lambert_conformal, {-88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "no pole");
+        lambert_conformal, {-88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
     refused(
-        lambert_conformal, {10, 0}, [](auto& s) { s.spacing_m = 1e6; }, "opposite its centre");
+        lambert_conformal, {10, 0}, [](auto& s) { s.spacing_m = 1e6; }, "opposite its center");
     GridSpec bad = spec_of(azimuthal_equidistant, {35, 0});
     bad.projection = static_cast<Projection>(3);
     EXPECT_NE(why_refused(bad), "");
