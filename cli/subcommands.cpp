@@ -23,8 +23,7 @@ Run set_up_synth(CLI::App& command);
 namespace {
 
 constexpr std::array registry{
-    Subcommand{"accuracy",
-               "Measure the error and the time of each rung of a grid's or picture's accuracy",
+    Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",
                set_up_accuracy},
     Subcommand{"cache", "List, verify, pin and evict the grids in the cache", set_up_cache},
     Subcommand{"catalog", "Query, check and rebuild the catalog of raw files", set_up_catalog},
