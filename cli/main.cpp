@@ -38,12 +38,34 @@ std::optional<std::string> unknown_command(int argc, char** argv) {
     return argv[1];
 }
 
-// "stormcellar loop" when the error is in what follows that command.
+// "stormcellar catalog list" when the error is in what follows that command.
 std::string help_of(const CLI::App& app) {
-    for (const CLI::App* command : app.get_subcommands()) {
-        return fmt::format("stormcellar {}", command->get_name());
+    std::string words = "stormcellar";
+    for (const CLI::App* at = &app; at != nullptr;) {
+        const auto inner = at->get_subcommands();
+        const auto named = std::ranges::find_if(
+            inner, [](const CLI::App* one) { return !one->get_name().empty(); });
+        at = named == inner.end() ? nullptr : *named;
+        if (at != nullptr) words += " " + at->get_name();
     }
-    return "stormcellar";
+    return words;
+}
+
+// What the parser says, as a sentence: "--last: Value 0 not in range 1 to 9" and
+// "--last: 1 required INT missing" are none.
+std::string sentence_of(const std::string& said) {
+    constexpr std::string_view value = ": Value ", range = " not in range ";
+    const std::size_t at_value = said.find(value), at_range = said.rfind(range);
+    if (at_value < at_range && at_range != std::string::npos) {
+        const std::size_t begin = at_value + value.size();
+        return fmt::format("{} must be {}, not {}", said.substr(0, at_value),
+                           said.substr(at_range + range.size()),
+                           said.substr(begin, at_range - begin));
+    }
+    const std::size_t at_missing = said.find(": 1 required ");
+    if (at_missing != std::string::npos && said.ends_with(" missing"))
+        return fmt::format("{} needs a value", said.substr(0, at_missing));
+    return said;
 }
 
 // A misspelt option is the cause where a required one is missing too; CLI11 would name the other.
@@ -55,8 +77,10 @@ std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
     const int code = error.get_exit_code();
     const bool may_be_misspelt = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||
                                  code == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    if (!may_be_misspelt || unknown.empty()) return error.what();
-    return fmt::format("The following argument was not expected: {}", unknown.front());
+    if (!may_be_misspelt || unknown.empty()) return sentence_of(error.what());
+    const std::string& word = unknown.front();
+    return word.starts_with('-') ? fmt::format("there is no option {}", word)
+                                 : fmt::format("the argument {} is one too many", word);
 }
 
 // What was printed counts as done only when it arrived.

@@ -338,8 +338,8 @@ Run set_up_accuracy(CLI::App& command) {
                        "mosaic; for one FILE, the nearest of repeated sweeps is used");
     command.add_flag(
         "--held-out", options->held_out,
-        "Make held-out data again from their neighbors in time and compare. For one FILE these are "
-        "the repeats of its lowest cut (SAILS, MRLE); for a scene, its second volume");
+        "Make held-out data again from their neighbors in time, and compare the two. For one FILE, "
+        "these are the repeats of its lowest cut (SAILS, MRLE); for a scene, its second volume");
     command.add_flag("--compare-sites", options->compare_sites,
                      "Compare sites that overlap: bias, azimuth, elevation and clock of each pair. "
                      "Two FILEs of one site also show the motion of the weather");

@@ -288,8 +288,8 @@ Run set_up_info(CLI::App& info) {
     const auto options = std::make_shared<InfoOptions>();
     info.add_option("FILE", options->file,
                     "The file to describe: a Level II file, a directory of chunks, or - for "
-                    "standard input. Of a tar or zip archive or a directory of files, each file is "
-                    "described. The kind is found from the content")
+                    "standard input. For a tar or zip archive or a directory of files, each file "
+                    "is described. The content of a file decides what it is")
         ->required();
     info.add_flag("--json", options->json, "Print one JSON document");
     CLI::Option* to = info.add_option("--to", options->to,

@@ -351,11 +351,10 @@ void add_place_options(CLI::App& app, GridOptions& options) {
     app.add_option("--extent-km", options.extent_km,
                    "Full width and height of the grid in km. Default: 460,460 for one site; for "
                    "several, 230 km beyond them");
-    app.add_option(
-        "--spacing-km", options.spacing_km,
-        "Distance from one cell to the next in km. Default: 1. For latitude_longitude, the spacing "
-        "and the height become degrees of latitude and the width becomes degrees of longitude, as "
-        "long as they are at the center, rounded up to whole cells");
+    app.add_option("--spacing-km", options.spacing_km,
+                   "Distance from one cell to the next in km. Default: 1. For latitude_longitude, "
+                   "km become degrees as they are at the center: of latitude for the spacing and "
+                   "the height, of longitude for the width, rounded up to whole cells");
     app.add_option("--extent-deg", options.extent_deg,
                    "Full width and height of a latitude_longitude grid in degrees, such as 6,4");
     app.add_option(

@@ -106,9 +106,10 @@ Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Int
         bar.show(done);
     if (interrupt.flag()) {
         bar.clear();
-        fmt::print(stderr,
-                   "stormcellar: interrupted after {} {}; the next run continues from there\n",
-                   done.load(), what);
+        fmt::print(
+            stderr,
+            "stormcellar: interrupted after {} of {} {}; the next run continues from there\n",
+            done.load(), total, what);
         interrupt.end_by_signal();
     }
     return outcome.get();

@@ -15,7 +15,7 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     loop.add_option("--cache", options.cache,
                     "Directory of the cache. With --catalog, the grids are made there");
     loop.add_option("DOMAIN,--domain", options.domain,
-                    "Domain of the grids; that of a station is its ICAO identifier. With "
+                    "Domain of the grids; a station's own domain is its ICAO identifier. With "
                     "--catalog, the name of the mosaic");
     add_time_range(loop, options.range);
     loop.add_option(

@@ -48,7 +48,7 @@ Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& sto
     std::optional<UtcTime> until;
     if (!options.time.empty()) {
         const auto time = parse_utc(options.time, now_utc());
-        if (!time) return pass_on(time);
+        if (!time) return fail(time.error().code, "--time: {}", time.error().message);
         until = *time;
     }
     auto entries = store.list(options.domain, moment, std::nullopt, until);
@@ -251,7 +251,7 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_option("--cache", options->cache, "Directory of the cache")->required();
     frame
         .add_option("DOMAIN,--domain", options->domain,
-                    "Domain of the grid; that of a station is its ICAO identifier")
+                    "Domain of the grid; a station's own domain is its ICAO identifier")
         ->required();
     frame.add_option("--time", options->time,
                      "Draw the newest grid at or before this time, in UTC or relative as -1h. "

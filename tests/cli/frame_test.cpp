@@ -159,7 +159,7 @@ TEST_F(Frame, TakesTheNewestGridOfTheMoment) {
     EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("Radial velocity at 3 km"));
     EXPECT_EQ(run("--domain KBGM --moment RHO -o " + out("b.png")), exit_nothing_matched);
     EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of RHO of domain 'KBGM'"));
-    EXPECT_THAT(messages_, ::testing::HasSubstr("it keeps REF, VEL"));
+    EXPECT_THAT(messages_, ::testing::HasSubstr("its grids are of REF, VEL"));
     EXPECT_EQ(run("--domain KBGM --moment RAIN -o " + out("b.png")), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --moment VEL --product vil -o " + out("b.png")), exit_bad_usage);
 }
@@ -169,7 +169,7 @@ TEST_F(Frame, TakesColoursByNameOrFile) {
         "--domain KBGM --product composite -o " + out("a.png") + " --colours ";
     EXPECT_EQ(run(start + "safe-reflectivity"), exit_done) << messages_;
     EXPECT_EQ(run(start + "rainbow"), exit_bad_usage);
-    EXPECT_THAT(messages_, ::testing::HasSubstr("known are nws-reflectivity"));
+    EXPECT_THAT(messages_, ::testing::HasSubstr("the known tables are nws-reflectivity"));
     EXPECT_EQ(run(start + "nws-velocity"), exit_bad_usage);
     EXPECT_THAT(messages_, ::testing::HasSubstr("in m/s, but the picture is in dBZ"));
     std::ofstream(out("mine.pal")) << "Product: BR\nColor: 5 0 0 0\nColor: 60 255 255 255\n";

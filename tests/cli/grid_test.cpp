@@ -50,7 +50,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "b", "--fields", "age"},
                  "--fields age: details of single gates need one FILE; several FILEs have counts "
                  "and weights");
-    expect_usage({"a", "b", "--fields", "counts,weight"}, "for one FILE");
+    expect_usage({"a", "b", "--fields", "counts,weight"}, "need one FILE");
     expect_usage({"a", "--fields", "counts"}, "counts and weights need several FILEs");
     expect_usage({"a", "--center", "35"}, "--center");
     expect_usage({"a", "--center", "95,0"}, "not on the earth");

@@ -181,7 +181,7 @@ TEST_F(Loop, DrawsTheProductAndMomentAskedFor) {
     EXPECT_THAT(cappi.out, ::testing::HasSubstr("\"moment\": \"REF\""));
     const auto velocity = run({"KBGM", "--moment", "VEL", "-o", out("b.webp")});
     EXPECT_EQ(velocity.status, 3);
-    EXPECT_THAT(velocity.err, ::testing::HasSubstr("it keeps REF"));
+    EXPECT_THAT(velocity.err, ::testing::HasSubstr("its grids are of REF"));
     EXPECT_FALSE(fs::exists(out("b.webp")));
 }
 

@@ -97,7 +97,7 @@ TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
     for (const char* more : {"", "--product vil"}) {
         const auto within = draw(more);
         EXPECT_EQ(within.status, exit_bad_usage) << "the file is no good for its own product";
-        EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume: "));
+        EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume; "));
         EXPECT_THAT(within.err, HasSubstr(at("s.toml")));
     }
     EXPECT_EQ(draw("--product volume").status, exit_done) << "now they have something to say";

@@ -257,7 +257,8 @@ TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
                                           settings_.plan, settings_.loop);
     ASSERT_FALSE(storms);
     EXPECT_THAT(storms.error().message, HasSubstr("this is a simulated scene for stormcellar"));
-    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"), HasSubstr("s.toml: a color table, which"));
+    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"),
+                HasSubstr("s.toml: this is a color table, which"));
     EXPECT_THAT(
         complaint("[paths]\ndrop = \"/d\"\n[[loop]]\nname = \"a\"\n"),
         HasSubstr(

@@ -76,7 +76,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     const auto after = status({"--state", daemon.root() / "state", "--json"});
     EXPECT_EQ(after.status, 1);
     EXPECT_NE(after.err.find("stormcellar: no daemon answers ("), std::string::npos) << after.err;
-    EXPECT_NE(after.err.find("status.json is "), std::string::npos) << after.err;
+    EXPECT_NE(after.err.find("status.json, "), std::string::npos) << after.err;
     const json document = json::parse(after.out);
     EXPECT_EQ(document["source"]["answered"], false);
     EXPECT_TRUE(document["source"]["age_s"].is_number());
