@@ -34,10 +34,9 @@ constexpr std::array registry{
     Subcommand{"loop", "Draw the grids of a time range as a looping animation", set_up_loop,
                "The command names each damaged grid file on standard error and leaves it out. The "
                "exit status is 0 if at least one frame was written.\n"},
-    Subcommand{
-        "replay",
-        "Replay files into a drop directory as LDM would write them, in the order of their times",
-        set_up_replay},
+    Subcommand{"replay",
+               "Replay files into a drop directory as LDM would, in the order of their times",
+               set_up_replay},
     Subcommand{"status", "Show the status of the running daemon", set_up_status},
     Subcommand{"synth", "Write the Level II files of a simulated scene (the same bytes every time)",
                set_up_synth},

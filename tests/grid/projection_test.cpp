@@ -257,7 +257,7 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
     refused(
         latitude_longitude, {0, 0}, [&](auto& s) { s.spacing_deg = nan; }, "above 0");
     refused(
-        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_m = 1; }, "no spacing in metres");
+        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_m = 1; }, "no spacing in meters");
     refused(
         latitude_longitude, {0, 0},
         [](auto& s) {
@@ -294,7 +294,7 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
         [](auto& s) {
             s.parallels_deg = {60, 60};
         },
-        "centre");
+        "center");
     refused(
         lambert_conformal, {88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
     refused(

@@ -129,13 +129,13 @@ TEST(PalFile, ErrorsNameTheLine) {
     EXPECT_THAT(message("Colr: 1 2 3 4\n"), StartsWith("t.pal:1: unknown key 'COLR'"));
     EXPECT_THAT(message("\n\nColor: 1 2 3\n"),
                 StartsWith("t.pal:3: there must be a value and 3 or 6"));
-    EXPECT_THAT(message("Color: 1 2 3 256\n"), StartsWith("t.pal:1: '256' is no colour"));
+    EXPECT_THAT(message("Color: 1 2 3 256\n"), StartsWith("t.pal:1: '256' is not a color"));
     EXPECT_THAT(message("Color: 1 2 -3 4\n"), StartsWith("t.pal:1: '-3'"));
     EXPECT_THAT(message("Color: nan 2 3 4\n"), StartsWith("t.pal:1: 'nan'"));
     EXPECT_THAT(message("Color: 1e9 2 3 4\n"), StartsWith("t.pal:1: '1e9'"));
     EXPECT_THAT(message("Scale: 0\n"), StartsWith("t.pal:1: the number must be above 0"));
     EXPECT_THAT(message("Scale: -1\n"), StartsWith("t.pal:1: the number must be above 0"));
-    EXPECT_THAT(message("RF: 1\n"), StartsWith("t.pal:1: red"));
+    EXPECT_THAT(message("RF: 1\n"), StartsWith("t.pal:1: there must be red"));
     std::string many;
     for (int i = 0; i < 5000; ++i)
         many += "Color: " + std::to_string(i) + " 0 0 0\n";
