@@ -15,7 +15,8 @@
 namespace stormcellar::accuracy {
 namespace {
 
-constexpr std::string_view examples = "write it as in \"250 m, 0.5 dB\", \"dE 2\" or \"20 ms\"";
+constexpr std::string_view examples =
+    "write, for example, \"250 m, 0.5 dB\", \"dE 2\" or \"20 ms\"";
 
 enum class Slot { position, value, image, time };
 
@@ -66,7 +67,7 @@ Result<Part> split_part(std::string_view text) {
     }
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), part.number);
     if (error == std::errc::invalid_argument) {
-        return fail(ErrorCode::bad_argument, "\"{}\" of the budget is no number with a unit: {}",
+        return fail(ErrorCode::bad_argument, "\"{}\" in the budget is not a number with a unit; {}",
                     printable(text), examples);
     }
     const std::string_view behind =
@@ -74,10 +75,11 @@ Result<Part> split_part(std::string_view text) {
     // Written so that NaN is refused too, without comparing it.
     if (error != std::errc{} || !std::isfinite(part.number) || std::signbit(part.number)) {
         return fail(ErrorCode::bad_argument,
-                    "\"{}\" of the budget must be a finite number, not negative", printable(text));
+                    "\"{}\" in the budget must be a finite number and not negative",
+                    printable(text));
     }
     if (!part.unit.empty() && !behind.empty()) {
-        return fail(ErrorCode::bad_argument, "\"{}\" of the budget: \"{}\" was not understood",
+        return fail(ErrorCode::bad_argument, "\"{}\" in the budget has an unknown word, \"{}\"",
                     printable(text), printable(behind));
     }
     if (part.unit.empty()) part.unit = lower_case(behind);
@@ -91,18 +93,18 @@ Status take_part(std::string_view text, Budget& budget) {
         std::find_if(unit_names.begin(), unit_names.end(),
                      [&](const UnitName& candidate) { return candidate.name == part->unit; });
     if (unit == unit_names.end()) {
-        return fail(ErrorCode::bad_argument,
-                    "\"{}\" of the budget has {}: it may be m, km, dB, m/s, deg, ratio, "
-                    "dE, ms or s",
-                    printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
+        return fail(
+            ErrorCode::bad_argument,
+            "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, dE, ms and s",
+            printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
     // This is tested beforehand, because floating-point traps must not see an overflow.
     if (part->number > std::numeric_limits<double>::max() / unit->multiply) {
-        return fail(ErrorCode::bad_argument, "\"{}\" of the budget is too large", printable(text));
+        return fail(ErrorCode::bad_argument, "\"{}\" in the budget is too large", printable(text));
     }
     const double number = part->number * unit->multiply / unit->divide;
     if (unit->slot == Slot::time && number == 0) {
-        return fail(ErrorCode::bad_argument, "\"{}\" of the budget: a time must be above zero",
+        return fail(ErrorCode::bad_argument, "\"{}\" in the budget: a time must be above zero",
                     printable(text));
     }
     std::optional<double>& slot = unit->slot == Slot::position ? budget.position_m
@@ -110,9 +112,9 @@ Status take_part(std::string_view text, Budget& budget) {
                                   : unit->slot == Slot::time   ? budget.time_s
                                                                : budget.value;
     if (slot) {
-        return fail(ErrorCode::bad_argument, "\"{}\": the budget has a {} already", printable(text),
+        return fail(ErrorCode::bad_argument, "\"{}\": the budget already has a {}", printable(text),
                     unit->slot == Slot::position ? "position error"
-                    : unit->slot == Slot::image  ? "colour error"
+                    : unit->slot == Slot::image  ? "color error"
                     : unit->slot == Slot::time   ? "time"
                                                  : "value error");
     }
@@ -137,7 +139,7 @@ Result<Budget> parse_budget(std::string_view text) {
                     longest_budget_text);
     }
     if (trimmed(text).empty()) {
-        return fail(ErrorCode::bad_argument, "the budget is empty: {}", examples);
+        return fail(ErrorCode::bad_argument, "the budget is empty; {}", examples);
     }
     Budget budget;
     while (true) {

@@ -78,7 +78,7 @@ Result<std::vector<Candidate>> list_candidates(const Chain& chain) {
         count *= range.most - range.least + 1;
         if (count > most_candidates) {
             return fail(ErrorCode::unsupported,
-                        "more than {} choices of effects: set some of them on or off",
+                        "there are more than {} choices of effects; set some of them on or off",
                         most_candidates);
         }
         ranges.push_back(range);

@@ -15,16 +15,17 @@ bool is_size(double number) {
 
 Status validate_effect(const Effect& effect) {
     if (!is_effect_name(effect.name)) {
-        return fail(ErrorCode::bad_argument, "\"{}\" is no name for an effect", effect.name);
+        return fail(ErrorCode::bad_argument, "\"{}\" cannot be the name of an effect", effect.name);
     }
     for (const Quantity quantity : all_quantities) {
         if (!is_size(effect.predicted.of(quantity))) {
-            return fail(ErrorCode::bad_argument, "effect {} predicts a size that is no size",
+            return fail(ErrorCode::bad_argument, "effect {} predicts a size that is not a size",
                         effect.name);
         }
     }
     if (!is_size(effect.cost_s) || std::isinf(effect.cost_s)) {
-        return fail(ErrorCode::bad_argument, "effect {} has a cost that is no time", effect.name);
+        return fail(ErrorCode::bad_argument, "effect {} has a cost that is not a time",
+                    effect.name);
     }
     return {};
 }
@@ -141,17 +142,17 @@ Status validate(const Chain& chain) {
     std::set<std::string> steps;
     std::set<std::string> effects;
     if (!is_size(chain.cheapest_cost_s) || std::isinf(chain.cheapest_cost_s)) {
-        return fail(ErrorCode::bad_argument, "the chain has a cost that is no time");
+        return fail(ErrorCode::bad_argument, "the chain has a cost that is not a time");
     }
     for (const Step& step : chain.steps) {
         if (!is_effect_name(step.name) || !steps.insert(step.name).second) {
-            return fail(ErrorCode::bad_argument, "\"{}\" is no name for a step, or stands twice",
-                        step.name);
+            return fail(ErrorCode::bad_argument,
+                        "\"{}\" cannot be the name of a step, or is there twice", step.name);
         }
         for (const Effect& effect : step.effects) {
             if (auto valid = validate_effect(effect); !valid) return pass_on(valid);
             if (!effects.insert(effect.name).second) {
-                return fail(ErrorCode::bad_argument, "effect {} stands twice", effect.name);
+                return fail(ErrorCode::bad_argument, "effect {} is there twice", effect.name);
             }
         }
         if (auto valid = validate_settings(step); !valid) return pass_on(valid);
@@ -183,7 +184,7 @@ Status apply_overrides(Chain& chain, std::span<const EffectOverride> overrides) 
                 found = true;
             }
         }
-        if (!found) return fail(ErrorCode::bad_argument, "no effect \"{}\"", wanted.name);
+        if (!found) return fail(ErrorCode::bad_argument, "there is no effect \"{}\"", wanted.name);
     }
     if (auto valid = validate(changed); !valid) return pass_on(valid);
     chain = std::move(changed);

@@ -16,7 +16,7 @@ constexpr std::size_t letters_per_slip = 3;
 
 tl::unexpected<Error> unknown_name(std::string_view name, const std::vector<std::string>& names) {
     if (names.empty()) {
-        return fail(ErrorCode::bad_argument, "no effect \"{}\": there are none here",
+        return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; there are none here",
                     printable(name));
     }
     // A long word is no misspelling, and the distance takes time by the product of the lengths.
@@ -27,11 +27,11 @@ tl::unexpected<Error> unknown_name(std::string_view name, const std::vector<std:
             });
         if (edit_distance(name, *nearest) <=
             std::max<std::size_t>(1, nearest->size() / letters_per_slip)) {
-            return fail(ErrorCode::bad_argument, "no effect \"{}\": did you mean \"{}\"?",
+            return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; did you mean \"{}\"?",
                         printable(name), *nearest);
         }
     }
-    return fail(ErrorCode::bad_argument, "no effect \"{}\": there are {}",
+    return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; the effects are {}",
                 printable(name.substr(0, 2 * longest_name)), fmt::join(names, ", "));
 }
 

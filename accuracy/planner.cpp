@@ -38,7 +38,7 @@ ErrorSize bounded_part(const ErrorSize& size, const Budget& budget) {
 
 Status validate(const Chain& chain, const Budget& budget) {
     if (!budget.bounds_errors() && !budget.time_s) {
-        return fail(ErrorCode::bad_argument, "the budget bounds nothing");
+        return fail(ErrorCode::bad_argument, "the budget sets no limit");
     }
     if (budget.value && budget.value_unit != chain.value_unit) {
         return fail(ErrorCode::bad_argument, "the budget is in {}, but the values are in {}",

@@ -31,7 +31,7 @@ Status validate(const Plot& plot) {
     for (const PlotPoint& point : plot.points) {
         const bool finite = std::isfinite(point.time_s) && std::isfinite(point.error);
         if (!finite || point.time_s <= 0 || point.error < 0) {
-            return fail(ErrorCode::bad_argument, "point \"{}\" has no place on the plot",
+            return fail(ErrorCode::bad_argument, "point \"{}\" does not fit on the plot",
                         point.label);
         }
     }

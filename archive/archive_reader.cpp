@@ -97,13 +97,13 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
     if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
         return "is a link";
     }
-    if (archive_entry_filetype(entry) != AE_IFREG) return "is no regular file";
+    if (archive_entry_filetype(entry) != AE_IFREG) return "is not a regular file";
     if (archive_entry_is_encrypted(entry) != 0) return "is encrypted";
     if (name.empty()) return "has no name";
     if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";
     const std::filesystem::path path{name};
     const bool leads_out = path.is_absolute() || std::ranges::find(path, "..") != path.end();
-    return leads_out ? "names a place outside of the archive" : "";
+    return leads_out ? "names a place outside the archive" : "";
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ struct ArchiveReader::Impl {
 
     void leave_out(std::string name, std::string reason) {
         if (left_out.size() == most_left_out) {
-            left_out.push_back({{}, "more is left out than is named here"});
+            left_out.push_back({{}, "more members are left out than are named here"});
         } else if (left_out.size() < most_left_out) {
             left_out.push_back({name.substr(0, most_name_bytes), std::move(reason)});
         }
@@ -463,7 +463,7 @@ Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& p
         }
     }
     reader_.reset();
-    return fail(ErrorCode::not_found, "{}: the archive has no such member", path.native());
+    return fail(ErrorCode::not_found, "{}: the archive does not have this member", path.native());
 }
 
 }  // namespace stormcellar::archive

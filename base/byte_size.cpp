@@ -46,8 +46,8 @@ Result<std::uint64_t> parse_byte_size(std::string_view text) {
     unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
     const std::optional<double> factor = unit_of(unit);
     if (error != std::errc{} || !factor || !(number >= 0 && number * *factor < too_much)) {
-        return fail(ErrorCode::bad_argument, "'{}' is no amount of bytes, as 20 GB, 512 MiB or 0",
-                    printable(text));
+        return fail(ErrorCode::bad_argument,
+                    "'{}' is not an amount of bytes such as 20 GB, 512 MiB or 0", printable(text));
     }
     return static_cast<std::uint64_t>(number * *factor);
 }

@@ -117,7 +117,7 @@ Result<std::filesystem::path> file_behind(const std::filesystem::path& path) {
     if (!std::filesystem::exists(link)) return path;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::is_regular_file(status)) {
-        return fail(ErrorCode::not_a_file, "{}: is there and is not a regular file", path.native());
+        return fail(ErrorCode::not_a_file, "{}: exists and is not a regular file", path.native());
     }
     if (!std::filesystem::is_symlink(link)) return path;
     std::filesystem::path target = std::filesystem::canonical(path, error);
@@ -149,7 +149,7 @@ Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem
         if (n == 0) break;
         filled += static_cast<std::size_t>(n);
         if (filled > limit) {
-            return fail(ErrorCode::unsupported, "{}: larger than the limit of {} bytes",
+            return fail(ErrorCode::unsupported, "{}: is larger than the limit of {} bytes",
                         path.native(), limit);
         }
     }
@@ -214,7 +214,7 @@ Result<AtomicFile> AtomicFile::create(FileSystem& file_system, std::filesystem::
     if (!descriptor) {
         // The directory is at fault, but the message has the name that the caller knows.
         const std::string& message = descriptor.error().message;
-        return fail(descriptor.error().code, "{}: cannot be made{}", final_path.native(),
+        return fail(descriptor.error().code, "{}: cannot be created{}", final_path.native(),
                     message.substr(std::min(message.size(), message.rfind(": "))));
     }
     return AtomicFile(file_system, std::move(final_path), std::move(temporary_path), *descriptor);
@@ -278,7 +278,7 @@ Result<std::vector<std::byte>> read_open_file(int descriptor, const std::filesys
     }
     const auto size = static_cast<std::uint64_t>(facts.st_size);
     if (size > limit) {
-        return fail(ErrorCode::unsupported, "{}: {} bytes, larger than the limit of {}",
+        return fail(ErrorCode::unsupported, "{}: has {} bytes, more than the limit of {}",
                     path.native(), size, limit);
     }
     return read_to_end(descriptor, path, size, limit);

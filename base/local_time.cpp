@@ -19,8 +19,10 @@ Result<std::string> format_local(UtcTime time, std::string_view zone) {
     try {
         found = date::locate_zone(std::string(zone));
     } catch (const std::exception&) {
-        return fail(ErrorCode::bad_argument,
-                    "{}: no time zone of this name (such as America/Chicago)", zone);
+        return fail(
+            ErrorCode::bad_argument,
+            "{}: there is no time zone of this name; a name is, for example, America/Chicago",
+            zone);
     }
     try {
         const auto seconds = std::chrono::floor<std::chrono::seconds>(

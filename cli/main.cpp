@@ -23,7 +23,7 @@ namespace {
 // No option and no argument may be empty.
 void refuse_empty(CLI::App& command) {
     const auto complaint = [](const std::string& value) {
-        return value.empty() ? std::string{"is empty"} : std::string{};
+        return value.empty() ? std::string{"must not be empty"} : std::string{};
     };
     for (CLI::Option* option : command.get_options()) {
         if (option->get_expected_max() > 0) option->check(complaint);
@@ -38,12 +38,34 @@ std::optional<std::string> unknown_command(int argc, char** argv) {
     return argv[1];
 }
 
-// Returns "stormcellar loop" if the error is in what follows that command.
+// Returns "stormcellar catalog list" if the error is in what follows that command.
 std::string help_of(const CLI::App& app) {
-    for (const CLI::App* command : app.get_subcommands()) {
-        return fmt::format("stormcellar {}", command->get_name());
+    std::string words = "stormcellar";
+    for (const CLI::App* at = &app; at != nullptr;) {
+        const auto inner = at->get_subcommands();
+        const auto named = std::ranges::find_if(
+            inner, [](const CLI::App* one) { return !one->get_name().empty(); });
+        at = named == inner.end() ? nullptr : *named;
+        if (at != nullptr) words += " " + at->get_name();
     }
-    return "stormcellar";
+    return words;
+}
+
+// What the parser says, as a sentence: "--last: Value 0 not in range 1 to 9" and
+// "--last: 1 required INT missing" are none.
+std::string sentence_of(const std::string& said) {
+    constexpr std::string_view value = ": Value ", range = " not in range ";
+    const std::size_t at_value = said.find(value), at_range = said.rfind(range);
+    if (at_value < at_range && at_range != std::string::npos) {
+        const std::size_t begin = at_value + value.size();
+        return fmt::format("{} must be {}, not {}", said.substr(0, at_value),
+                           said.substr(at_range + range.size()),
+                           said.substr(begin, at_range - begin));
+    }
+    const std::size_t at_missing = said.find(": 1 required ");
+    if (at_missing != std::string::npos && said.ends_with(" missing"))
+        return fmt::format("{} needs a value", said.substr(0, at_missing));
+    return said;
 }
 
 // A misspelled option is also the cause if a required one is missing; CLI11 would report the
@@ -56,15 +78,17 @@ std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
     const int code = error.get_exit_code();
     const bool may_be_misspelt = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||
                                  code == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    if (!may_be_misspelt || unknown.empty()) return error.what();
-    return fmt::format("The following argument was not expected: {}", unknown.front());
+    if (!may_be_misspelt || unknown.empty()) return sentence_of(error.what());
+    const std::string& word = unknown.front();
+    return word.starts_with('-') ? fmt::format("there is no option {}", word)
+                                 : fmt::format("the argument {} is one too many", word);
 }
 
 // Output only counts as done when it was written.
 int flushed(int status) {
     const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     if (!failed) return status;
-    fmt::print(stderr, "stormcellar: standard output cannot be written\n");
+    fmt::print(stderr, "stormcellar: cannot write to standard output\n");
     return status == exit_done ? exit_failed : status;
 }
 
@@ -72,7 +96,7 @@ int flushed(int status) {
 int print_reference(const CLI::App& app, const std::string& kind) {
     const std::optional<std::string> text = reference_text(app, kind);
     if (!text) {
-        fmt::print(stderr, "stormcellar: --reference: man, bash, zsh or fish\n");
+        fmt::print(stderr, "stormcellar: --reference takes man, bash, zsh or fish\n");
         return exit_bad_usage;
     }
     fmt::print("{}", *text);
@@ -82,7 +106,7 @@ int print_reference(const CLI::App& app, const std::string& kind) {
 int run(int argc, char** argv) {
     keep_freed_memory();
     cache::install_map_guard();
-    CLI::App app{"Weather radar Level II volumes: catalog, grids, loops."};
+    CLI::App app{"Catalogs, grids and draws NEXRAD Level II weather radar volumes."};
     app.name("stormcellar");
     app.set_version_flag("--version", std::string{software_version});
     app.require_subcommand(1);
@@ -122,7 +146,7 @@ int main(int argc, char** argv) {
     try {
         return stormcellar::cli::flushed(stormcellar::cli::run(argc, argv));
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "stormcellar: it takes more memory than there is\n");
+        fmt::print(stderr, "stormcellar: this work needs more memory than the machine can give\n");
         return stormcellar::cli::exit_failed;
     } catch (const std::exception& error) {
         fmt::print(stderr, "stormcellar: {}\n", stormcellar::cli::printable(error.what()));

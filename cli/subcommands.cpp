@@ -23,22 +23,22 @@ Run set_up_synth(CLI::App& command);
 namespace {
 
 constexpr std::array registry{
-    Subcommand{"accuracy", "Show what accuracy costs in time, rung by rung", set_up_accuracy},
-    Subcommand{"cache", "The cache of grids: look, evict, pin", set_up_cache},
-    Subcommand{"catalog", "Query the catalog of raw files", set_up_catalog},
-    Subcommand{"fetch", "Fetch raw volumes of stations and times from a public bucket",
-               set_up_fetch},
+    Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",
+               set_up_accuracy},
+    Subcommand{"cache", "List, verify, pin and evict the grids in the cache", set_up_cache},
+    Subcommand{"catalog", "Query, check and rebuild the catalog of raw files", set_up_catalog},
+    Subcommand{"fetch", "Fetch raw volumes by station and time from a public bucket", set_up_fetch},
     Subcommand{"frame", "Draw one still picture of a grid in the cache", set_up_frame},
-    Subcommand{"grid", "Grid Level II files, of one site or of many, as netCDF", set_up_grid},
+    Subcommand{"grid", "Grid Level II files of one or more sites and write netCDF", set_up_grid},
     Subcommand{"info", "Decode a Level II file and describe it", set_up_info},
     Subcommand{"loop", "Draw the grids of a time range as a looping animation", set_up_loop,
-               "A grid file that is damaged is named on stderr and left out; the exit status is 0 "
-               "when at least one frame was written.\n"},
+               "The command names each damaged grid file on standard error and leaves it out. The "
+               "exit status is 0 if at least one frame was written.\n"},
     Subcommand{"replay",
-               "Play files into a drop directory as LDM would, in the order of their times",
+               "Replay files into a drop directory as LDM would, in the order of their times",
                set_up_replay},
-    Subcommand{"status", "What the running daemon says of itself", set_up_status},
-    Subcommand{"synth", "Write the Level II files of a simulated scene, the same bytes every time",
+    Subcommand{"status", "Show the status of the running daemon", set_up_status},
+    Subcommand{"synth", "Write the Level II files of a simulated scene (the same bytes every time)",
                set_up_synth},
 };
 

@@ -49,7 +49,8 @@ Result<ListingPage> parse_listing(std::span<const std::byte> xml) {
     pugi::xml_document document;
     const auto parsed = document.load_buffer(xml.data(), xml.size());
     const pugi::xml_node root = document.child("ListBucketResult");
-    if (!parsed || !root) return fail(ErrorCode::corrupt, "the answer is no listing of a bucket");
+    if (!parsed || !root)
+        return fail(ErrorCode::corrupt, "the answer is not the listing of a bucket");
     ListingPage page;
     for (const pugi::xml_node& node : root.children("Contents")) {
         auto object = read_object(node);
@@ -59,7 +60,8 @@ Result<ListingPage> parse_listing(std::span<const std::byte> xml) {
     if (std::string_view{root.child_value("IsTruncated")} != "true") return page;
     page.next_token = root.child_value("NextContinuationToken");
     if (page.next_token.empty()) {
-        return fail(ErrorCode::corrupt, "the listing goes on and does not say where");
+        return fail(ErrorCode::corrupt,
+                    "the listing has more pages and does not say where they are");
     }
     return page;
 }

@@ -135,7 +135,7 @@ class Fetching {
                 take(prefix, std::move(object));
             if (listing->next_token.empty()) return;
             if (page + 1 == most_pages) {
-                report_.failures.push_back({prefix, "its listing has no end"});
+                report_.failures.push_back({prefix, "its listing does not end"});
                 return;
             }
             list(prefix, listing->next_token, page + 1, 0);
@@ -157,8 +157,8 @@ class Fetching {
         }
         ++report_.found;
         if (object.size_bytes > most_file_bytes) {
-            fail_for_good(object.key,
-                          fmt::format("{} bytes: no volume has so many", object.size_bytes));
+            fail_for_good(object.key, fmt::format("it has {} bytes, more than any volume has",
+                                                  object.size_bytes));
             return;
         }
         auto download = std::make_shared<Download>();
@@ -227,14 +227,16 @@ class Fetching {
         std::error_code ignored;
         if (outcome.part_is_useless) fs::remove(download->part, ignored);
         if (std::exchange(download->too_long, false)) {
-            reason = fmt::format("more than the {} bytes that the listing says", object.size_bytes);
+            reason = fmt::format("it has more than the {} bytes that the listing says",
+                                 object.size_bytes);
             again = true;
             fs::remove(download->part, ignored);
         } else if (const std::string trouble = std::exchange(download->write_error, {});
                    !trouble.empty()) {
             reason = fmt::format("{}: {}", download->part.native(), trouble);
         } else if (outcome.good && download->have < object.size_bytes) {
-            reason = fmt::format("{} bytes came of {}", download->have, object.size_bytes);
+            reason =
+                fmt::format("only {} of its {} bytes arrived", download->have, object.size_bytes);
             again = true;
         } else if (outcome.good) {
             keep(*download, outcome);
@@ -267,8 +269,8 @@ class Fetching {
 
 Result<FetchReport> fetch_files(const FetchRequest& request) {
     if (!request.source.starts_with("http://") && !request.source.starts_with("https://")) {
-        return fail(ErrorCode::bad_argument, "{}: a source is an address that begins with http",
-                    request.source);
+        return fail(ErrorCode::bad_argument,
+                    "{}: the source must be an address that begins with http", request.source);
     }
     std::error_code error;
     fs::create_directories(request.directory, error);

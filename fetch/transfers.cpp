@@ -104,7 +104,8 @@ Result<std::unique_ptr<Transfers>> Transfers::make(TransferOptions options) {
     curl_global_init(CURL_GLOBAL_DEFAULT);
     std::unique_ptr<Transfers> transfers(new Transfers(options));
     transfers->multi_ = curl_multi_init();
-    if (transfers->multi_ == nullptr) return fail(ErrorCode::exhausted, "libcurl does not start");
+    if (transfers->multi_ == nullptr)
+        return fail(ErrorCode::exhausted, "libcurl cannot be started");
     return transfers;
 }
 
@@ -169,7 +170,7 @@ void Transfers::start_due() {
         if (start(std::move(transfer))) continue;
         Transfer::Outcome none;
         none.may_be_tried_again = true;
-        none.reason = "no transfer can be begun";
+        none.reason = "no transfer can be started";
         ended(none);
     }
 }
@@ -200,9 +201,9 @@ void Transfers::finish_done() {
             const char* const text =
                 running->error[0] != '\0' ? running->error.data() : curl_easy_strerror(code);
             outcome.reason = running->has_wrong_range
-                                 ? "the server answers with another part of the file"
+                                 ? "the server answered with another part of the file"
                              : code == CURLE_OK || running->error_bytes > 0
-                                 ? fmt::format("the server answers {}", status)
+                                 ? fmt::format("the server answered {}", status)
                                  : std::string{text};
         }
         curl_multi_remove_handle(multi_, running->easy);

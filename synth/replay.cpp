@@ -119,7 +119,7 @@ class Player {
             auto played = play_next(due.item);
             if (!played) {
                 return fail(played.error().code, "{}{}", played.error().message,
-                            growing_.empty() ? "" : "; files stay unfinished");
+                            growing_.empty() ? "" : "; some files stay unfinished");
             }
             if (const auto place = growing_.find(due.item); place != growing_.end()) {
                 const double part = static_cast<double>(place->second.next) /

@@ -32,16 +32,17 @@ Status set(FaultRates& rates, std::string_view key, std::string_view value) {
         // The second condition also refuses NaN.
         if (!read_number(value, *probability) || !is_within(*probability, 0.0, 1.0)) {
             return fail(ErrorCode::bad_argument,
-                        "faults: {} is a probability from 0 to 1, not '{}'", key, value);
+                        "faults: {} must be a probability from 0 to 1, not '{}'", key, value);
         }
         return {};
     }
     if (key != "seed") {
-        return fail(ErrorCode::bad_argument, "faults: there is no '{}'; for example {}", key,
-                    example);
+        return fail(ErrorCode::bad_argument,
+                    "faults: there is no fault '{}'; write, for example, {}", key, example);
     }
     if (!read_number(value, rates.seed)) {
-        return fail(ErrorCode::bad_argument, "faults: seed is a whole number, not '{}'", value);
+        return fail(ErrorCode::bad_argument, "faults: seed must be a whole number, not '{}'",
+                    value);
     }
     return {};
 }
@@ -76,18 +77,18 @@ Result<FaultRates> parse_fault_rates(std::string_view text) {
         text.remove_prefix(more ? comma + 1 : comma);
         const std::size_t equals = part.find('=');
         if (equals == std::string_view::npos) {
-            return fail(ErrorCode::bad_argument, "faults: '{}' is not NAME=NUMBER; for example {}",
-                        part, example);
+            return fail(ErrorCode::bad_argument,
+                        "faults: '{}' is not NAME=NUMBER; write, for example, {}", part, example);
         }
         const std::string_view key = part.substr(0, equals);
         if (!seen.insert(key).second) {
-            return fail(ErrorCode::bad_argument, "faults: {} twice", key);
+            return fail(ErrorCode::bad_argument, "faults: {} is given twice", key);
         }
         auto done = set(rates, key, part.substr(equals + 1));
         if (!done) return pass_on(done);
     }
     if (rates.drop + rates.repeat + rates.reorder + rates.truncate > 1 + 1e-9) {
-        return fail(ErrorCode::bad_argument, "faults: the probabilities are more than 1 in all");
+        return fail(ErrorCode::bad_argument, "faults: the probabilities add up to more than 1");
     }
     return rates;
 }

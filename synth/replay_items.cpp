@@ -83,7 +83,8 @@ Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
         return items;
     }
     if (!fs::is_directory(source, problem)) {
-        return fail(ErrorCode::not_a_file, "{}: neither a file nor a directory", source.native());
+        return fail(ErrorCode::not_a_file, "{}: is neither a file nor a directory",
+                    source.native());
     }
     fs::recursive_directory_iterator walk(source, problem);
     for (; !problem && walk != fs::recursive_directory_iterator(); walk.increment(problem)) {
@@ -117,7 +118,7 @@ Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& s
     std::set<fs::path> names;
     for (ReplayItem& item : items) {
         if (!names.insert(item.name).second) {
-            return fail(ErrorCode::bad_argument, "{}: a second file of this name",
+            return fail(ErrorCode::bad_argument, "{}: another file has the same name",
                         item.source.native());
         }
         std::error_code ignored;

@@ -73,7 +73,7 @@ Result<std::vector<fs::path>> targets_of(const std::vector<ReplayItem>& items, D
             continue;
         }
         const auto refuse = [&item](std::string_view why) {
-            return fail(ErrorCode::bad_argument, "{}: {}: it cannot come in chunks",
+            return fail(ErrorCode::bad_argument, "{}: {}, so it cannot come in chunks",
                         item.source.native(), why);
         };
         if (const auto why = why_not_in_chunks(item); !why.empty()) return refuse(why);

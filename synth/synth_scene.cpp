@@ -120,7 +120,7 @@ Pattern read_pattern(TomlTable& volumes, TomlTable& root) {
     }
     Pattern pattern;
     pattern.number = volumes.whole_number("vcp", {1, 767}).value_or(767);
-    if (cuts.size() > 32) root.complain("cut", "more than 32 cuts");
+    if (cuts.size() > 32) root.complain("cut", "there are more than 32 cuts");
     for (TomlTable& cut : cuts) {
         pattern.cuts.push_back(read_cut(cut));
     }
@@ -259,8 +259,8 @@ Status check_kind(const TomlTable& root, const std::string& name) {
     for (const char* section : {"picture", "camera", "light", "volume", "labels", "plan", "loop"}) {
         if (!root.has(section)) continue;
         return fail(ErrorCode::bad_argument,
-                    "{}: a picture's scene ([{}]), for stormcellar frame and loop; a scene of "
-                    "simulated storms has [radar]",
+                    "{}: this is a picture scene ([{}]) for stormcellar frame and loop; a "
+                    "simulated scene has [radar]",
                     name, section);
     }
     return {};

@@ -98,7 +98,7 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
     accuracy::Plot plot;
     plot.title = title;
     plot.error_label =
-        of_picture ? "Colour difference, 99th percentile (CIEDE2000)"
+        of_picture ? "Color difference, 99th percentile (CIEDE2000)"
                    : fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
     plot.time_label = of_picture ? "Time of a picture" : "Time of a whole grid, geometry kept";
     for (const accuracy::LadderRow& row : rows) {
@@ -142,7 +142,7 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
         rows.begin(), rows.end(),
         [](const accuracy::LadderRow& row) { return row.value && row.value->count > 0; });
     if (!any_value) {
-        print_note("no cell that was compared has a value, so there are no errors of values");
+        print_note("none of the compared cells has a value, so there are no value errors");
     }
 }
 
@@ -176,11 +176,11 @@ Status check_site_options(const AccuracyOptions& options) {
     if (options.grid.files.size() < 2 || options.held_out || !options.scene.empty() ||
         !options.plot.empty()) {
         return fail(ErrorCode::bad_argument,
-                    "--compare-sites takes two FILEs or more, of different sites, and neither "
-                    "--scene, --plot nor --held-out");
+                    "--compare-sites needs two or more FILEs of different sites, and cannot be "
+                    "used with --scene, --plot or --held-out");
     }
     if (options.grid.json && options.markdown) {
-        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+        return fail(ErrorCode::bad_argument, "--markdown and --json cannot be used together");
     }
     return {};
 }
@@ -189,24 +189,25 @@ Status check_options(AccuracyOptions& options) {
     const std::size_t files = options.grid.files.size();
     if (options.picture && (options.compare_sites || options.held_out || files > 1)) {
         return fail(ErrorCode::bad_argument,
-                    "--picture takes one FILE or a scene, and neither --held-out nor "
+                    "--picture takes one FILE or a scene, and cannot be used with --held-out or "
                     "--compare-sites");
     }
     if (options.compare_sites) return check_site_options(options);
     if (options.scene.empty() == (files == 0)) {
-        return fail(ErrorCode::bad_argument, "name one FILE or more, or a scene with --scene");
+        return fail(ErrorCode::bad_argument, "name one or more FILEs, or a scene with --scene");
     }
     if (options.held_out && !options.plot.empty()) {
-        return fail(ErrorCode::bad_argument, "--plot shows a ladder, not what was held out");
+        return fail(ErrorCode::bad_argument,
+                    "--plot cannot show held-out volumes; leave out --held-out");
     }
     if (!options.scene.empty()) options.grid.files = {options.scene};
     if (options.grid.json && options.markdown) {
-        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+        return fail(ErrorCode::bad_argument, "--markdown and --json cannot be used together");
     }
     if (options.plot.empty()) return {};
     if (!options.plot.ends_with(".svg")) {
         return fail(ErrorCode::bad_argument,
-                    "--plot writes SVG: its name must end in .svg, unlike '{}'", options.plot);
+                    "--plot writes SVG: the name must end in .svg, not '{}'", options.plot);
     }
     return check_target(options.plot);
 }
@@ -225,7 +226,7 @@ int report_over_time(const AccuracyOptions& options, const GridRequest& request,
         return exit_done;
     }
     fmt::print(
-        "Each volume between two others, held out and made again from those; against what was "
+        "Each volume between two others, made again from those two and compared with what was "
         "seen:\n\n{}",
         format_held_out(*rows, options.markdown));
     return exit_done;
@@ -268,8 +269,8 @@ int run_files(const AccuracyOptions& options, const GridRequest& request) {
     if (!sources) return report_error(sources.error());
     if (!request.frame_time && sources->site_count() == 1) {
         if (!options.plot.empty()) {
-            return report_error({ErrorCode::bad_argument,
-                                 "--plot shows a ladder, not what was held out: give a --time"});
+            return report_error(
+                {ErrorCode::bad_argument, "--plot cannot show held-out volumes; give a --time"});
         }
         return report_over_time(options, request, sequence_of(std::move(*sources)));
     }
@@ -327,41 +328,43 @@ int run_accuracy(AccuracyOptions options) {
 Run set_up_accuracy(CLI::App& command) {
     const auto options = std::make_shared<AccuracyOptions>();
     options->grid.threads = 1;
-    command.add_option(
-        "FILE", options->grid.files,
-        "One Level II file; or several of several sites, or of one at a --time: the "
-        "steps that make one frame of them; or three or more of one site, of which "
-        "each is made again from its neighbours in time; or, with --compare-sites, of several");
+    command.add_option("FILE", options->grid.files,
+                       "The Level II files to measure. One file is measured alone. Files of "
+                       "several sites, or of one site with --time, are measured as one mosaic. Of "
+                       "three or more files of one site, each is made again from its neighbors in "
+                       "time. --compare-sites needs files of several sites");
     command.add_option("--time", options->grid.time,
-                       "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
-                       "repeated sweeps is taken");
-    command.add_flag("--held-out", options->held_out,
-                     "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
-                     "the repeats beside it; of a scene: its second volume");
+                       "Instant in UTC (ISO 8601). For several FILEs, it is the instant of their "
+                       "mosaic; for one FILE, the nearest of repeated sweeps is used");
+    command.add_flag(
+        "--held-out", options->held_out,
+        "Make held-out data again from their neighbors in time, and compare the two. For one FILE, "
+        "these are the repeats of its lowest cut (SAILS, MRLE); for a scene, its second volume");
     command.add_flag("--compare-sites", options->compare_sites,
-                     "Compare sites that overlap: bias, azimuth, elevation and clock of each "
-                     "pair; of a site with two FILEs the motion of the weather is known");
+                     "Compare sites that overlap: bias, azimuth, elevation and clock of each pair. "
+                     "Two FILEs of one site also show the motion of the weather");
     command.add_flag("--picture", options->picture,
-                     "Of one FILE or a scene: what the accuracy of its picture costs instead: "
-                     "slices, integration, rays and light");
-    command.add_option("--scene", options->scene,
-                       "A simulated scene instead; its truth is compared with too");
+                     "Measure the picture of one FILE or a scene instead of its grid: slices, "
+                     "integration, rays and light");
+    command.add_option(
+        "--scene", options->scene,
+        "A simulated scene (TOML) to measure instead of FILEs, also against its own truth");
     add_spec_options(command, options->grid);
     command
-        .add_option(
-            "--profile", options->effects.profile,
-            "Of refractivity, what the exact beams are traced through: exponential, standard "
-            "or a sounding file")
+        .add_option("--profile", options->effects.profile,
+                    "Profile of refractivity through which the exact beams are traced: "
+                    "exponential, standard or a sounding file")
         ->capture_default_str();
-    command.add_option("--columns", options->columns, "How many columns are compared")
+    command.add_option("--columns", options->columns, "Number of columns to compare")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000000));
-    command.add_option("--rounds", options->rounds, "How often each time is taken")
+    command.add_option("--rounds", options->rounds, "Number of times that each time is measured")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    command.add_option("--plot", options->plot, "Write error against time as FILE.svg");
+    command.add_option("--plot", options->plot,
+                       "Write a plot of error against time to this file (.svg)");
     command.add_flag("--markdown", options->markdown,
-                     "Tables as Markdown, as docs/accuracy.md has them; not with --json");
+                     "Print the tables as Markdown, as in docs/accuracy.md; not with --json");
     return [options] { return run_accuracy(*options); };
 }
 

@@ -24,8 +24,8 @@ std::string_view name_of(const grid::HeldOutScore& score) {
 Result<std::vector<grid::TimedVolume>> sequence_of(MosaicSources sources) {
     if (sources.volumes.size() < grid::least_sequence) {
         return fail(ErrorCode::bad_argument,
-                    "of one site it takes {} FILEs or more, each to be made again from its "
-                    "neighbours, or a --time",
+                    "files of one site need a --time, or there must be at least {} of them, so "
+                    "that each can be made again from its neighbors",
                     grid::least_sequence);
     }
     std::vector<grid::TimedVolume> sequence;
@@ -64,7 +64,8 @@ Result<std::vector<grid::TimedVolume>> observe_sequence(const synth::Scene& scen
 Result<std::vector<grid::HeldOutRow>> score_sequence(const std::vector<grid::TimedVolume>& sequence,
                                                      const GridRequest& request) {
     if (request.moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "grids for an instant are scored by REF, not {}",
+        return fail(ErrorCode::bad_argument,
+                    "grids for an instant can only be scored by REF, not by {}",
                     level2::moment_name(request.moment));
     }
     const grid::SitePosition& site = sequence.front().site;

@@ -33,7 +33,7 @@ bool is_of_pictures(std::span<const accuracy::LadderRow> rows) {
 
 std::string picture_markdown(std::span<const accuracy::LadderRow> rows) {
     std::string text =
-        "| step | rung | time_s | colour p99 (dE) | Pareto |\n|---|---|--:|--:|---|\n";
+        "| step | rung | time_s | color p99 (dE) | Pareto |\n|---|---|--:|--:|---|\n";
     for (const accuracy::LadderRow& row : rows) {
         text += fmt::format(
             "| {} | {} | {} | {} | {} |\n", row.step, row.name, format_number(row.time_s),

@@ -10,8 +10,8 @@ Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(const MosaicSources& s
                                                           int rounds) {
     if (level2::is_circular(request.moment)) {
         return fail(ErrorCode::bad_argument,
-                    "{} of several volumes has no ladder: its values lie on a circle, and each "
-                    "radar has its own",
+                    "{} of several volumes cannot be measured: its values lie on a circle, and "
+                    "each radar has its own circle",
                     level2::moment_name(request.moment));
     }
     grid::MosaicOptions overlap;

@@ -27,7 +27,7 @@ std::vector<std::string> not_told_of(const grid::SiteComparison& pair) {
     const bool all = !why.empty() && pair.azimuth_deg.untold == why &&
                      pair.elevation_deg.untold == why && pair.time_s.untold == why;
     if (!all) return grid::untold(pair);
-    return {fmt::format("{} against {}: nothing told: {}", pair.b, pair.a, why)};
+    return {fmt::format("{} against {}: nothing can be determined: {}", pair.b, pair.a, why)};
 }
 
 void add_lines(const std::vector<std::string>& lines, bool markdown, std::string& text) {
@@ -40,7 +40,7 @@ void add_lines(const std::vector<std::string>& lines, bool markdown, std::string
 Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                      const GridRequest& request, const EffectRequest& effects) {
     if (request.moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "sites are compared by REF, not {}",
+        return fail(ErrorCode::bad_argument, "sites can only be compared by REF, not by {}",
                     level2::moment_name(request.moment));
     }
     const auto sources = load_mosaic(files, request);
@@ -55,7 +55,7 @@ Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
     compared.instant = request.frame_time.value_or(pipeline::instant_of_newest(views));
     const auto looks = pipeline::looks_about(views, compared.instant);
     if (looks.size() < 2) {
-        return fail(ErrorCode::bad_argument, "--compare-sites takes files of two sites or more");
+        return fail(ErrorCode::bad_argument, "--compare-sites needs files of two or more sites");
     }
     for (std::size_t a = 0; a < looks.size(); ++a) {
         compared.stations.push_back(looks[a].site().icao);
@@ -90,9 +90,9 @@ std::string format_site_pairs(const SitePairs& compared, bool markdown) {
         not_told.insert(not_told.end(), untold.begin(), untold.end());
     }
     if (compared.pairs.empty()) text += "no two of these sites overlap\n";
-    text += named.empty() ? "\nNo fault is named.\n" : "\nNamed faults:\n\n";
+    text += named.empty() ? "\nNo fault was found.\n" : "\nFaults found:\n\n";
     add_lines(named, markdown, text);
-    if (!not_told.empty()) text += "\nNot told:\n\n";
+    if (!not_told.empty()) text += "\nWhat cannot be determined:\n\n";
     add_lines(not_told, markdown, text);
     return text;
 }
@@ -128,8 +128,8 @@ int run_site_pairs(const GridOptions& options, const GridRequest& request,
         fmt::print("{}\n", site_pairs_json(*compared).dump(1, ' ', true, replace));
         return exit_done;
     }
-    fmt::print("What each site of a pair says otherwise than the other, at {}:\n\n{}",
-               format_utc(compared->instant), format_site_pairs(*compared, markdown));
+    fmt::print("How the two sites of each pair differ, at {}:\n\n{}", format_utc(compared->instant),
+               format_site_pairs(*compared, markdown));
     return exit_done;
 }
 

@@ -43,7 +43,8 @@ Result<std::vector<std::string>> stations_within(const std::string& text) {
         }
     }
     if (stations.empty()) {
-        return fail(ErrorCode::bad_argument, "--bounds {}: no station stands there", text);
+        return fail(ErrorCode::bad_argument, "--bounds {}: no station lies within these bounds",
+                    text);
     }
     return stations;
 }
@@ -55,7 +56,7 @@ Status complete_request(FetchOptions& options) {
         return fail(ErrorCode::bad_argument, "fetch needs --from and --to");
     }
     if (options.stations.empty() == options.bounds.empty()) {
-        return fail(ErrorCode::bad_argument, "fetch needs --stations or --bounds, and not both");
+        return fail(ErrorCode::bad_argument, "fetch needs either --stations or --bounds");
     }
     auto stations =
         options.bounds.empty() ? parse_stations(options.stations) : stations_within(options.bounds);
@@ -84,13 +85,14 @@ int report_of(const FetchOptions& options, const fetch::FetchReport& report) {
     if (options.json) {
         print_json(json_of(report));
     } else if (!options.quiet) {
-        fmt::print(stderr, "{} {} of {} {} ({}) into {}; {} were there already{}\n", report.fetched,
-                   plural(report.fetched, "volume"), options.request.stations.size(),
+        fmt::print(stderr, "fetched {} {} of {} {} ({}) into {}; {} were there already{}\n",
+                   report.fetched, plural(report.fetched, "volume"),
+                   options.request.stations.size(),
                    plural(options.request.stations.size(), "station"),
                    format_byte_size(report.bytes), printable(options.directory), report.present,
                    report.failures.empty()
                        ? ""
-                       : fmt::format("; {} failed: the same command tries them again",
+                       : fmt::format("; {} failed, and the same command tries them again",
                                      report.failures.size()));
     }
     if (!report.failures.empty()) return exit_failed;
@@ -112,7 +114,7 @@ int run_fetch(FetchOptions options) {
     if (!report) return report_error(report.error());
     if (report->stopped) {
         fmt::print(stderr,
-                   "stormcellar: interrupted; the same command goes on from the {} {} that came\n",
+                   "stormcellar: interrupted after {} {}; the same command continues from there\n",
                    report->fetched, plural(report->fetched, "volume"));
         interrupt.end_by_signal();
     }
@@ -124,25 +126,28 @@ int run_fetch(FetchOptions options) {
 Run set_up_fetch(CLI::App& fetch) {
     const auto options = std::make_shared<FetchOptions>();
     add_time_range(fetch, options->times);
-    fetch.add_option("--stations", options->stations, "ICAOs, e.g. KTLX,KFDR");
+    fetch.add_option("--stations", options->stations,
+                     "ICAO identifiers of the stations, such as KTLX,KFDR");
     fetch.add_option("--bounds", options->bounds,
-                     "WEST,SOUTH,EAST,NORTH in degrees: the stations that stand within");
+                     "Fetch the stations within these bounds: WEST,SOUTH,EAST,NORTH in degrees");
     fetch
         .add_option("-o,--output", options->directory,
-                    "The directory to put them in; it is made when it is missing")
+                    "Directory for the files; it is made if it does not exist")
         ->required();
     fetch
         .add_option("--source", options->request.source,
-                    "Address of a bucket that answers as Amazon S3 does (ListObjectsV2)")
+                    "Address of the bucket, which must answer as Amazon S3 does (ListObjectsV2)")
         ->capture_default_str();
-    fetch.add_option("--parallel", options->request.parallel, "Transfers at a time")
+    fetch.add_option("--parallel", options->request.parallel, "Number of transfers at a time")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
-    fetch.add_option("--tries", options->request.tries, "How often each is tried")
+    fetch
+        .add_option("--tries", options->request.tries,
+                    "Number of times that each transfer is tried")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    fetch.add_flag("--quiet", options->quiet, "Say nothing but what went wrong");
-    fetch.add_flag("--json", options->json, "Say what was done as one JSON document");
+    fetch.add_flag("--quiet", options->quiet, "Print only what went wrong");
+    fetch.add_flag("--json", options->json, "Print what was done as one JSON document");
     return [options] { return run_fetch(*options); };
 }
 

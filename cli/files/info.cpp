@@ -89,7 +89,7 @@ void print_sweeps(const level2::Decoded& decoded) {
     for (std::size_t i = 0; i < decoded.volume.sweeps.size(); ++i) {
         const level2::Sweep& sweep = decoded.volume.sweeps[i];
         if (std::find(starts.begin(), starts.end(), i) != starts.end()) {
-            fmt::print("      a further volume begins\n");
+            fmt::print("      another volume begins\n");
         }
         const level2::Radial& first = sweep.radials.front();
         const std::string start = format_utc(first.time);
@@ -170,21 +170,23 @@ Status check_output(const InfoOptions& options) {
     if (options.to.empty()) return {};
     std::error_code ignored;
     if (std::filesystem::equivalent(options.file, options.to, ignored)) {
-        return fail(ErrorCode::bad_argument, "{}: is the volume itself", options.to);
+        return fail(ErrorCode::bad_argument, "{}: this is the input file itself; name another file",
+                    options.to);
     }
-    return check_output_file(options.to, {".nc", ".nc4"}, "CfRadial is netCDF", options.json);
+    return check_output_file(options.to, {".nc", ".nc4"}, "CfRadial is written as netCDF",
+                             options.json);
 }
 
 // Returns the number of the volume that is to be written, from 0.
 Result<std::size_t> chosen_volume(const InfoOptions& options, std::size_t count) {
     if (options.volume == 0 && count > 1) {
         return fail(ErrorCode::bad_argument,
-                    "{}: holds {} volumes: say which one with --volume 1 to {}", options.file,
-                    count, count);
+                    "{}: holds {} volumes; choose one with --volume 1 to {}", options.file, count,
+                    count);
     }
     const auto number = static_cast<std::size_t>(std::max(options.volume, 1));
     if (number > count) {
-        return fail(ErrorCode::bad_argument, "--volume {}: {} holds {} volume{}", number,
+        return fail(ErrorCode::bad_argument, "--volume {}: {} holds only {} volume{}", number,
                     options.file, count, count == 1 ? "" : "s");
     }
     return number - 1;
@@ -241,7 +243,7 @@ int run_info(const InfoOptions& options) {
     const auto& files = inputs->files();
     if (!options.to.empty() && files.size() > 1) {
         return report_error({ErrorCode::bad_argument,
-                             fmt::format("{}: holds {} files: name one of them, as in {}",
+                             fmt::format("{}: holds {} files; name one of them, such as {}",
                                          options.file, files.size(), files.front().label)});
     }
     nlohmann::ordered_json document;
@@ -284,19 +286,21 @@ int run_info(const InfoOptions& options) {
 
 Run set_up_info(CLI::App& info) {
     const auto options = std::make_shared<InfoOptions>();
-    info.add_option(
-            "FILE", options->file,
-            "The file, or a directory of chunks; what it is, is found by content. Of a tar or "
-            "zip archive, or of a directory of files, each file; - is standard input")
+    info.add_option("FILE", options->file,
+                    "The file to describe: a Level II file, a directory of chunks, or - for "
+                    "standard input. For a tar or zip archive or a directory of files, each file "
+                    "is described. The content of a file decides what it is")
         ->required();
-    info.add_flag("--json", options->json, "One JSON document");
+    info.add_flag("--json", options->json, "Print one JSON document");
     CLI::Option* to = info.add_option("--to", options->to,
-                                      "Also write the volume to this file, as CfRadial netCDF");
-    info.add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
+                                      "Also write the volume to this file as CfRadial netCDF");
+    info.add_option("--volume", options->volume,
+                    "Number of the volume to write, from 1, if the file holds several")
         ->check(CLI::Range(1, 1000))
         ->needs(to);
     add_site_options(info, options->site);
-    info.add_option("--threads", options->threads, "Threads to decompress with")
+    info.add_option("--threads", options->threads,
+                    "Number of threads for decompression. Default: all processors")
         ->check(CLI::Range(1, 256));
     return [options] { return run_info(*options); };
 }

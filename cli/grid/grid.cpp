@@ -223,8 +223,9 @@ Status check_output(const GridOptions& options, const InputFiles& inputs) {
     for (const InputFile& file : inputs.files()) {
         std::error_code ignored;
         if (std::filesystem::equivalent(file.path, options.output, ignored)) {
-            return fail(ErrorCode::bad_argument, "{}: is {} itself", options.output,
-                        options.files.size() == 1 ? "the volume" : "one of the volumes");
+            return fail(ErrorCode::bad_argument, "{}: this is {} itself; name another file",
+                        options.output,
+                        options.files.size() == 1 ? "the input file" : "one of the input files");
         }
     }
     return check_output_file(

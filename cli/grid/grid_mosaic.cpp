@@ -52,7 +52,8 @@ std::string never_mixed() {
 Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                    GridRequest request) {
     if (sites.empty() && !request.center_deg) {
-        return fail(ErrorCode::bad_argument, "no station says where the grid lies: give --center");
+        return fail(ErrorCode::bad_argument,
+                    "the position of none of the stations is known; give --center");
     }
     const grid::GeoPoint center =
         request.center_deg ? grid::GeoPoint{(*request.center_deg)[0], (*request.center_deg)[1]}
@@ -67,12 +68,14 @@ Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
     app.add_option(
         "--overlap", options.overlap,
-        fmt::format("Where several sites see a cell: {} (the default); {} allow nearest alone",
-                    names_in(grid::overlap_facts, ", ", " or "), never_mixed()));
-    app.add_option("--overlap-km", options.overlap_km,
-                   "L of the weight exp(-r^2/L^2) of a site r away; else 250");
+        fmt::format(
+            "Rule for cells that several sites see: {} (the default). {} allow only nearest",
+            names_in(grid::overlap_facts, ", ", " or "), never_mixed()));
+    app.add_option(
+        "--overlap-km", options.overlap_km,
+        "Length L in km of the weight exp(-r^2/L^2) of a site at the distance r. Default: 250");
     app.add_option("--time-method", effects.time_method,
-                   fmt::format("Between two volumes of a site: {} (the default)",
+                   fmt::format("How to interpolate between two volumes of a site: {} (the default)",
                                names_in(grid::time_method_facts, ", ", " or ")));
 }
 
@@ -85,7 +88,7 @@ Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const Eff
                                        : !effects.time_method.empty() ? "--time-method"
                                                                       : "";
         if (given.empty()) return mosaic;
-        return fail(ErrorCode::bad_argument, "{} is for several FILEs", given);
+        return fail(ErrorCode::bad_argument, "{} needs several FILEs", given);
     }
     mosaic.moment = request.moment;
     mosaic.overlap = grid::default_overlap(request.moment);

@@ -38,8 +38,9 @@ std::optional<std::string> note_on_frame_time(const grid::Grid& grid) {
     const auto after = *grid.frame_time - grid.end_time;
     const auto before = grid.start_time - *grid.frame_time;
     if (std::max(after, before) <= usual_distance) return std::nullopt;
-    return fmt::format("the frame is {} {} the volume, of {}", span_text(std::max(after, before)),
-                       after > before ? "after" : "before", format_utc(grid.time));
+    return fmt::format("the grid's time is {} {} the volume, which is of {}",
+                       span_text(std::max(after, before)), after > before ? "after" : "before",
+                       format_utc(grid.time));
 }
 
 std::optional<std::string> note_on_cells(const grid::Grid& grid) {
@@ -48,7 +49,7 @@ std::optional<std::string> note_on_cells(const grid::Grid& grid) {
                     [](grid::CellStatus status) { return status != grid::CellStatus::not_seen; });
     if (seen) return std::nullopt;
     const grid::SitePosition& site = grid.sites.front();
-    return fmt::format("{}, at {:.4f},{:.4f}, sees no cell of the grid about {:.4f},{:.4f}",
+    return fmt::format("{}, at {:.4f},{:.4f}, sees no cell of the grid around {:.4f},{:.4f}",
                        site.icao, site.latitude_deg, site.longitude_deg,
                        grid.spec.center_latitude_deg, grid.spec.center_longitude_deg);
 }
@@ -60,8 +61,8 @@ std::vector<std::string> notes_on(const grid::Grid& grid, const EffectRequest& e
     };
     if (effects.profile_bends_nothing) {
         notes.emplace_back(
-            "--profile bends no beam of this grid, because refraction is off; it counts in the "
-            "predicted error alone");
+            "--profile does not bend the beams of this grid, because refraction is off; it only "
+            "changes the predicted error");
     }
     add(note_on_sounding(effects, grid.sites.front()));
     add(note_on_frame_time(grid));

@@ -87,7 +87,7 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
     if (cells <= most) return static_cast<int>(cells);
     return fail(
         ErrorCode::bad_argument,
-        "an extent of {0} {2} is too large for cells of {1} {2}: at most {3} of them, {4} {2}",
+        "an extent of {0} {2} is too large for cells of {1} {2}; the limit is {3} cells, {4} {2}",
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
@@ -96,8 +96,9 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
     if (!whole) {
-        return fail(ErrorCode::bad_argument, "an extent of {} {} is no whole number of {} {} cells",
-                    extent, unit_name(unit), spacing, unit_name(unit));
+        return fail(ErrorCode::bad_argument,
+                    "an extent of {} {} is not a whole number of cells of {} {}", extent,
+                    unit_name(unit), spacing, unit_name(unit));
     }
     return count_of(cells, extent, spacing, unit);
 }
@@ -106,8 +107,9 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
 Result<int> cells_over(double extent_deg, double spacing_deg) {
     const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
     if (!(cells >= 1)) {
-        return fail(ErrorCode::bad_argument, "an extent of {} degrees in cells of {} degrees",
-                    extent_deg, spacing_deg);
+        return fail(ErrorCode::bad_argument,
+                    "an extent of {} degrees is too small for cells of {} degrees", extent_deg,
+                    spacing_deg);
     }
     return count_of(cells, extent_deg, spacing_deg, SizeUnit::degrees);
 }
@@ -117,13 +119,13 @@ Status parse_size(const GridOptions& options, GridRequest& request) {
     const bool any_degrees = options.spacing_deg || !options.extent_deg.empty();
     if (any_degrees && !grid::facts_of(request.projection).in_degrees) {
         return fail(ErrorCode::bad_argument,
-                    "--spacing-deg and --extent-deg are for --projection latitude_longitude");
+                    "--spacing-deg and --extent-deg need --projection latitude_longitude");
     }
     const bool twice = (options.spacing_deg && options.spacing_km) ||
                        (!options.extent_deg.empty() && !options.extent_km.empty());
     if (twice) {
         return fail(ErrorCode::bad_argument,
-                    "give the spacing and the extent once each, in km or in degrees");
+                    "give the spacing once and the extent once, in km or in degrees");
     }
     request.spacing_unit = options.spacing_deg ? SizeUnit::degrees : SizeUnit::km;
     request.spacing = options.spacing_deg.value_or(options.spacing_km.value_or(request.spacing));
@@ -153,7 +155,7 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
     }
     if (options.parallels.empty()) return {};
     if (!grid::facts_of(request.projection).takes_parallels) {
-        return fail(ErrorCode::bad_argument, "--parallels is for --projection lambert_conformal");
+        return fail(ErrorCode::bad_argument, "--parallels needs --projection lambert_conformal");
     }
     const auto parallels = parse_pair("--parallels", "LAT1,LAT2 in degrees", options.parallels);
     if (!parallels) return pass_on(parallels);
@@ -195,18 +197,19 @@ Status parse_fields(const GridOptions& options, GridRequest& request) {
         names.reserve(grid::all_details.size());
         for (const grid::Detail known : grid::all_details)
             names.push_back(grid::detail_name(known));
-        return fail(ErrorCode::bad_argument,
-                    "--fields takes any of {} or all, of several FILEs {}, {} or all, not '{}'",
-                    fmt::join(names, ", "), counts_field, weights_field, name);
+        return fail(
+            ErrorCode::bad_argument,
+            "--fields takes {} or all for one FILE, and {}, {} or all for several FILEs, not '{}'",
+            fmt::join(names, ", "), counts_field, weights_field, name);
     }
     if (mosaic && request.details.any()) {
-        return fail(ErrorCode::bad_argument,
-                    "--fields {}: what tells of single gates is for one "
-                    "FILE; of several there are {} and {}",
-                    text, counts_field, weights_field);
+        return fail(
+            ErrorCode::bad_argument,
+            "--fields {}: details of single gates need one FILE; several FILEs have {} and {}",
+            text, counts_field, weights_field);
     }
     if (!mosaic && (request.site_counts || request.site_weights)) {
-        return fail(ErrorCode::bad_argument, "--fields {}: {} and {} are for several FILEs", text,
+        return fail(ErrorCode::bad_argument, "--fields {}: {} and {} need several FILEs", text,
                     counts_field, weights_field);
     }
     return {};
@@ -314,61 +317,68 @@ Result<grid::GridSpec> spec_about(const GridRequest& request, double center_lati
 
 void add_grid_options(CLI::App& app, GridOptions& options) {
     app.add_option("FILE", options.files,
-                   "Level II files: one, or a mosaic of several sites and times; also tar and zip "
-                   "archives, directories, and - for standard input")
+                   "The Level II files to grid; several files give a mosaic of their sites and "
+                   "times. Tar and zip archives, directories and - for standard input work too")
         ->required();
     app.add_option(
            "-o,--output", options.output,
-           fmt::format("The file to write, as {}; - is standard output, as {}",
+           fmt::format("The file to write, as {}; - writes {} to standard output",
                        grid_export::known_grid_formats(), grid_export::grid_formats().front().name))
         ->required();
     add_spec_options(app, options);
-    app.add_option(
-        "--time", options.time,
-        "Frame time, ISO 8601. Of one FILE: of sweeps at one elevation the nearest to it is taken, "
-        "not the newest, and ages count from it, not from the start of the volume. Of several: the "
-        "instant that all is brought to; else the middle of what the newest volumes show, or the "
-        "newest of them where they are far apart");
-    app.add_option(
-        "--fields", options.fields,
-        "Beside the value, any of age (s), height_offset (m above the nearest beam), "
-        "distance (m to the nearest gate), weight (share seen), e.g. age,weight; or all. Of "
-        "several FILEs: counts (sites that see a cell), weights (the sum of theirs)");
+    app.add_option("--time", options.time,
+                   "Time of the grid in UTC (ISO 8601). With one FILE, the grid uses the sweeps "
+                   "nearest to this time instead of the newest at each elevation, and ages count "
+                   "from this time instead of the start of the volume. With several FILEs, all of "
+                   "them are brought to this instant. Default for several: the middle of the times "
+                   "of the newest volumes, or the newest of these times if they are far apart");
+    app.add_option("--fields", options.fields,
+                   "Details to write beside the value, separated by commas, or all. For one FILE: "
+                   "age (s), height_offset (m above the nearest beam), distance (m to the nearest "
+                   "gate) and weight (the share that was seen). For several FILEs: counts (how "
+                   "many sites see a cell) and weights (the sum of their weights)");
 }
 
 void add_place_options(CLI::App& app, GridOptions& options) {
-    app.add_option("--center", options.center,
-                   "LAT,LON in degrees; else the site, or the middle of the sites");
-    app.add_option("--projection", options.projection, known_projections(" or "))
+    app.add_option(
+        "--center", options.center,
+        "Center of the grid: LAT,LON in degrees. Default: the site, or the middle of the sites");
+    app.add_option("--projection", options.projection,
+                   fmt::format("Projection of the grid: {}", known_projections(" or ")))
         ->capture_default_str();
     app.add_option(
         "--parallels", options.parallels,
-        "LAT1,LAT2: standard parallels of lambert_conformal; else the centre's latitude");
+        "Standard parallels of lambert_conformal: LAT1,LAT2. Default: the latitude of the center");
     app.add_option("--extent-km", options.extent_km,
-                   "Full width and height, e.g. 460,460 (the default of one site; of several, 230 "
-                   "km beyond them)");
+                   "Full width and height of the grid in km. Default: 460,460 for one site; for "
+                   "several, 230 km beyond them");
     app.add_option("--spacing-km", options.spacing_km,
-                   "From one cell to the next; else 1. For latitude_longitude, kilometres become "
-                   "degrees of latitude (spacing, height) and longitude (width) as the centre has "
-                   "them, rounded up to whole cells");
+                   "Distance from one cell to the next in km. Default: 1. For latitude_longitude, "
+                   "km become degrees as they are at the center: of latitude for the spacing and "
+                   "the height, of longitude for the width, rounded up to whole cells");
     app.add_option("--extent-deg", options.extent_deg,
-                   "Full width and height of a latitude_longitude grid, e.g. 6,4");
-    app.add_option("--spacing-deg", options.spacing_deg,
-                   "From one cell of a latitude_longitude grid to the next, both ways");
+                   "Full width and height of a latitude_longitude grid in degrees, such as 6,4");
+    app.add_option(
+        "--spacing-deg", options.spacing_deg,
+        "Distance from one cell of a latitude_longitude grid to the next in degrees, both ways");
     app.add_option("--levels-km", options.levels_km,
-                   "Heights above mean sea level, a,b,c or bottom:top:step; else 0.5:16:0.5");
+                   "Heights of the levels in km above mean sea level: a,b,c or bottom:top:step. "
+                   "Default: 0.5:16:0.5");
 }
 
 void add_spec_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
     add_site_options(app, options.site);
-    app.add_option("--moment", options.moment, level2::moment_names(", ", " or "))
+    app.add_option("--moment", options.moment,
+                   fmt::format("The moment to grid: {}", level2::moment_names(", ", " or ")))
         ->capture_default_str();
     app.add_option("--threads", options.threads,
-                   options.threads == 0 ? std::string{"Else as many as the machine has"}
-                                        : fmt::format("Else {}", options.threads))
+                   options.threads == 0
+                       ? std::string{"Number of threads. Default: all processors"}
+                       : fmt::format("Number of threads. Default: {}", options.threads))
         ->check(CLI::Range(1, 256));
-    app.add_flag("--json", options.json, "One JSON document with facts and phase timings");
+    app.add_flag("--json", options.json,
+                 "Print one JSON document with the facts and the time of each phase");
 }
 
 }  // namespace stormcellar::cli

@@ -71,7 +71,7 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     const auto& files = inputs->files();
     const auto named = std::ranges::find(files, file, &InputFile::label);
     if (named == files.end()) {
-        return fail(ErrorCode::bad_argument, "{}: holds several files", file);
+        return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
     }
     SourceVolume source;
     auto decoded = read_and_decode(*inputs, *named, request, source);
@@ -84,10 +84,11 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     }
     const auto antenna = level2::antenna_position(source.volume);
     if (!antenna) {
-        return fail(ErrorCode::not_found,
-                    "{}: neither the file nor the station table says where the radar stands; "
-                    "--station ICAO names it, --position LAT,LON,HEIGHT says where it stands",
-                    file);
+        return fail(
+            ErrorCode::not_found,
+            "{}: neither the file nor the station table gives the position of the radar; name the "
+            "radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT",
+            file);
     }
     if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
     source.site = {source.volume.station, antenna->latitude_deg, antenna->longitude_deg,

@@ -42,7 +42,7 @@ Result<Domain> mosaic_of(const ArchiveCall& call, const catalog::CatalogReader& 
     const auto sites = pipeline::sites_of(catalog, domain.stations, left_out);
     if (sites.empty() && !request.bounds && !request.place.center_deg) {
         return fail(ErrorCode::bad_argument,
-                    "where {} stands is not known: give --center or --bounds",
+                    "the position of {} is not known; give --center or --bounds",
                     fmt::join(domain.stations, ", "));
     }
     auto spec = archive_spec(request, sites);
@@ -107,8 +107,10 @@ Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Int
         bar.show(done);
     if (interrupt.flag()) {
         bar.clear();
-        fmt::print(stderr, "stormcellar: interrupted; the next run goes on from the {} {} done\n",
-                   done.load(), what);
+        fmt::print(
+            stderr,
+            "stormcellar: interrupted after {} of {} {}; the next run continues from there\n",
+            done.load(), total, what);
         interrupt.end_by_signal();
     }
     return outcome.get();
@@ -127,12 +129,13 @@ Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& cat
     const auto known = catalog.station_names();
     if (!known) return pass_on(known);
     if (known->empty()) {
-        return fail(ErrorCode::not_found, "{}: there is no catalog here (STATE/catalog is one)",
+        return fail(ErrorCode::not_found,
+                    "{}: there is no catalog here; name the directory STATE/catalog of a daemon",
                     call.catalog.native());
     }
     for (const std::string& station : call.request.stations) {
         if (std::find(known->begin(), known->end(), station) != known->end()) continue;
-        nothing = fmt::format("the catalog has nothing of {}", station);
+        nothing = fmt::format("the catalog has no volume of {}", station);
     }
     return {};
 }
@@ -141,7 +144,8 @@ void note_without_volumes(const ArchiveCall& call, const std::vector<ArchiveVolu
     const auto with_volumes = stations_of(volumes);
     for (const std::string& station : call.request.stations) {
         if (with_volumes.contains(station)) continue;
-        fmt::print(stderr, "stormcellar: warning: no volume of {} in that time\n", station);
+        fmt::print(stderr, "stormcellar: warning: the catalog has no volume of {} in that time\n",
+                   station);
     }
 }
 
@@ -157,17 +161,17 @@ Status announce(const ArchiveCall& call, const pipeline::ArchivePlan& plan,
     if (!filling) return pass_on(filling);
     const std::uint64_t free = filling->capacity_bytes - filling->used_bytes;
     const std::string about = fmt::format(
-        "{} {} of {}: the grids of {} are in {} already, {} must be read ({}){}, which makes about "
-        "{} of grids ({} free)",
+        "{} {} of {}: {} have their grids in {} already, {} must be read ({}){}; the new grids "
+        "take about {} ({} free)",
         volumes.size(), plural(volumes.size(), "volume"), fmt::join(stations_of(volumes), " "),
         volumes.size() - missing.size(), plan.cache.native(), missing.size(),
         format_byte_size(raw_bytes),
-        frames > 0 ? fmt::format(" and {} mosaics to make", frames) : "", format_byte_size(need),
-        format_byte_size(free));
+        frames > 0 ? fmt::format(" and {} mosaics must be made", frames) : "",
+        format_byte_size(need), format_byte_size(free));
     if (need > free) {
         return fail(ErrorCode::no_space,
-                    "{}: that does not fit; give --cache on another disk, a "
-                    "wider --spacing-km or a shorter time",
+                    "{}: there is not enough room; use --cache on another disk, a wider "
+                    "--spacing-km or a shorter time",
                     about);
     }
     if (!call.quiet) fmt::print(stderr, "{}\n", printable(about));
@@ -194,7 +198,7 @@ void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& mis
         const auto path = grids.store->path_of(domain, call.moment, volume->start);
         std::error_code ignored;
         if (path && fs::exists(*path, ignored)) {
-            file.reason += "; the grid that was made of it earlier stays";
+            file.reason += "; the grid that was made from it earlier stays";
         }
     }
     warn(grids.report.left_out, "left out: ");
@@ -256,7 +260,7 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     if (!nothing.empty()) return std::optional<ArchiveGrids>{};
     const auto plan = plan_of(call, *catalog);
     if (!plan) return pass_on(plan);
-    nothing = plan->stations.empty() ? "no station of the catalog reaches the bounds"
+    nothing = plan->stations.empty() ? "no station in the catalog reaches these bounds"
                                      : "no volume of these stations";
     const bool between = plan->mosaic || call.interval;
     const auto volumes = pipeline::archive_volumes(*catalog, plan->stations,

@@ -54,7 +54,7 @@ Result<grid::GridSpec> spec_over(const pipeline::Bounds& bounds, GridRequest req
     if (!half) return pass_on(half);
     if (!(half->x > 0) || !(half->y > 0)) {
         return fail(ErrorCode::bad_argument,
-                    "--bounds are too wide for a plane: add --projection lat-lon");
+                    "--bounds are too wide for a flat projection; add --projection lat-lon");
     }
     request.extent = {2 * std::ceil(half->x - 1e-6) * request.spacing,
                       2 * std::ceil(half->y - 1e-6) * request.spacing};
@@ -70,10 +70,10 @@ Result<std::vector<std::string>> parse_stations(const std::string& text) {
         const std::string name = text.substr(from, to - from);
         from = to + 1;
         if (!is_icao(name)) {
-            return fail(ErrorCode::bad_argument,
-                        "--stations takes ICAOs with commas between them, as in KBGM,KENX, not "
-                        "'{}'",
-                        text);
+            return fail(
+                ErrorCode::bad_argument,
+                "--stations takes ICAO identifiers separated by commas, as in KBGM,KENX, not '{}'",
+                text);
         }
         names.insert(name);
     }
@@ -82,28 +82,32 @@ Result<std::vector<std::string>> parse_stations(const std::string& text) {
 
 void add_archive_options(CLI::App& app, ArchiveOptions& options) {
     const std::string group = "From an archive's raw files";
-    app.add_option("--catalog", options.catalog,
-                   "The catalog's directory (state/catalog): the grids are made from the raw files "
-                   "of --from to --to, in a cache of their own, and stay there for the next run")
+    app.add_option(
+           "--catalog", options.catalog,
+           "Directory of the catalog (state/catalog). The grids are made from the raw files of "
+           "--from to --to in a cache of their own, and stay there for the next run")
         ->group(group);
     app.add_option("--stations", options.stations,
-                   "ICAOs, e.g. KBGM,KENX: one has its own grid, several a mosaic")
+                   "ICAO identifiers of the stations, such as KBGM,KENX. One station gives its own "
+                   "grid, several give a mosaic")
         ->group(group);
     app.add_option("--bounds", options.bounds,
-                   "WEST,SOUTH,EAST,NORTH in degrees: a mosaic of the stations that reach it")
+                   "Make a mosaic of the stations that reach these bounds: WEST,SOUTH,EAST,NORTH "
+                   "in degrees")
         ->group(group);
     CLI::App* place = app.add_option_group(group + ": the grid");
     add_place_options(*place, options.place);
     app.add_option("--overlap", options.overlap,
-                   fmt::format("Where several sites see a cell: {} (the default)",
+                   fmt::format("Rule for cells that several sites see: {} (the default)",
                                names_in(grid::overlap_facts, ", ", " or ")))
         ->group(group);
-    app.add_option("--overlap-km", options.overlap_km,
-                   "L of the weight exp(-r^2/L^2) of a site r away; else 250")
+    app.add_option(
+           "--overlap-km", options.overlap_km,
+           "Length L in km of the weight exp(-r^2/L^2) of a site at the distance r. Default: 250")
         ->group(group)
         ->check(CLI::Range(1.0, 10'000.0));
     app.add_flag("--keep-cache,!--no-keep-cache", options.keep_cache,
-                 "Leave the grids for the next run (the default), or remove them at the end")
+                 "Keep the grids for the next run (the default), or remove them at the end")
         ->group(group);
 }
 
@@ -111,8 +115,8 @@ Result<ArchiveRequest> parse_archive(const ArchiveOptions& options) {
     ArchiveRequest request;
     if (!options.asked()) {
         if (const auto stray = stray_option(options); !stray.empty()) {
-            return fail(ErrorCode::bad_argument, "{} is for a loop from an archive (--catalog)",
-                        stray);
+            return fail(ErrorCode::bad_argument,
+                        "{} needs --catalog, because it is for a loop from an archive", stray);
         }
         return request;
     }
@@ -129,8 +133,9 @@ Result<ArchiveRequest> parse_archive(const ArchiveOptions& options) {
         const auto bounds = parse_bounds(options.bounds);
         if (!bounds) return pass_on(bounds);
         if (!options.place.center.empty() || extent_given) {
-            return fail(ErrorCode::bad_argument,
-                        "--bounds says where the grid lies: give no --center and no extent");
+            return fail(
+                ErrorCode::bad_argument,
+                "--bounds sets the place and size of the grid; leave out --center and the extent");
         }
         request.bounds = *bounds;
     }

@@ -62,7 +62,7 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Sce
     if (!stop) {
         if (report.frames == 0) {
             const std::size_t count = report.skipped.size();
-            return fail(ErrorCode::corrupt, "{}: {} is damaged; nothing written",
+            return fail(ErrorCode::corrupt, "{}: {} is damaged; nothing was written",
                         grids.store->directory().native(),
                         count == 1 ? std::string{"the only grid"}
                                    : fmt::format("each of the {} grids", count));
@@ -241,8 +241,7 @@ Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     if (options.json || options.follow.wanted ||
         std::ranges::count_if(options.outputs, is_piped) > 1) {
         return fail(ErrorCode::bad_argument,
-                    "-o {}: standard output takes one loop, and neither --json nor --follow beside "
-                    "it",
+                    "-o {}: standard output takes only one loop, without --json and --follow",
                     *piped);
     }
     auto file = OutputFile::open("-", is_stdout(*piped) ? ".webp" : piped->substr(1));

@@ -35,7 +35,7 @@ Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::Betwee
     auto made = between->at(frame.time);
     if (!made) return pass_on(made);
     if (!*made) {
-        return fail(ErrorCode::not_found, "no volume is near {}", format_utc(frame.time));
+        return fail(ErrorCode::not_found, "there is no volume near {}", format_utc(frame.time));
     }
     grid.made = std::move(**made);
     return grid;

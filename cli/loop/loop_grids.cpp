@@ -46,13 +46,13 @@ Status set_rhythm(const LoopOptions& options, level2::Moment moment, const Rhyth
     }
     if (frames.empty()) {
         fmt::print(
-            stderr, "stormcellar: no frame every {} s: {}\n", rhythm.interval->count(),
+            stderr, "stormcellar: cannot make a frame every {} s: {}\n", rhythm.interval->count(),
             grids.frames.size() == 1
-                ? std::string{"one grid is too few"}
-                : fmt::format("the {} grids are too few, or farther apart than {} minutes",
+                ? std::string{"there is only one grid"}
+                : fmt::format("the {} grids are too few, or more than {} minutes apart",
                               grids.frames.size(), pipeline::BetweenGrids::longest_bridge.count()));
     } else if (!options.quiet && !options.json) {
-        fmt::print(stderr, "between the grids: {}\n", between->method_text());
+        fmt::print(stderr, "frames between the grids: {}\n", between->method_text());
     }
     grids.frames = std::move(frames);
     grids.between.emplace(std::move(*between));
@@ -67,8 +67,7 @@ Result<ArchiveCall> call_of(const LoopOptions& options, const render::Scene& sce
         return fail(ErrorCode::bad_argument, "--catalog needs --from and --to");
     }
     if (!options.archive.keep_cache && !options.cache.empty()) {
-        return fail(ErrorCode::bad_argument,
-                    "--no-keep-cache is for the cache that is made without --cache");
+        return fail(ErrorCode::bad_argument, "--no-keep-cache cannot be used with --cache");
     }
     ArchiveCall call;
     call.request = std::move(*request);

@@ -48,7 +48,7 @@ Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& sto
     std::optional<UtcTime> until;
     if (!options.time.empty()) {
         const auto time = parse_utc(options.time, now_utc());
-        if (!time) return pass_on(time);
+        if (!time) return fail(time.error().code, "--time: {}", time.error().message);
         until = *time;
     }
     auto entries = store.list(options.domain, moment, std::nullopt, until);
@@ -204,11 +204,12 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
 Status check_options(const FrameOptions& options) {
     const bool probes = !options.probe.empty() || !options.probe_at.empty();
     if (!options.probe.empty() && !options.probe_at.empty()) {
-        return fail(ErrorCode::bad_argument, "--probe and --probe-at exclude each other");
+        return fail(ErrorCode::bad_argument, "--probe and --probe-at cannot be used together");
     }
     if (options.output.empty()) {
         if (probes) return {};
-        return fail(ErrorCode::bad_argument, "nothing to do: -o, --probe or --probe-at is needed");
+        return fail(ErrorCode::bad_argument,
+                    "there is nothing to do; give -o, --probe or --probe-at");
     }
     return check_output_file(options.output, {".png"}, "a frame is written as PNG", options.json);
 }
@@ -247,19 +248,23 @@ int run_frame(FrameOptions options) {
 Run set_up_frame(CLI::App& frame) {
     const auto options = std::make_shared<FrameOptions>();
     add_scene_file(frame, options->scene_file, options->scene, options->plan, nullptr);
-    frame.add_option("--cache", options->cache, "The cache's directory")->required();
-    frame.add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
+    frame.add_option("--cache", options->cache, "Directory of the cache")->required();
+    frame
+        .add_option("DOMAIN,--domain", options->domain,
+                    "Domain of the grid; a station's own domain is its ICAO identifier")
         ->required();
     frame.add_option("--time", options->time,
-                     "UTC, or relative as -1h: the grid at or next before it (default: latest)");
+                     "Draw the newest grid at or before this time, in UTC or relative as -1h. "
+                     "Default: the latest grid");
     frame.add_option("-o,--output", options->output,
-                     "The picture, .png, or - for standard output; needed unless something is "
-                     "probed");
-    frame.add_option("--probe", options->probe,
-                     "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
+                     "The picture to write (.png), or - for standard output. It may be left out "
+                     "with --probe and --probe-at");
+    frame.add_option(
+        "--probe", options->probe,
+        "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");
     frame.add_option("--probe-at", options->probe_at,
-                     "LAT,LON: say what is at that place (maps and volumes)");
-    frame.add_flag("--json", options->json, "Say what was done as one JSON document");
+                     "Print the value at this place: LAT,LON in degrees (maps and volumes)");
+    frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);
     return [options] { return run_frame(*options); };

@@ -29,14 +29,14 @@ int report_no_grid(const cache::StoreReader& store, const std::string& domain,
     const std::string_view name = level2::moment_name(moment);
     std::string why;
     if (!kept.empty() && std::find(kept.begin(), kept.end(), name) == kept.end()) {
-        why = fmt::format("no {} of domain '{}' is kept; it keeps {}", name, domain,
-                          fmt::join(kept, ", "));
+        why = fmt::format("there is no grid of {} of domain '{}'; its grids are of {}", name,
+                          domain, fmt::join(kept, ", "));
     } else {
         const auto domains = store.domains();
-        why = fmt::format("no grid of domain '{}'{}; {}", domain, when,
+        why = fmt::format("there is no grid of domain '{}'{}; {}", domain, when,
                           !domains || domains->empty()
                               ? std::string{"the cache is empty"}
-                              : fmt::format("domains are {}", fmt::join(*domains, ", ")));
+                              : fmt::format("the domains are {}", fmt::join(*domains, ", ")));
     }
     fmt::print(stderr, "stormcellar: {}\n",
                printable(fmt::format("{}: {}", store.directory().native(), why)));

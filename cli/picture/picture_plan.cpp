@@ -80,12 +80,14 @@ std::string error_text(const accuracy::Plan& plan) {
 // volume of the file, the plan has no effect.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
-        return fail(ErrorCode::bad_argument,
-                    "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
-                    render::product_name(product));
+        return fail(
+            ErrorCode::bad_argument,
+            "--tolerance, --effect and --explain need --product volume; they do not work with {}",
+            render::product_name(product));
     }
     if (options.scene->of_volume) return std::string{};
-    return fail(ErrorCode::bad_argument, "{}: [plan] is for volumes: {} is drawn as it is",
+    return fail(ErrorCode::bad_argument,
+                "{}: [plan] needs the product volume; it does not work with {}",
                 options.scene->file, render::product_name(product));
 }
 
@@ -95,16 +97,17 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
     const std::string group = "Accuracy of a volume's picture";
     app.add_option(
            "--tolerance", options.tolerance,
-           "What the picture may be off, \"dE 2\" (99 % of the pixels, CIEDE2000), or take, "
-           "\"20 ms\": slices and rays are chosen for it")
+           "Allowed error of the picture, as in \"dE 2\" (CIEDE2000, for 99 % of the pixels), or "
+           "allowed time, as in \"20 ms\". Slices and rays are chosen to meet it")
         ->group(group)
         ->each([&options](const std::string&) { options.tolerance_typed = true; });
     app.add_option("--effect", options.effects,
-                   "NAME=on|off|auto, any number; --explain lists the effects")
+                   "Turn an effect on or off, or let the plan decide: NAME=on|off|auto. The option "
+                   "may be given several times; --explain lists the effects")
         ->group(group)
         ->each([&options](const std::string&) { options.effects_typed = true; });
     app.add_flag("--explain", options.explain,
-                 "Say how large each effect is, and why it is on or off")
+                 "Print how large each effect is, and why it is on or off")
         ->group(group);
 }
 
@@ -120,15 +123,15 @@ Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
     if (keeps_slices(kept)) return kept;
     if (typed) {
         return fail(ErrorCode::bad_argument,
-                    "{} and --{} exclude each other: {} how many slices there are", slices.option,
+                    "{} and --{} cannot be used together: {} the number of slices", slices.option,
                     kept.tolerance.empty() ? "effect slices_..." : "tolerance",
-                    kept.tolerance.empty() ? "the effect says" : "the tolerance chooses");
+                    kept.tolerance.empty() ? "the effect sets" : "the tolerance chooses");
     }
-    return fail(ErrorCode::bad_argument,
-                "{}: {} and [plan] {} exclude each other: the plan chooses how many slices there "
-                "are",
-                plan.scene ? plan.scene->file : "", key_of(slices),
-                kept.tolerance.empty() ? "effects slices_..." : "tolerance");
+    return fail(
+        ErrorCode::bad_argument,
+        "{}: {} and [plan] {} cannot be used together: the plan chooses the number of slices",
+        plan.scene ? plan.scene->file : "", key_of(slices),
+        kept.tolerance.empty() ? "effects slices_..." : "tolerance");
 }
 
 Result<std::string> plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
@@ -156,7 +159,7 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
         scene.slices = planned->choice.slices;
     } else if (options.explain && scene.slices != planned->choice.slices) {
         fmt::print(json ? stderr : stdout,
-                   "The picture has the {} slices that were asked for, the plan is of {}.\n",
+                   "The picture has the {} slices that you asked for; the plan has {}.\n",
                    scene.slices, planned->choice.slices);
     }
     scene.integration = planned->choice.integration;

@@ -132,7 +132,8 @@ void read_row(const PictureOption& row, TomlTable& table, const std::filesystem:
     for (const std::string_view key : {row.key, row.old_key}) {
         if (key.empty() || !table.has(key)) continue;
         if (key == row.old_key && table.has(row.key)) {
-            table.complain(key, fmt::format("is the older name of {}: give one of them", row.key));
+            table.complain(key,
+                           fmt::format("is the older name of {}; give only one of them", row.key));
         }
         to.options.in_file.push_back(&row);
         std::visit(
@@ -162,7 +163,7 @@ void read_plan(TomlTable& plan, PicturePlanOptions& options) {
 void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSettings& loop) {
     read_text(table, "domain", loop.domain, [](const std::string& name) -> Status {
         if (cache::is_domain_name(name)) return {};
-        return fail(ErrorCode::bad_argument, "'{}' is no domain's name", printable(name));
+        return fail(ErrorCode::bad_argument, "'{}' is not the name of a domain", printable(name));
     });
     const auto is_time = [](const std::string& text) {
         return status_of(parse_utc(text, now_utc()));
@@ -185,15 +186,15 @@ void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSet
 // Recognizes our other .toml files by a section that only they have.
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     constexpr std::array<std::pair<const char*, const char*>, 3> others{
-        std::pair{"radar", "a scene of simulated storms, for stormcellar synth"},
-        {"point", "a color table, which a picture names"},
-        {"paths", "a configuration of stormcellard"}};
+        std::pair{"radar", "this is a simulated scene for stormcellar synth"},
+        {"point", "this is a color table, which a scene can name"},
+        {"paths", "this is a configuration of stormcellard"}};
     const bool is_ours = std::any_of(sections.begin(), sections.end(),
                                      [&](const char* name) { return root.has(name); });
     for (const auto& [section, kind] : others) {
         // the configuration has [[loop]] too
         if (!root.has(section) || (is_ours && section != std::string_view("paths"))) continue;
-        return fail(ErrorCode::bad_argument, "{}: {}; a picture's scene has [{}]", file.native(),
+        return fail(ErrorCode::bad_argument, "{}: {}; a picture scene has [{}]", file.native(),
                     kind, fmt::join(sections, "], ["));
     }
     return {};
@@ -236,7 +237,7 @@ Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& opti
     if (file.alone && file.alone->message == error.message) {
         return fail(error.code, "{}: {}", file.path, error.message);
     }
-    return fail(error.code, "{} (beside --scene {})", error.message, file.path);
+    return fail(error.code, "{} (together with --scene {})", error.message, file.path);
 }
 
 void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, PicturePlanOptions& plan,
@@ -259,7 +260,7 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
     };
     app.add_option_function<std::string>(
            "--scene", read,
-           "A .toml file that says what the picture is; options given beside it win")
+           "A .toml file that describes the picture; options on the command line override it")
         ->group("Picture");
 }
 

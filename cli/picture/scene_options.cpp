@@ -98,7 +98,7 @@ CLI::Option* add_row(CLI::App& app, const PictureOption& row, std::string_view n
             options.typed.push_back(&row);
         } else if (is_old) {
             note(options, row.old_option,
-                 fail(ErrorCode::bad_argument, "is the older name of {}: give one of them",
+                 fail(ErrorCode::bad_argument, "is the older name of {}; give only one of them",
                       row.option));
         }
     });
@@ -116,7 +116,7 @@ void add_rows(CLI::App& app, PictureSettings to) {
 }
 
 Status unused(std::string_view name, const PictureOption& row, render::Product product) {
-    return fail(ErrorCode::bad_argument, "{} is for {}: {} does not use it", name,
+    return fail(ErrorCode::bad_argument, "{} is for {}; {} does not use it", name,
                 row.used_by.text(), render::product_name(product));
 }
 
@@ -160,7 +160,7 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     scene.moment = *moment;
     if (scene.product == render::Product::section && !scene.section) {
         return fail(ErrorCode::bad_argument,
-                    "a section needs its two ends: {} LAT,LON,LAT,LON, or {} in a scene's file",
+                    "a section needs its two ends; give {} LAT,LON,LAT,LON, or {} in a scene file",
                     section_option().option, key_of(section_option()));
     }
     if (!options.colours.empty()) {
@@ -181,7 +181,7 @@ Result<std::vector<double>> numbers_of(const std::string& option, const std::str
                                        std::size_t count) {
     auto numbers = parse_numbers(text, ',');
     if (numbers && numbers->size() == count) return std::move(*numbers);
-    return fail(ErrorCode::bad_argument, "{} needs {} numbers with commas between them, not '{}'",
+    return fail(ErrorCode::bad_argument, "{} needs {} numbers separated by commas, not '{}'",
                 option, count, text);
 }
 

@@ -194,12 +194,12 @@ int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entri
 Run set_up_cache(CLI::App& command) {
     command.require_subcommand(1);
     const auto options = std::make_shared<CacheOptions>();
-    CLI::App* list = command.add_subcommand("list", "Every grid, oldest first");
-    CLI::App* stat = command.add_subcommand("stat", "Totals of each domain");
-    CLI::App* verify = command.add_subcommand("verify", "Read every grid and check it");
+    CLI::App* list = command.add_subcommand("list", "List the grids, oldest first");
+    CLI::App* stat = command.add_subcommand("stat", "Show the totals of each domain");
+    CLI::App* verify = command.add_subcommand("verify", "Read every grid and verify it");
     for (CLI::App* one : {list, stat, verify}) {
-        one->add_option("--cache", options->directory, "The cache's directory")->required();
-        one->add_option("--domain", options->domain, "One domain; all when left out");
+        one->add_option("--cache", options->directory, "Directory of the cache")->required();
+        one->add_option("--domain", options->domain, "Name of one domain. Default: all domains");
         add_time_range(*one, options->times);
         one->add_flag("--json", options->json, "Print one JSON document");
     }

@@ -30,7 +30,7 @@ Result<cache::EvictionOrder> order_of(const EvictOptions& options) {
     order.domain = options.domain;
     if (options.to.empty() && options.bytes.empty() && !options.older_than_h) {
         return fail(ErrorCode::bad_argument,
-                    "say what shall go: --to TIME, --bytes SIZE or --older-than HOURS");
+                    "say what to remove: --to TIME, --bytes SIZE or --older-than HOURS");
     }
     if (!options.to.empty()) {
         const auto to = parse_utc(options.to, now_utc());
@@ -44,7 +44,7 @@ Result<cache::EvictionOrder> order_of(const EvictOptions& options) {
     }
     if (options.older_than_h) {
         if (!(*options.older_than_h >= 0 && *options.older_than_h <= 1e6)) {
-            return fail(ErrorCode::bad_argument, "--older-than: {} is not 0 to 1000000 hours",
+            return fail(ErrorCode::bad_argument, "--older-than must be 0 to 1000000 hours, not {}",
                         *options.older_than_h);
         }
         order.older_than = std::chrono::milliseconds{std::llround(*options.older_than_h * 3.6e6)};
@@ -81,7 +81,7 @@ void print_evicted(const EvictOptions& options, const cache::EvictionPlan& plan,
         return;
     }
     fmt::print("{} of {} {} {}, {}; {} {} pinned\n", gone.size(), plan.looked_at,
-               plural(plan.looked_at, "grid"), options.dry_run ? "would go" : "went",
+               plural(plan.looked_at, "grid"), options.dry_run ? "would be removed" : "removed",
                format_byte_size(bytes), plan.pinned, plan.pinned == 1 ? "is" : "are");
 }
 
@@ -100,10 +100,10 @@ int run_evict(const EvictOptions& options) {
     for (const std::string& problem : report.problems)
         status = report_error({ErrorCode::io, problem});
     if (order->bytes && plan->bytes_left > *order->bytes) {
-        status =
-            report_error({ErrorCode::over_budget,
-                          fmt::format("{} remain: they are pinned or the newest of their domains",
-                                      format_byte_size(plan->bytes_left))});
+        status = report_error(
+            {ErrorCode::over_budget,
+             fmt::format("{} remain, because these grids are pinned or the newest of their domains",
+                         format_byte_size(plan->bytes_left))});
     }
     return status;
 }
@@ -142,30 +142,33 @@ int run_pin(const PinOptions& options, bool pin) {
 
 Command add_evict(CLI::App& cache) {
     CLI::App* evict = cache.add_subcommand(
-        "evict", "Remove the oldest grids, beside a running daemon too; pinned ones stay");
+        "evict", "Remove the oldest grids, even while a daemon runs; pinned grids stay");
     const auto options = std::make_shared<EvictOptions>();
-    evict->add_option("--cache", options->directory, "The cache's directory")->required();
-    evict->add_option("--domain", options->domain, "One domain and its parts; all when left out");
+    evict->add_option("--cache", options->directory, "Directory of the cache")->required();
+    evict->add_option("--domain", options->domain,
+                      "Name of one domain, whose partials are included. Default: all domains");
     evict->add_option("--to", options->to,
-                      "All up to this time, itself and the newest included: UTC, or -1h, now");
+                      "Remove all grids up to and including this time, even the newest: UTC, or "
+                      "relative as -1h or now");
     evict->add_option(
         "--bytes", options->bytes,
-        "The oldest, until the rest takes no more than this, as 20 GB; those of stations "
-        "that nobody knows first; the newest of each other domain stays");
+        "Remove the oldest grids until the rest take at most this much, such as 20 GB. The grids "
+        "of unknown stations go first, and the newest grid of each other domain stays");
     evict->add_option("--older-than", options->older_than_h,
-                      "All more hours than this before the newest of the same domain");
-    evict->add_flag("--dry-run", options->dry_run, "Only say what would go");
+                      "Remove the grids that are more than this many hours older than the newest "
+                      "of their domain");
+    evict->add_flag("--dry-run", options->dry_run, "Only print what would be removed");
     evict->add_flag("--json", options->json, "Print one JSON document");
     return {evict, [=] { return run_evict(*options); }};
 }
 
 Command add_pin(CLI::App& cache, bool pin) {
     CLI::App* command =
-        pin ? cache.add_subcommand("pin", "Have grids stay until they are unpinned")
-            : cache.add_subcommand("unpin", "Let pinned grids go with the others again");
+        pin ? cache.add_subcommand("pin", "Pin grids, so that they stay until they are unpinned")
+            : cache.add_subcommand("unpin", "Unpin grids, so that they may be removed again");
     const auto options = std::make_shared<PinOptions>();
-    command->add_option("--cache", options->directory, "The cache's directory")->required();
-    command->add_option("--domain", options->domain, "Whose grids")->required();
+    command->add_option("--cache", options->directory, "Directory of the cache")->required();
+    command->add_option("--domain", options->domain, "Domain of the grids")->required();
     add_time_range(*command, options->times);
     command->add_flag("--json", options->json, "Print one JSON document");
     return {command, [=] { return run_pin(*options, pin); }};

@@ -198,7 +198,7 @@ int run_get(const CatalogOptions& options) {
 CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string& name,
                     const std::string& about) {
     CLI::App* app = parent.add_subcommand(name, about);
-    app->add_option("--catalog", options.directory, "The catalog's directory (state/catalog)")
+    app->add_option("--catalog", options.directory, "Directory of the catalog (state/catalog)")
         ->required();
     return app;
 }
@@ -208,15 +208,16 @@ CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string
 Run set_up_catalog(CLI::App& command) {
     command.require_subcommand(1);
     const auto options = std::make_shared<CatalogOptions>();
-    const std::string station_help = "ICAO of the radar, e.g. KTLX";
+    const std::string station_help = "ICAO identifier of the radar, such as KTLX";
 
-    CLI::App* stations = add_query(command, *options, "stations", "The stations it knows");
-    CLI::App* list = add_query(command, *options, "list", "Volumes, oldest first");
-    list->add_option("--station", options->station, station_help + "; all when left out");
+    CLI::App* stations =
+        add_query(command, *options, "stations", "List the stations in the catalog");
+    CLI::App* list = add_query(command, *options, "list", "List the volumes, oldest first");
+    list->add_option("--station", options->station, station_help + ". Default: all radars");
     add_time_range(*list, options->times);
-    list->add_flag("--rejected", options->rejected, "Also files that hold no volume");
-    CLI::App* latest = add_query(command, *options, "latest", "The newest volume");
-    CLI::App* oldest = add_query(command, *options, "oldest", "The oldest volume");
+    list->add_flag("--rejected", options->rejected, "Also list the files that hold no volume");
+    CLI::App* latest = add_query(command, *options, "latest", "Show the newest volume");
+    CLI::App* oldest = add_query(command, *options, "oldest", "Show the oldest volume");
     for (CLI::App* one : {latest, oldest})
         one->add_option("--station", options->station, station_help)->required();
     CLI::App* get =
@@ -225,25 +226,27 @@ Run set_up_catalog(CLI::App& command) {
     get->add_option("--station", options->station, station_help)->required();
     add_time_range(*get, options->times);
     get->add_option("-o,--output", options->get.output,
-                    "The directory to write into; - is standard output, for one file")
+                    "Directory to write into; - writes one file to standard output")
         ->required();
-    get->add_flag("--force", options->get.force, "Replace files that are there already");
+    get->add_flag("--force", options->get.force, "Replace files that exist already");
     get->add_flag("--decode", options->get.decode,
                   "Write each volume as CfRadial netCDF instead of copying its file");
     CLI::App* check = add_query(command, *options, "check",
                                 "Examine the databases and compare their rows with the files");
     CLI::App* rebuild =
         add_query(command, *options, "rebuild",
-                  "Set damaged databases aside and register what the drop directory holds");
+                  "Set damaged databases aside and register the files in the drop directory");
     for (CLI::App* one : {check, rebuild})
-        one->add_option("--station", options->station, station_help + "; all when left out");
+        one->add_option("--station", options->station, station_help + ". Default: all radars");
     for (CLI::App* one : {check, rebuild})
         one->add_option("--stations", options->stations,
-                        "Which stations may have a database: known (those of the table), any, or a "
-                        "list as in known,XABC");
+                        "Stations that may have a database: known (those in the station table), "
+                        "any, or a list such as known,XABC");
     check->add_flag("--clear-unknown", options->clear_unknown,
-                    "Remove the databases of all other stations first (while no daemon runs)");
-    rebuild->add_option("--drop", options->drop, "The directory that raw files are dropped into")
+                    "First remove the databases of all other stations (only while no daemon runs)");
+    rebuild
+        ->add_option("--drop", options->drop,
+                     "The drop directory, into which LDM writes the raw files")
         ->required();
     for (CLI::App* one : {stations, list, latest, oldest, check, rebuild})
         one->add_flag("--json", options->json, "Print one JSON document");

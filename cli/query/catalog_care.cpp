@@ -49,7 +49,8 @@ Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
             listed.push_back(std::move(name));
         } else {
             return fail(ErrorCode::bad_argument,
-                        "--stations: '{}' is neither known, any nor a station as KTLX", name);
+                        "--stations takes known, any or ICAO identifiers such as KTLX, not '{}'",
+                        name);
         }
     }
     return std::make_shared<StationRule>(StationRule::listed(listed));
@@ -106,7 +107,7 @@ void print_check(const CatalogCheck& check) {
                    sound ? fmt::format("sound, {} missing, {} changed", one.missing.size(),
                                        one.changed.size())
                          : "DAMAGED",
-                   one.is_known ? "" : ", of no known station");
+                   one.is_known ? "" : ", not a known station");
         for (const std::string& line : one.damage)
             fmt::print("  {}: {}\n", printable(one.database.native()), printable(line));
         for (const fs::path& path : one.missing)
@@ -120,14 +121,14 @@ void print_check(const CatalogCheck& check) {
                                       [](const StationCheck& one) { return !one.is_known; });
     if (others == 0) return;
     fmt::print(
-        "{} of no known station; a daemon leaves such databases alone, and --clear-unknown removes "
-        "them\n",
+        "{} of unknown stations; the daemon leaves such databases alone, and --clear-unknown "
+        "removes them\n",
         others == 1 ? std::string{"1 database is"} : fmt::format("{} databases are", others));
 }
 
 void print_cleared(const ClearReport& report) {
     for (const catalog::ClearedDatabase& one : report.cleared) {
-        fmt::print("{:<8}  removed, {} {}, {} of them to be read again\n", one.station, one.files,
+        fmt::print("{:<8}  removed, {} {}, {} of them will be read again\n", one.station, one.files,
                    plural(static_cast<std::uint64_t>(one.files), "file"), one.there);
     }
 }
@@ -136,7 +137,7 @@ void print_cleared(const ClearReport& report) {
 Result<ClearReport> clear_unknown(const CareOptions& options, const StationRule& stations) {
     const auto lock = pipeline::InstanceLock::acquire(state_of(options.directory));
     if (!lock) {
-        return fail(lock.error().code, "databases can be removed while no daemon runs: {}",
+        return fail(lock.error().code, "databases can only be removed while no daemon runs: {}",
                     lock.error().message);
     }
     return catalog::clear_unknown(options.directory, stations);
@@ -168,7 +169,7 @@ void print_report(const pipeline::RebuildReport& report, bool json) {
     for (const Repair& repair : report.repairs)
         fmt::print("{}\n", printable(catalog::describe(repair)));
     fmt::print(
-        "{} {}: {} stood there, {} registered, {} rejected; {} now of files that are gone\n",
+        "{} {}: {} unchanged, {} registered, {} rejected; {} of files that are gone\n",
         report.files, plural(static_cast<std::uint64_t>(report.files), "file"), report.unchanged,
         report.registered, report.rejected,
         report.gone == 1 ? std::string{"1 row is"} : fmt::format("{} rows are", report.gone));
@@ -210,7 +211,8 @@ int check_catalog(const CareOptions& options) {
 int rebuild_catalog(const CareOptions& options) {
     const auto lock = pipeline::InstanceLock::acquire(state_of(options.directory));
     if (!lock) {
-        fmt::print(stderr, "stormcellar: the catalog can be rebuilt while no daemon runs: {}\n",
+        fmt::print(stderr,
+                   "stormcellar: the catalog can only be rebuilt while no daemon runs: {}\n",
                    printable(lock.error().message));
         return exit_failed;
     }

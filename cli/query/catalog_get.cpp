@@ -53,7 +53,8 @@ class Targets {
                  fmt::format("{}_{}{}", plain.stem().string(), number, plain.extension().string());
         }
         if (!options_.force && fs::exists(to)) {
-            return fail(ErrorCode::bad_argument, "{}: exists (--force replaces it)", to.native());
+            return fail(ErrorCode::bad_argument, "{}: the file exists already; --force replaces it",
+                        to.native());
         }
         return to;
     }
@@ -152,7 +153,7 @@ Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& f
         fmt::print("{}\n", printable(to->native()));
     }
     if (!matched.empty()) return {};
-    return fail(ErrorCode::corrupt, "{}: holds other volumes than the catalog says",
+    return fail(ErrorCode::corrupt, "{}: the file holds other volumes than the catalog says",
                 file.entry.path.native());
 }
 
@@ -163,7 +164,7 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
     const auto matched = matched_volumes(file, volumes);
     if (matched.size() != 1) {
-        return fail(ErrorCode::bad_argument, "-o - takes one volume, and {} matched",
+        return fail(ErrorCode::bad_argument, "-o - takes one volume, but {} matched",
                     matched.size());
     }
     auto output = OutputFile::open("-");
@@ -177,7 +178,7 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
 Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<MatchedFile>& files,
                      bool decode) {
     if (files.size() != 1) {
-        return fail(ErrorCode::bad_argument, "-o - takes one file, and {} matched", files.size());
+        return fail(ErrorCode::bad_argument, "-o - takes one file, but {} matched", files.size());
     }
     if (decode) return decode_to_stdout(catalog, files.front());
     const auto bytes = read_raw(catalog, files.front().entry);

@@ -32,9 +32,9 @@ int run_status(const StatusOptions& options) {
     const std::optional<double> age_s = age_of(found->document, now);
     const bool answered = found->silent.empty();
     if (!answered) {
-        fmt::print(stderr, "stormcellar: no daemon answers ({}); {} is {} old\n",
-                   printable(found->silent), printable(found->from.native()),
-                   short_duration(age_s));
+        fmt::print(
+            stderr, "stormcellar: no daemon answers ({}); the status is that of {}, {} old\n",
+            printable(found->silent), printable(found->from.native()), short_duration(age_s));
     }
     if (options.json) {
         nlohmann::json age = nullptr;
@@ -52,11 +52,15 @@ int run_status(const StatusOptions& options) {
 
 Run set_up_status(CLI::App& status) {
     const auto options = std::make_shared<StatusOptions>();
-    auto* socket = status.add_option("--socket", options->socket,
-                                     "Ask on this Unix socket, else in the usual places");
-    auto* state = status.add_option("--state", options->state, "The daemon's state directory")
+    auto* socket =
+        status.add_option("--socket", options->socket,
+                          "Unix socket on which the daemon answers. Default: the usual places");
+    auto* state = status.add_option("--state", options->state, "State directory of the daemon")
                       ->excludes(socket);
-    status.add_option("--config", options->config, "The daemon's configuration, which names them")
+    status
+        .add_option(
+            "--config", options->config,
+            "Configuration file of the daemon, which names the socket and the state directory")
         ->excludes(socket)
         ->excludes(state);
     status.add_flag("--json", options->json, "Print one JSON document");

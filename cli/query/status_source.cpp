@@ -60,7 +60,7 @@ Result<std::string> read_answer(const Descriptor& socket, const fs::path& path,
     std::array<char, 65536> buffer{};
     while (answer.size() <= most_bytes) {
         if (!wait_for(socket.number(), POLLIN, end))
-            return fail(ErrorCode::io, "{}: no answer within {} s", path.native(),
+            return fail(ErrorCode::io, "{}: the daemon did not answer within {} s", path.native(),
                         longest_wait.count());
         const ssize_t got = ::read(socket.number(), buffer.data(), buffer.size());
         if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
@@ -68,7 +68,7 @@ Result<std::string> read_answer(const Descriptor& socket, const fs::path& path,
         if (got == 0) return answer;
         answer.append(buffer.data(), static_cast<std::size_t>(got));
     }
-    return fail(ErrorCode::corrupt, "{}: the answer is too long", path.native());
+    return fail(ErrorCode::corrupt, "{}: the answer of the daemon is too long", path.native());
 }
 
 // Returns an object, or none.
@@ -203,8 +203,7 @@ std::string how_to_be_let_in(const fs::path& socket) {
     const struct group* known = ::getgrgid(found.st_gid);  // safe, because there is only one thread
     if (known == nullptr) return "";
     return fmt::format(
-        "; members of the group {0} may ask: sudo usermod -aG {0} USER, then log in "
-        "again",
+        "; only members of the group {0} may ask: run sudo usermod -aG {0} USER, then log in again",
         known->gr_name);
 }
 
@@ -212,7 +211,7 @@ Result<nlohmann::json> ask_socket(const fs::path& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.native().size() >= sizeof address.sun_path)
-        return fail(ErrorCode::io, "{}: too long for a socket's path", path.native());
+        return fail(ErrorCode::io, "{}: the path is too long for a socket", path.native());
     std::memcpy(static_cast<char*>(address.sun_path), path.c_str(), path.native().size());
     const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     if (socket.number() < 0) return tl::unexpected(system_error(path, errno));
@@ -227,17 +226,18 @@ Result<nlohmann::json> ask_socket(const fs::path& path) {
     if (!wait_for(socket.number(), POLLOUT, end) ||
         ::send(socket.number(), request.data(), request.size(), MSG_NOSIGNAL) !=
             static_cast<ssize_t>(request.size())) {
-        return fail(ErrorCode::io, "{}: takes no question", path.native());
+        return fail(ErrorCode::io, "{}: the daemon does not accept the question", path.native());
     }
     const auto answer = read_answer(socket, path, end);
     if (!answer) return pass_on(answer);
     const std::string_view text = *answer;
     if (text.find(" 503 ") < text.find("\r\n"))
-        return fail(ErrorCode::io, "{}: the daemon is starting", path.native());
+        return fail(ErrorCode::io, "{}: the daemon is still starting", path.native());
     const auto headers = text.find("\r\n\r\n");
     const auto document =
         headers == std::string_view::npos ? std::nullopt : parse_object(text.substr(headers + 4));
-    if (!document) return fail(ErrorCode::corrupt, "{}: no status comes from there", path.native());
+    if (!document)
+        return fail(ErrorCode::corrupt, "{}: the answer is not a daemon's status", path.native());
     return *document;
 }
 

@@ -118,15 +118,15 @@ std::string wait_of(const json& pending) {
 // Returns the number of those that failed, if there are any.
 std::string retrying_of(const json& pending) {
     const auto retrying = count(pending, "retrying");
-    return retrying == 0 ? std::string{} : fmt::format(", {} to be tried again", retrying);
+    return retrying == 0 ? std::string{} : fmt::format(", {} retrying", retrying);
 }
 
 std::string lone_chunks_line(const json& status) {
     const auto files = count(status, "lone_chunks");
     if (files == 0) return {};
     return fmt::format(
-        "chunks   {} {} like one chunk of a volume; to be put together, chunks need names with "
-        "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key\n",
+        "chunks   {} {} like one chunk of a volume; chunks are put together only if their names "
+        "have YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key\n",
         counted(files, "file"), files == 1 ? "looks" : "look");
 }
 
@@ -144,8 +144,8 @@ std::string counts_lines(const json& status) {
         counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
     for (const json& file : at(pending, "waiting_files")) {
         lines += fmt::format(
-            "waits    {}: its volume has no end yet; taken in as it is in {:.0f} s, unless more "
-            "comes\n",
+            "waits    {}: its volume has no end yet; it is gridded as it is in {:.0f} s, unless "
+            "more comes\n",
             text(file, "file"), number(file, "left_s").value_or(0));
     }
     lines += fmt::format(
@@ -254,7 +254,7 @@ std::string rejected_lines(const json& status) {
     const json& files = at(status, "rejected_files");
     if (!files.is_array() || files.empty()) return "";
     const std::size_t shown = std::min(files.size(), most_rejected_shown);
-    std::string lines = fmt::format("rejected last:\n");
+    std::string lines = fmt::format("last rejected:\n");
     for (std::size_t i = files.size() - shown; i < files.size(); ++i) {
         lines += fmt::format("  {}  {}: {} ({})\n", text(files[i], "at"), text(files[i], "file"),
                              text(files[i], "by"), text(files[i], "reason"));
@@ -267,15 +267,15 @@ std::string loops_keeper(const json& status) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {
         const json& elsewhere = at(at(status, "loops"), "elsewhere");
-        return elsewhere.is_boolean() && elsewhere.get<bool>() ? "; no process keeps them" : "";
+        return elsewhere.is_boolean() && elsewhere.get<bool>() ? "; no process runs them" : "";
     }
     const json& alive = at(service, "alive");
     const bool is_alive = alive.is_boolean() && alive.get<bool>();
     if (text(service, "state") == "stopped" || is_alive) {
-        return fmt::format("; kept by process {}: {}", count(service, "pid"),
+        return fmt::format("; run by process {}: {}", count(service, "pid"),
                            text(service, "state"));
     }
-    return fmt::format("; process {}, which kept them, is gone", count(service, "pid"));
+    return fmt::format("; process {}, which ran them, is gone", count(service, "pid"));
 }
 
 std::string loops_line(const json& status) {
@@ -315,7 +315,7 @@ std::string status_table(const json& status, UtcTime now) {
     page += cache_line(status) + counts_lines(status) + loops_line(status) + "\n";
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)
-        page += fmt::format("and {} of stations beyond these\n", counted(more, "file"));
+        page += fmt::format("and {} of stations that are not listed\n", counted(more, "file"));
     return page + missing_lines(stations) + rejected_lines(status) + loops_table(status, now);
 }
 

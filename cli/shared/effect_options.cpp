@@ -111,7 +111,7 @@ Result<grid::Averaging> parse_averaging(const std::string& text, level2::Moment 
         return fail(ErrorCode::bad_argument, "--averaging takes dB or Z, not '{}'", text);
     }
     if (moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "--averaging Z is for REF: only Z adds up");
+        return fail(ErrorCode::bad_argument, "--averaging Z works only with REF");
     }
     return grid::Averaging::in_z;
 }
@@ -177,7 +177,7 @@ Result<EffectRequest> parse_effects(const EffectOptions& options, level2::Moment
         }
         if (budget->image_de) {
             return fail(ErrorCode::bad_argument,
-                        "--tolerance: a grid has no colours; dE is for pictures");
+                        "--tolerance: a grid has no colors; dE is for pictures");
         }
         request.budget = *budget;
     }
@@ -187,20 +187,23 @@ Result<EffectRequest> parse_effects(const EffectOptions& options, level2::Moment
 
 void add_effect_options(CLI::App& app, EffectOptions& options) {
     app.add_option("--method", options.method,
-                   fmt::format("{} or area; default linear", names_in(grid::interpolation_facts)));
-    app.add_option("--averaging", options.averaging, "dB (the default) or Z; of REF");
+                   fmt::format("How gates become a cell: {} or area. Default: linear",
+                               names_in(grid::interpolation_facts)));
+    app.add_option("--averaging", options.averaging,
+                   "Unit in which REF is averaged: dB (the default) or Z");
     app.add_option("--effect", options.effects,
-                   "NAME=on|off|auto, any number; --explain lists the effects");
+                   "Turn an effect on or off, or let the plan decide: NAME=on|off|auto. The option "
+                   "may be given several times; --explain lists the effects");
     app.add_option("--tolerance", options.tolerance,
-                   "What may be lost against the exact chain, as in \"250 m, 0.5 dB\", or a time, "
-                   "as in \"200 ms\": the cheapest effects that hold it are chosen");
+                   "Allowed error against the exact chain, as in \"250 m, 0.5 dB\", or allowed "
+                   "time, as in \"200 ms\". The cheapest effects that meet it are chosen");
     app.add_option("--profile", options.profile,
-                   "Of refractivity: exponential, standard or a sounding file. One that is not the "
-                   "default turns the effect refraction on, unless that is set or --tolerance is "
-                   "given")
+                   "Profile of refractivity: exponential, standard or a sounding file. A profile "
+                   "other than the default turns the effect refraction on, unless --effect sets it "
+                   "or --tolerance is given")
         ->capture_default_str();
     app.add_flag("--explain", options.explain,
-                 "Say of each effect how large it is here, whether it is on, and why");
+                 "Print how large each effect is here, whether it is on, and why");
 }
 
 }  // namespace stormcellar::cli

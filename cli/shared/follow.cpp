@@ -104,9 +104,10 @@ bool end_with(pid_t parent) {
 
 void add_follow_options(CLI::App& app, FollowOptions& options) {
     app.add_flag("--follow", options.wanted,
-                 "Stay, and make it again whenever its grids come or go");
+                 "Keep running, and make the loop again whenever its grids change");
     // for stormcellard, with which this process must end; of no use to people
-    app.add_option("--with-parent", options.parent, "End when that process does")->group("");
+    app.add_option("--with-parent", options.parent, "End when the process of this number ends")
+        ->group("");
 }
 
 int follow(const Following& following, const FollowOptions& options,
@@ -129,7 +130,7 @@ int follow(const Following& following, const FollowOptions& options,
                 std::error_code ignored;
                 const bool has_cache = std::filesystem::exists(following.cache, ignored);
                 print_note(fmt::format(
-                    "{}no grid of domain '{}' is there; waiting for one",
+                    "{}there is no grid of domain '{}' yet; waiting for one",
                     has_cache ? "" : following.cache.native() + ": there is no cache here yet; ",
                     following.domain));
             }

@@ -31,7 +31,8 @@ Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label
     for (;;) {
         const std::size_t at = bytes.size();
         if (at > most_piped_bytes) {
-            return fail(ErrorCode::unsupported, "{}: more than {} bytes", label, most_piped_bytes);
+            return fail(ErrorCode::unsupported, "{}: holds more than the limit of {} bytes", label,
+                        most_piped_bytes);
         }
         bytes.resize(at + (std::size_t{1} << 20));
         const ssize_t got = ::read(descriptor, bytes.data() + at, bytes.size() - at);
@@ -129,7 +130,7 @@ bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& pat
 
 Status InputFiles::Impl::add_piped(const std::string& label, const fs::path& path, int descriptor) {
     if (piped.contains(path)) {
-        return fail(ErrorCode::bad_argument, "{}: can be read once only", label);
+        return fail(ErrorCode::bad_argument, "{}: can be read only once", label);
     }
     auto bytes = read_piped(descriptor, label);
     if (!bytes) return pass_on(bytes);
@@ -197,7 +198,7 @@ Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& fi
         }
     }
     open.reset();
-    return fail(ErrorCode::not_found, "{}: the archive has no such member", file.label);
+    return fail(ErrorCode::not_found, "{}: the archive does not have this member", file.label);
 }
 
 InputFiles::InputFiles(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -42,13 +42,13 @@ Status check_output_file(const std::string& output, const std::vector<std::strin
     if (is_stdout(output)) {
         if (!json) return {};
         return fail(ErrorCode::bad_argument,
-                    "-o - and --json: both would go to standard output; name a file");
+                    "-o - and --json would both write to standard output; name a file");
     }
     if (Status target = check_target(output); !target) return target;
     const auto fits = [&](std::string_view ending) { return output.ends_with(ending); };
     if (std::none_of(endings.begin(), endings.end(), fits)) {
         return fail(ErrorCode::bad_argument,
-                    "{}: {}: its name ends in {}, or is - (standard output)", output, what,
+                    "{}: {}: the name must end in {}, or be - for standard output", output, what,
                     fmt::join(endings, " or "));
     }
     return {};

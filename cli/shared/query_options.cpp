@@ -13,8 +13,8 @@ namespace stormcellar::cli {
 
 void add_time_range(CLI::App& app, TimeRangeOptions& options) {
     app.add_option("--from", options.from,
-                   "From this time on: UTC as 2022-03-17T00:08:42Z, or -1h, -2d, now");
-    app.add_option("--to", options.to, "Up to this time, itself included; as --from");
+                   "Earliest time, in UTC as 2022-03-17T00:08:42Z, or relative as -1h, -2d or now");
+    app.add_option("--to", options.to, "Latest time, itself included, written as for --from");
 }
 
 Result<TimeRange> parse_time_range(const TimeRangeOptions& options) {
@@ -44,8 +44,8 @@ void print_json(const nlohmann::json& document) {
 void warn_of_future(UtcTime newest) {
     if (is_believed(newest, now_utc())) return;
     fmt::print(stderr,
-               "stormcellar: warning: the newest is of {}, which lies in the future: the clock of "
-               "the radar or of this machine is wrong\n",
+               "stormcellar: warning: the newest time, {}, lies in the future; the clock of the "
+               "radar or of this machine is wrong\n",
                format_utc(newest));
 }
 

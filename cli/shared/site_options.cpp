@@ -10,10 +10,10 @@ namespace stormcellar::cli {
 
 void add_site_options(CLI::App& app, SiteOptions& options) {
     app.add_option("--station", options.station,
-                   "ICAO of the radar, whatever the FILE says, e.g. KTLX");
+                   "ICAO identifier of the radar, such as KTLX, which overrides the FILE's own");
     app.add_option("--position", options.position,
-                   "LAT,LON,HEIGHT of its antenna, in degrees and meters above mean sea level: for "
-                   "radars that neither the FILE nor the station table places");
+                   "Position of the antenna: LAT,LON,HEIGHT in degrees and meters above mean sea "
+                   "level. It overrides what the FILE and the station table say");
 }
 
 Result<SiteRequest> parse_site(const SiteOptions& options) {

@@ -40,11 +40,11 @@ void say_plan(const synth::ReplayPlan& plan) {
     std::string times;
     if (plan.first)
         times = fmt::format(" of {} to {}", format_utc(*plan.first), format_utc(*plan.last));
-    fmt::print(stderr, "stormcellar: {}{}, to be played in {}{}\n", counted(plan.files, "file"),
+    fmt::print(stderr, "stormcellar: {}{}; the replay takes {}{}\n", counted(plan.files, "file"),
                times, duration_of(plan.takes_s),
-               plan.takes_s > worth_a_hint_s
-                   ? " (--speed N: faster; --interval S: one every S seconds, whatever their times)"
-                   : "");
+               plan.takes_s > worth_a_hint_s ? " (--speed N makes it faster; --interval S sends a "
+                                               "file every S seconds, whatever their times)"
+                                             : "");
 }
 
 // Reports the first wait, and again a wait more than twice as long as the last one reported.
@@ -116,8 +116,8 @@ void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
     std::erase_if(items, [](const synth::ReplayItem& item) {
         const auto why = synth::why_not_in_chunks(item);
         if (why.empty()) return false;
-        print_note(
-            fmt::format("left out: {}: {}: it cannot come in chunks", item.source.native(), why));
+        print_note(fmt::format("left out: {}: {}, so it cannot come in chunks",
+                               item.source.native(), why));
         return true;
     });
 }
@@ -136,7 +136,7 @@ int run_replay(const ReplayCommandOptions& options) {
     if (!items) return report_error(items.error());
     if (delivery_of(options.delivery) == synth::Delivery::chunks) leave_out_unfit(*items);
     if (items->empty()) {
-        return report_error({ErrorCode::bad_argument, "no file of them can come in chunks"});
+        return report_error({ErrorCode::bad_argument, "none of the files can come in chunks"});
     }
     Interrupt interrupt;
     Progress progress("files", items->size(), !options.json);
@@ -172,32 +172,34 @@ Run set_up_replay(CLI::App& replay) {
     const auto options = std::make_shared<ReplayCommandOptions>();
     replay
         .add_option("PLACES", options->places,
-                    "Files, archives or directories to play, and the drop directory as the last")
+                    "Files, archives or directories to replay, and the drop directory as the last")
         ->required()
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");
     replay
         .add_option("--as", options->delivery,
-                    "Whole: renamed when complete (default); growing: appended and closed for each "
-                    "chunk; open: appended and kept open; chunks: a file for each chunk, "
+                    "How the files arrive: whole (the default) renames each file when it is "
+                    "complete; growing appends chunk by chunk and closes the file each time; open "
+                    "appends and keeps the file open; chunks writes a file for each chunk, "
                     "DROP/STATION/NUMBER/DATE-TIME-CHUNK-S|I|E")
         ->check(CLI::IsMember({"whole", "growing", "open", "chunks"}))
         ->option_text("whole|growing|open|chunks");
     auto* interval = replay.add_option("--interval", options->interval_s,
-                                       "Seconds from file to file, whatever their times");
+                                       "Seconds from one file to the next, whatever their times");
     interval->check(CLI::Range(0.0, 86400.0));
     replay
         .add_option("--speed", options->speed,
-                    "How many times faster than the files' own times (default: 1); stations mix")
+                    "How many times faster than in real time the files arrive; those of several "
+                    "stations are mixed. Default: 1")
         ->check(CLI::Range(0.001, 1e6))
         ->excludes(interval);
     replay
         .add_option("--faults", options->faults,
-                    "What goes wrong, with which probability for each chunk (of whole files: for "
-                    "each file), as drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7; "
-                    "--json names each one")
+                    "Faults to make, each with its probability for a chunk (for a file, if files "
+                    "are whole): drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7. --json "
+                    "names each fault that was made")
         ->option_text("SPEC");
-    replay.add_flag("--json", options->json, "Say what was done as one JSON document");
+    replay.add_flag("--json", options->json, "Print what was done as one JSON document");
     return [options] { return run_replay(*options); };
 }
 

@@ -67,14 +67,17 @@ int run_synth(const SynthOptions& options) {
 
 Run set_up_synth(CLI::App& synth) {
     const auto options = std::make_shared<SynthOptions>();
-    synth.add_option("SCENE", options->scene, "The scene, in TOML (docs/scenes.md)")->required();
+    synth.add_option("SCENE", options->scene, "The file of the scene, in TOML (docs/scenes.md)")
+        ->required();
     synth
         .add_option("-o,--output", options->directory,
-                    "Directory for the files; files of the same name are replaced")
+                    "Directory for the files; existing files of the same names are replaced")
         ->required();
-    synth.add_option("--threads", options->threads, "Volumes to write at once")
+    synth
+        .add_option("--threads", options->threads,
+                    "Number of volumes to write at a time. Default: all processors")
         ->check(CLI::Range(1, 256));
-    synth.add_flag("--json", options->json, "Say what was done as one JSON document");
+    synth.add_flag("--json", options->json, "Print what was done as one JSON document");
     return [options] { return run_synth(*options); };
 }
 

@@ -28,11 +28,12 @@ std::string complaint(const RefractivityLevel& level, const RefractivityLevel* b
     }
     const double rise_m = level.height_m - below->height_m;
     if (!(rise_m > 0)) {
-        return fmt::format("height {} m does not rise above {} m", level.height_m, below->height_m);
+        return fmt::format("height {} m is not above the one before, {} m", level.height_m,
+                           below->height_m);
     }
     const double gradient = (level.n_units - below->n_units) / rise_m;
     if (!(std::abs(gradient) <= Profile::greatest_gradient_per_m)) {
-        return fmt::format("refractivity changes by {:.3g} per metre below {} m, more than {}",
+        return fmt::format("refractivity changes by {:.3g} per meter below {} m, more than {}",
                            gradient, level.height_m, Profile::greatest_gradient_per_m);
     }
     return {};
@@ -77,7 +78,7 @@ Result<RefractivityProfile> RefractivityProfile::exponential(double n_units, dou
 Result<RefractivityProfile> RefractivityProfile::from_levels(
     std::span<const RefractivityLevel> levels, std::string name) {
     if (levels.size() < 2 || levels.size() > greatest_level_count) {
-        return fail(ErrorCode::bad_argument, "a refractivity profile of {} levels, not of 2 to {}",
+        return fail(ErrorCode::bad_argument, "the refractivity profile has {} levels, not 2 to {}",
                     levels.size(), greatest_level_count);
     }
     for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -106,7 +106,7 @@ Status Reader::read_header() {
     }
     column_count_ = 1 + static_cast<std::size_t>(std::count(line->begin(), line->end(), ','));
     if (column_count_ > most_columns) {
-        return wrong("{} columns, more than {}", column_count_, most_columns);
+        return wrong("there are {} columns, more than {}", column_count_, most_columns);
     }
     std::string_view rest = *line;
     for (std::size_t i = 0; i < column_count_; ++i) {
@@ -117,12 +117,13 @@ Status Reader::read_header() {
             place_[c] = i;
         }
     }
-    if (!has(height)) return wrong("no column height_m");
+    if (!has(height)) return wrong("there is no column height_m");
     if (has(n_units)) return {};
-    if (!has(pressure)) return wrong("no column refractivity, nor pressure_hpa");
-    if (!has(temperature)) return wrong("no column temperature_c");
+    if (!has(pressure)) return wrong("there is no column refractivity or pressure_hpa");
+    if (!has(temperature)) return wrong("there is no column temperature_c");
     if (has(dew_point) == has(humidity)) {
-        return wrong("needs one of the columns dew_point_c and relative_humidity_percent");
+        return wrong(
+            "there must be exactly one of the columns dew_point_c and relative_humidity_percent");
     }
     return {};
 }
@@ -130,7 +131,7 @@ Status Reader::read_header() {
 Result<Reader::Row> Reader::read_row(std::string_view line) const {
     const std::size_t found =
         1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
-    if (found != column_count_) return wrong("{} columns, not {}", found, column_count_);
+    if (found != column_count_) return wrong("there are {} columns, not {}", found, column_count_);
     std::vector<std::string_view> pieces;
     for (std::size_t i = 0; i < column_count_; ++i)
         pieces.push_back(trimmed(take(line, ',')));
@@ -155,7 +156,8 @@ Result<Reader::Row> Reader::read_row(std::string_view line) const {
 // Checks the conditions that relate two numbers.
 Status Reader::check(const Row& row) const {
     if (below_ && !(row[height] > (*below_)[height])) {
-        return wrong("column height_m: {} does not rise above {}", row[height], (*below_)[height]);
+        return wrong("column height_m: {} is not above the one before, {}", row[height],
+                     (*below_)[height]);
     }
     if (!below_ && row[height] > RefractivityProfile::highest_first_level_m) {
         return wrong("column height_m: the first level, {}, is above {}", row[height],
@@ -189,7 +191,8 @@ Result<std::vector<RefractivityLevel>> Reader::levels() {
         if (!row) return pass_on(row);
         if (const Status sound = check(*row); !sound) return pass_on(sound);
         if (levels.size() == RefractivityProfile::greatest_level_count) {
-            return wrong("more than {} levels", RefractivityProfile::greatest_level_count);
+            return wrong("there are more than {} levels",
+                         RefractivityProfile::greatest_level_count);
         }
         levels.push_back(level(*row));
         if (levels.back().n_units > RefractivityProfile::greatest_n_units) {
@@ -201,14 +204,14 @@ Result<std::vector<RefractivityLevel>> Reader::levels() {
             const double gradient =
                 (levels.back().n_units - low.n_units) / (levels.back().height_m - low.height_m);
             if (!(std::abs(gradient) <= RefractivityProfile::greatest_gradient_per_m)) {
-                return wrong("the refractivity changes by {:.3g} per metre, more than {}", gradient,
+                return wrong("the refractivity changes by {:.3g} per meter, more than {}", gradient,
                              RefractivityProfile::greatest_gradient_per_m);
             }
         }
         below_ = *row;
     }
     if (levels.size() < 2) {
-        return fail(ErrorCode::bad_argument, "{}: {} levels, at least 2 are needed",
+        return fail(ErrorCode::bad_argument, "{}: has {} levels, but at least 2 are needed",
                     printable(name_), levels.size());
     }
     return levels;
@@ -227,7 +230,7 @@ double refractivity(double pressure_hpa, double temperature_c, double dew_point_
 
 Result<RefractivityProfile> parse_sounding(std::string_view text, const std::string& name) {
     if (text.size() > largest_file) {
-        return fail(ErrorCode::bad_argument, "{}: {} bytes, more than {}", printable(name),
+        return fail(ErrorCode::bad_argument, "{}: has {} bytes, more than {}", printable(name),
                     text.size(), largest_file);
     }
     const auto levels = Reader(text, name).levels();

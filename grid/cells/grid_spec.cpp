@@ -21,14 +21,14 @@ constexpr double largest_spacing_deg = 10;
 
 Status validate_levels(const GridSpec& spec) {
     if (spec.levels_m.empty() || spec.nz() > GridSpec::greatest_level_count) {
-        return fail(ErrorCode::bad_argument, "a grid has 1 to {} levels, not {}",
+        return fail(ErrorCode::bad_argument, "a grid must have 1 to {} levels, not {}",
                     GridSpec::greatest_level_count, spec.levels_m.size());
     }
     double previous_m = -HUGE_VAL;
     for (const double level_m : spec.levels_m) {
         if (!is_within(level_m, lowest_level_m, highest_level_m)) {
             return fail(ErrorCode::bad_argument,
-                        "levels are {} to {} m above mean sea level, not {}", lowest_level_m,
+                        "levels must be {} to {} m above mean sea level, not {}", lowest_level_m,
                         highest_level_m, level_m);
         }
         if (!(level_m > previous_m)) {
@@ -53,7 +53,7 @@ Status validate_spacing(const GridSpec& spec) {
     }
     if ((in_degrees ? spec.spacing_m : spec.spacing_deg) != 0) {
         return fail(ErrorCode::bad_argument, "a grid of projection {} has no spacing in {}",
-                    projection_name(spec.projection), in_degrees ? "metres" : "degrees");
+                    projection_name(spec.projection), in_degrees ? "meters" : "degrees");
     }
     const bool no_parallels = spec.parallels_deg == std::array<double, 2>{};
     if (!facts_of(spec.projection).takes_parallels && !no_parallels) {
@@ -111,21 +111,22 @@ Status validate(const GridSpec& spec) {
     constexpr int most = GridSpec::greatest_side;
     const bool sides_fit = spec.nx >= 1 && spec.nx <= most && spec.ny >= 1 && spec.ny <= most;
     if (!sides_fit) {
-        return fail(ErrorCode::bad_argument, "a grid has 1 to {} columns and rows, not {} x {}",
-                    most, spec.nx, spec.ny);
+        return fail(ErrorCode::bad_argument,
+                    "a grid must have 1 to {} columns and rows, not {} x {}", most, spec.nx,
+                    spec.ny);
     }
     if (!is_window_offset(spec.offset_x_cells, spec.nx) ||
         !is_window_offset(spec.offset_y_cells, spec.ny)) {
         return fail(ErrorCode::bad_argument,
-                    "{} x {} columns cannot lie {}, {} cells off the centre: offsets are halves, "
-                    "within {} columns and rows about it",
+                    "{} x {} columns cannot lie {}, {} cells off the center; offsets are halves, "
+                    "within {} columns and rows around it",
                     spec.nx, spec.ny, spec.offset_x_cells, spec.offset_y_cells, most);
     }
     if (Status spacing = validate_spacing(spec); !spacing) return spacing;
     const bool on_earth = is_within(spec.center_latitude_deg, -90.0, 90.0) &&
                           is_within(spec.center_longitude_deg, -180.0, 180.0);
     if (!on_earth) {
-        return fail(ErrorCode::bad_argument, "the centre {}, {} is not on the earth",
+        return fail(ErrorCode::bad_argument, "the center {}, {} is not on the earth",
                     spec.center_latitude_deg, spec.center_longitude_deg);
     }
     if (Status covered = validate_projection(spec); !covered) return covered;

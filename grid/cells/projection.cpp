@@ -37,15 +37,15 @@ Status validate_degrees(const GridSpec& spec) {
     const double reach_deg = std::abs(middle_deg) + 0.5 * spec.ny * spec.spacing_deg;
     if (reach_deg > 90 + rounding_deg) {
         return fail(ErrorCode::bad_argument,
-                    "a latitude-longitude grid ends at the poles: {} rows of {} degrees about "
-                    "latitude {} go beyond; take azimuthal_equidistant there",
+                    "a latitude-longitude grid ends at the poles: {} rows of {} degrees around "
+                    "latitude {} go beyond; use azimuthal_equidistant there",
                     spec.ny, spec.spacing_deg, middle_deg);
     }
     const double half_width = std::abs(spec.offset_x_cells) + 0.5 * spec.nx;
     if (half_width * spec.spacing_deg > 180 + rounding_deg) {
         return fail(ErrorCode::bad_argument,
-                    "{} columns of {} degrees span more than 360 degrees about the centre", spec.nx,
-                    spec.spacing_deg);
+                    "{} columns of {} degrees span more than 360 degrees around the center",
+                    spec.nx, spec.spacing_deg);
     }
     return {};
 }
@@ -55,15 +55,15 @@ Status validate_parallels(const GridSpec& spec) {
     for (const double parallel_deg : spec.parallels_deg) {
         if (!is_within(parallel_deg, -largest_parallel_deg, largest_parallel_deg)) {
             return fail(ErrorCode::bad_argument,
-                        "standard parallels lie within -{0} to {0} degrees, not at {1}; take "
-                        "azimuthal_equidistant about a pole",
+                        "standard parallels must lie within -{0} to {0} degrees, not at {1}; use "
+                        "azimuthal_equidistant around a pole",
                         largest_parallel_deg, parallel_deg);
         }
     }
     if (std::abs(spec.center_latitude_deg) > largest_parallel_deg) {
         return fail(ErrorCode::bad_argument,
-                    "the centre of a Lambert conformal grid lies within -{0} to {0} degrees, not "
-                    "at {1}; take azimuthal_equidistant about a pole",
+                    "the center of a Lambert conformal grid must lie within -{0} to {0} degrees, "
+                    "not at {1}; use azimuthal_equidistant around a pole",
                     largest_parallel_deg, spec.center_latitude_deg);
     }
     if (std::abs(first_deg + second_deg) < 2 * flattest_cone_deg) {
@@ -90,8 +90,8 @@ Status validate_cone(const GridSpec& spec) {
     const double cut_deg = 180 * std::sin(std::abs(cone.OriginLatitude()) / degrees_per_radian);
     if (tip_m > height_m && turn_deg < cut_deg) return {};
     return fail(ErrorCode::bad_argument,
-                "a Lambert conformal grid holds no pole and not the meridian opposite its centre: "
-                "{} x {} columns of {} m about {}, {} with parallels {} and {} do",
+                "a Lambert conformal grid cannot hold a pole or the meridian opposite its center: "
+                "{} x {} columns of {} m around {}, {} with parallels {} and {} do",
                 spec.nx, spec.ny, spec.spacing_m, spec.center_latitude_deg,
                 spec.center_longitude_deg, spec.parallels_deg[0], spec.parallels_deg[1]);
 }

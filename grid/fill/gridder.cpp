@@ -94,7 +94,7 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
                     site.longitude_deg);
     }
     if (!is_within(site.altitude_m, -10000.0, 10000.0)) {
-        return fail(ErrorCode::bad_argument, "{}: an antenna does not stand at {} m", site.icao,
+        return fail(ErrorCode::bad_argument, "{}: an antenna cannot stand at {} m", site.icao,
                     site.altitude_m);
     }
     if (!is_within(options.beam_width_deg, 0.0, widest_beam_deg)) {
@@ -102,11 +102,11 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
                     widest_beam_deg, options.beam_width_deg);
     }
     if (options.method.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "only reflectivity is averaged in Z, not {}",
+        return fail(ErrorCode::bad_argument, "only reflectivity can be averaged in Z, not {}",
                     level2::moment_name(options.moment));
     }
     if (options.frame_time && !level2::is_plausible(*options.frame_time)) {
-        return fail(ErrorCode::bad_argument, "no radar works at {}",
+        return fail(ErrorCode::bad_argument, "no radar was at work at {}",
                     format_utc(*options.frame_time));
     }
     if (options.threads < 1) {

@@ -128,7 +128,7 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
         Comparison comparison(view, held_out.view);
         comparison.run();
         if (comparison.is_empty()) {
-            return fail(ErrorCode::not_found, "no echo of 5 dBZ or more to compare");
+            return fail(ErrorCode::not_found, "there is no echo of 5 dBZ or more to compare");
         }
         result.scores.push_back(comparison.score(method, seconds));
     }

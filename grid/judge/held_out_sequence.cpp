@@ -57,7 +57,7 @@ Result<std::vector<TimedVolume>> repeats_of(const level2::Volume& volume, const 
     }
     if (sequence.size() < least_sequence) {
         return fail(ErrorCode::not_found,
-                    "its lowest cut was scanned {} times; to hold one out takes three",
+                    "its lowest cut was scanned {} times; to hold one out, there must be three",
                     sequence.size());
     }
     return sequence;

@@ -109,9 +109,10 @@ std::array<Estimate*, fit_size> estimates_of(SiteComparison& comparison) {
 
 // Returns the reason why these cells do not suffice; empty if they do.
 std::string too_little(std::size_t pairs, std::size_t rows, std::size_t blocks) {
-    if (pairs == 0) return "no echo where both sites look";
+    if (pairs == 0) return "there is no echo where both sites look";
     if (rows >= fewest_cells && blocks >= fewest_blocks) return "";
-    return fmt::format("too little echo in common: {} cells in {} blocks", rows, blocks);
+    return fmt::format("the sites have too little echo in common: {} cells in {} blocks", rows,
+                       blocks);
 }
 
 void tell_nothing(const std::string& why, SiteComparison& comparison) {
@@ -191,7 +192,7 @@ void estimate(const std::vector<SitePair>& pairs, const GridSampler& b,
         if (!found) {
             sought[unclear] = false;
             *estimates_of(comparison)[unclear] = {
-                0, 0, "the echo in common does not tell it from the others"};
+                0, 0, "the echo in common does not separate it from the others"};
             numbers[unclear] = 0;
             continue;
         }
@@ -205,7 +206,7 @@ void estimate(const std::vector<SitePair>& pairs, const GridSampler& b,
         if (!changes) break;
     }
     if (comparison.correlation < options.least_correlation) {
-        tell_nothing(fmt::format("the sites hardly see the same: correlation {:.2f}",
+        tell_nothing(fmt::format("the sites see different echo: the correlation is {:.2f}",
                                  comparison.correlation),
                      comparison);
     }
@@ -236,7 +237,7 @@ Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
         !std::isgreaterequal(options.least_range_m, 0.0) ||
         !std::isgreater(options.greatest_range_m, 0.0) || std::isnan(options.least_correlation) ||
         options.most_columns < 1) {
-        return fail(ErrorCode::bad_argument, "sites are not compared with such options");
+        return fail(ErrorCode::bad_argument, "sites cannot be compared with these options");
     }
     for (const SiteGrid* one : {&a, &b}) {
         const bool fits =
@@ -280,11 +281,12 @@ std::vector<std::string> untold(const SiteComparison& comparison, const FaultLim
         const FaultText text = texts(limits)[i];
         std::string why = all[i]->untold;
         if (why.empty() && limits.standard_errors * all[i]->standard_error > 2 * text.limit) {
-            why = fmt::format("only to +- {:.2f} {}", all[i]->standard_error, text.unit);
+            why =
+                fmt::format("it is known only to +- {:.2f} {}", all[i]->standard_error, text.unit);
         }
         if (why.empty()) continue;
-        listed.push_back(fmt::format("{} against {}: {} not told: {}", comparison.b, comparison.a,
-                                     fault_names[i], why));
+        listed.push_back(fmt::format("{} against {}: {} cannot be determined: {}", comparison.b,
+                                     comparison.a, fault_names[i], why));
     }
     return listed;
 }

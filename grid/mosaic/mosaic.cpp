@@ -22,13 +22,13 @@ constexpr double largest_length_m = 1e7;
 Status check_options(const MosaicOptions& options) {
     const std::string_view why_apart = rules_of(options.moment).why_sites_stay_apart;
     if (!why_apart.empty() && options.overlap != Overlap::nearest) {
-        return fail(ErrorCode::bad_argument,
-                    "{} of different sites is not to be mixed ({}): take the overlap rule nearest, "
-                    "not {}",
-                    level2::moment_name(options.moment), why_apart, overlap_name(options.overlap));
+        return fail(
+            ErrorCode::bad_argument,
+            "{} of different sites cannot be mixed ({}); use the overlap rule nearest, not {}",
+            level2::moment_name(options.moment), why_apart, overlap_name(options.overlap));
     }
     if (options.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "only reflectivity is averaged in Z, not {}",
+        return fail(ErrorCode::bad_argument, "only reflectivity can be averaged in Z, not {}",
                     level2::moment_name(options.moment));
     }
     if (!is_within(options.length_m, least_length_m, largest_length_m)) {
@@ -60,7 +60,7 @@ Status check_previous(const MosaicView& previous, const MosaicOptions& options) 
         (!options.weights || (previous.weights && fits(*previous.weights, weight_quantization)));
     if (good) return {};
     return fail(ErrorCode::bad_argument,
-                "the mosaic to be brought up to date is not whole, or lacks counts or weights");
+                "the mosaic to update is not complete, or has no counts or weights");
 }
 
 std::vector<bool> changed_columns(const BrickView& shape, std::span<const GridWindow> windows) {

@@ -32,10 +32,10 @@ Result<PlacedSite> place(const GridSpec& domain, const Partial& partial,
     const auto window = view.spec == nullptr ? std::nullopt : window_of(domain, *view.spec);
     if (!window || !is_whole_bricks(domain, *window) || !has_shape_of(view, *view.spec)) {
         return fail(ErrorCode::bad_argument,
-                    "the grid of {} is no window of whole bricks of the domain", site.icao);
+                    "the grid of {} is not a window of whole bricks of the domain", site.icao);
     }
     if (!(view.quantization == quantization) || !is_usable(quantization)) {
-        return fail(ErrorCode::bad_argument, "the grid of {} is quantised unlike the others",
+        return fail(ErrorCode::bad_argument, "the grid of {} is not quantized like the others",
                     site.icao);
     }
     PlacedSite placed{&partial, *window, partial.distance, {}};
@@ -83,7 +83,8 @@ Result<std::vector<PlacedSite>> place_sites(const GridSpec& domain,
         sites.begin(), sites.end(),
         [&](const PlacedSite& a, const PlacedSite& b) { return key(a) == key(b); });
     if (twice != sites.end()) {
-        return fail(ErrorCode::bad_argument, "{} is given twice", twice->partial->site.icao);
+        return fail(ErrorCode::bad_argument, "the site {} is given twice",
+                    twice->partial->site.icao);
     }
     return sites;
 }

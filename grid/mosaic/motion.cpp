@@ -156,10 +156,10 @@ CellMotion MotionField::at(double ix, double iy) const {
 Result<std::optional<MotionField>> estimate_motion(const BrickView& before, const BrickView& after,
                                                    double seconds, const MotionOptions& options) {
     if (*before.spec != *after.spec) {
-        return fail(ErrorCode::bad_argument, "motion between grids of different specs");
+        return fail(ErrorCode::bad_argument, "there is no motion between grids of different specs");
     }
     if (!std::isgreater(seconds, 0.0) || !std::isfinite(seconds)) {
-        return fail(ErrorCode::bad_argument, "motion within {} s: it takes time to move", seconds);
+        return fail(ErrorCode::bad_argument, "there is no motion within {} s", seconds);
     }
     const Images images = images_of(before, after, options);
     const auto whole = motion_of_whole(images, seconds, options);

@@ -15,10 +15,11 @@ static_assert(is_in_order(time_method_facts, &TimeMethodFacts::method));
 Status check(const TimedView& view, const ColumnGeometry& geometry,
              const Quantization& quantization) {
     if (*view.view.spec != geometry.spec()) {
-        return fail(ErrorCode::bad_argument, "a grid of another spec than its columns' geometry");
+        return fail(ErrorCode::bad_argument,
+                    "the grid and the geometry of its columns have different specs");
     }
     if (view.view.quantization != quantization) {
-        return fail(ErrorCode::bad_argument, "two grids in steps of different sizes");
+        return fail(ErrorCode::bad_argument, "the two grids have steps of different sizes");
     }
     return {};
 }

@@ -9,7 +9,7 @@ std::uint64_t bytes_of(const Vcp& vcp) {
 }
 
 tl::unexpected<Error> no_memory() {
-    return fail(ErrorCode::exhausted, "the system gives no memory for it");
+    return fail(ErrorCode::exhausted, "there is not enough memory for it");
 }
 
 std::uint64_t ArrayRoom::left_bytes() const {

@@ -90,7 +90,8 @@ Status Decoder::flush(LayerOutput& output) {
 // again.
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
-        return fail(ErrorCode::unsupported, "more than {} layers of compression", most_layers - 1);
+        return fail(ErrorCode::unsupported, "has more than {} layers of compression",
+                    most_layers - 1);
     }
     std::string& container = builder_.report_data().container;
     switch (content_anywhere(bytes)) {
@@ -115,7 +116,7 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (read_archive_header(bytes)) {
         // The bytes are too few to know what they begin.
         if (bytes.size() < archive_header_bytes + message_header_bytes) {
-            return fail(ErrorCode::truncated, "holds a volume header and next to nothing else");
+            return fail(ErrorCode::truncated, "holds a volume header and almost nothing else");
         }
         return fail(ErrorCode::corrupt, "holds a volume header and no readable message");
     }
@@ -164,7 +165,7 @@ Status Decoder::end_output(LayerOutput& output, int depth) {
     }
     if (output.inner.empty()) {
         return fail(builder_.is_cut() ? ErrorCode::truncated : ErrorCode::corrupt,
-                    "a compressed file of which nothing is whole");
+                    "is a compressed file of which no part is intact");
     }
     return read_layer(output.inner, depth + 1);
 }

@@ -291,7 +291,7 @@ Status VolumeBuilder::count_output(std::uint64_t bytes) {
 
 Status VolumeBuilder::hold(std::uint64_t bytes) {
     if (room_.add(bytes)) return {};
-    return fail(ErrorCode::unsupported, "what it holds takes more than the limit of {} bytes",
+    return fail(ErrorCode::unsupported, "its contents take more than the limit of {} bytes",
                 array_limit_bytes_);
 }
 
@@ -328,7 +328,7 @@ Status VolumeBuilder::append(Fragment fragment) {
     }
     if (Status counted = count_output(fragment.output_bytes); !counted) return counted;
     if (report_.ldm_records.value_or(0) + fragment.report.ldm_records.value_or(0) > most_records) {
-        return fail(ErrorCode::unsupported, "more than {} LDM records", most_records);
+        return fail(ErrorCode::unsupported, "has more than {} LDM records", most_records);
     }
     cut_ = cut_ || fragment.cut;
     note_volume_facts(fragment);
@@ -351,7 +351,7 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
                                       [](const auto& count) { return count.first != 0; });
     if (!anything) {
         return fail(
-            cut_ ? ErrorCode::truncated : ErrorCode::corrupt, "nothing in it is whole: {}",
+            cut_ ? ErrorCode::truncated : ErrorCode::corrupt, "no part of it is intact: {}",
             report_.corruption ? report_.corruption->reason : "neither radials nor metadata");
     }
     volume_.station = station(fallback_station);

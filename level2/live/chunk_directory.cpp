@@ -84,7 +84,7 @@ Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOp
         if (!bytes) return pass_on(bytes);
         const auto added = volume.add(number, name.kind, *bytes, {});
         if (added == LiveVolume::Added::another_volume) {
-            return fail(ErrorCode::bad_argument, "{}: chunk {} is of another volume",
+            return fail(ErrorCode::bad_argument, "{}: chunk {} belongs to another volume",
                         directory.string(), to_string(name));
         }
         if (!added && added.error().code == ErrorCode::exhausted) {

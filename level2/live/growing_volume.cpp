@@ -146,11 +146,11 @@ Status GrowingVolume::Reader::hold(std::span<const std::byte> bytes) {
         if (Status known = look_through_unknown(); !known) return known;
     }
     if (kind_ == Kind::held && bytes.size() > most_packed_bytes - held_.size()) {
-        return fail(ErrorCode::unsupported, "a compressed file of more than {} bytes",
+        return fail(ErrorCode::unsupported, "is a compressed file of more than {} bytes",
                     most_packed_bytes);
     }
     if (kind_ == Kind::records && bytes.size() > most_unframed_bytes - held_.size()) {
-        return fail(ErrorCode::unsupported, "{} bytes without the end of an LDM record",
+        return fail(ErrorCode::unsupported, "has {} bytes without the end of an LDM record",
                     most_unframed_bytes);
     }
     held_.insert(held_.end(), bytes.begin(), bytes.end());

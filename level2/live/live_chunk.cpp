@@ -77,7 +77,7 @@ Status ChunkReader::read_records(std::span<const std::byte> body) {
     LdmFramer framer{body};
     while (const auto part = framer.next()) {
         if (chunk_.fragments.size() == most_records) {
-            return fail(ErrorCode::unsupported, "a chunk of more than {} LDM records",
+            return fail(ErrorCode::unsupported, "the chunk has more than {} LDM records",
                         most_records);
         }
         if (part->kind == LdmPart::Kind::record) chunk_.negative = part->negative;
@@ -161,7 +161,7 @@ Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes, const Decode
     }
     if (!anything) {
         return fail(is_cut ? ErrorCode::truncated : ErrorCode::corrupt,
-                    "nothing in the chunk is whole");
+                    "no part of the chunk is intact");
     }
     chunk.header = std::move(header);
     chunk.has_records = has_records;

@@ -218,7 +218,7 @@ Result<Decoded> LiveVolume::finish() {
     Result<Decoded> decoded = fail(ErrorCode::empty, "no chunk has come");
     if (chunks_.empty() && !refused_.empty()) {
         const auto& [number, reason] = *refused_.begin();
-        decoded = fail(ErrorCode::corrupt, "no chunk is whole; chunk {}: {}", number, reason);
+        decoded = fail(ErrorCode::corrupt, "no chunk is intact; chunk {}: {}", number, reason);
     }
     try {
         if (!chunks_.empty()) decoded = join_all();

@@ -72,8 +72,8 @@ class FileWriter final : public AnimationWriter {
 
     Status finish() override {
         return unless_failed([&]() -> Status {
-            if (finished_) return fail(ErrorCode::bad_argument, "was finished before");
-            if (count_ == 0) return fail(ErrorCode::bad_argument, "no frame to write");
+            if (finished_) return fail(ErrorCode::bad_argument, "is finished already");
+            if (count_ == 0) return fail(ErrorCode::bad_argument, "there is no frame to write");
             finished_ = true;
             const auto bytes = encoder_->finish();
             if (!bytes) return pass_on(bytes);
@@ -158,10 +158,10 @@ Status check_animation_name(const std::string& output) {
     std::error_code ignored;
     if (std::filesystem::is_directory(output, ignored)) {
         return fail(ErrorCode::bad_argument,
-                    "{0}: is a directory; name it {0}/ to have PNG files in it", output);
+                    "{0}: is a directory; name it {0}/ to write PNG files into it", output);
     }
-    return fail(ErrorCode::bad_argument, "{}: unknown ending '{}'; this build writes {}", output,
-                ending, known_animation_endings());
+    return fail(ErrorCode::bad_argument, "{}: the ending '{}' is not known; this build writes {}",
+                output, ending, known_animation_endings());
 }
 
 Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::string& output,
@@ -179,7 +179,7 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
         return std::make_unique<FileWriter>(output, std::move(*encoder), file_system);
     }
     return fail(ErrorCode::bad_argument,
-                "{}: this build is without FFmpeg (STORMCELLAR_VIDEO), so it writes {}", output,
+                "{}: this build has no FFmpeg (STORMCELLAR_VIDEO), so it only writes {}", output,
                 known_animation_endings());
 }
 
@@ -187,17 +187,18 @@ Status check_frame(const Image& frame, int first_width, int first_height, int la
     if (frame.width < 1 || frame.height < 1 ||
         frame.rgba.size() !=
             static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4) {
-        return fail(ErrorCode::bad_argument, "a frame of {} by {} pixels with {} bytes",
+        return fail(ErrorCode::bad_argument, "a frame of {} by {} pixels cannot have {} bytes",
                     frame.width, frame.height, frame.rgba.size());
     }
     if (frame.width > largest_side || frame.height > largest_side) {
         return fail(ErrorCode::bad_argument,
-                    "a frame of {} by {} pixels: this format holds {} along a side", frame.width,
-                    frame.height, largest_side);
+                    "a frame of {} by {} pixels is too large; this format allows {} along a side",
+                    frame.width, frame.height, largest_side);
     }
     if (frame.width != first_width || frame.height != first_height) {
-        return fail(ErrorCode::bad_argument, "a frame of {} by {} pixels after one of {} by {}",
-                    frame.width, frame.height, first_width, first_height);
+        return fail(ErrorCode::bad_argument,
+                    "a frame of {} by {} pixels cannot follow one of {} by {}", frame.width,
+                    frame.height, first_width, first_height);
     }
     return {};
 }

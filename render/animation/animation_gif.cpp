@@ -68,7 +68,7 @@ class GifFile {
 
     Result<Bytes> finish() {
         const bool closed = close();
-        if (!ok_ || !closed) return fail(ErrorCode::internal, "GIF: giflib cannot write it");
+        if (!ok_ || !closed) return fail(ErrorCode::internal, "GIF: giflib cannot write the file");
         return std::move(bytes_);
     }
 

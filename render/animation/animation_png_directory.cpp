@@ -72,14 +72,14 @@ Result<Target> look_at(const fs::path& directory) {
     const auto status = fs::symlink_status(directory, error);
     if (status.type() == fs::file_type::not_found) return Target::absent;
     if (status.type() != fs::file_type::directory) {
-        return fail(ErrorCode::not_a_file, "is there and is not a directory");
+        return fail(ErrorCode::not_a_file, "exists and is not a directory");
     }
     for (fs::directory_iterator it(directory, error), end; !error && it != end;
          it.increment(error)) {
         const std::string name = it->path().filename();
         if (!is_frame_name(name)) {
             return fail(ErrorCode::bad_argument,
-                        "holds {}, which is not a frame; name a new or an empty directory", name);
+                        "holds {}, which is not a frame; name a new or empty directory", name);
         }
     }
     if (error) return fail(ErrorCode::io, "{}", error.message());
@@ -120,11 +120,11 @@ class PngDirectoryWriter final : public AnimationWriter {
 
     Status finish() override {
         if (error_) return tl::unexpected(*error_);
-        if (count_ == 0) return refuse({ErrorCode::bad_argument, "no frame to write"});
+        if (count_ == 0) return refuse({ErrorCode::bad_argument, "there is no frame to write"});
         const auto placed = place();
         if (!placed) return refuse(placed.error());
         error_ = Error{ErrorCode::bad_argument,
-                       fmt::format("{}/: was finished before", directory_.native())};
+                       fmt::format("{}/: is finished already", directory_.native())};
         return {};
     }
 

@@ -319,7 +319,8 @@ Result<ColourTable> find_colour_table(std::string_view name) {
         if (table.name == name) return table;
         known += (known.empty() ? "" : ", ") + table.name;
     }
-    return fail(ErrorCode::not_found, "no colour table '{}': known are {}", name, known);
+    return fail(ErrorCode::not_found, "there is no color table '{}'; the known tables are {}", name,
+                known);
 }
 
 const ColourTable& nws_reflectivity() {

@@ -24,8 +24,8 @@ std::string lower_ending(const std::filesystem::path& file) {
 Result<ColourTable> read_colour_file(const std::filesystem::path& file) {
     const std::string ending = lower_ending(file);
     if (ending != ".pal" && ending != ".toml") {
-        return fail(ErrorCode::bad_argument, "{}: a colour table is a .pal or a .toml file",
-                    file.native());
+        return fail(ErrorCode::bad_argument,
+                    "{}: the file of a color table must end in .pal or .toml", file.native());
     }
     const auto bytes = read_file(file, most_bytes);
     if (!bytes) return pass_on(bytes);
@@ -42,7 +42,7 @@ Result<ColourTable> colours_from(const std::string& name_or_file) {
     if (ending == ".pal" || ending == ".toml") return read_colour_file(name_or_file);
     auto table = find_colour_table(name_or_file);
     if (table) return table;
-    return fail(ErrorCode::bad_argument, "{}; or a .pal or .toml file", table.error().message);
+    return fail(ErrorCode::bad_argument, "{}; or name a .pal or .toml file", table.error().message);
 }
 
 std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table, bool of_moment) {

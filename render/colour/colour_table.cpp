@@ -20,8 +20,8 @@ Status validate(const ColourTable& table) {
     const auto refuse = [](std::string_view why) {
         return fail(ErrorCode::bad_argument, "{}", why);
     };
-    if (table.stops.empty()) return refuse("has no colours");
-    if (table.stops.size() > most_stops) return refuse("has more than 4096 colours");
+    if (table.stops.empty()) return refuse("has no colors");
+    if (table.stops.size() > most_stops) return refuse("has more than 4096 colors");
     if (table.extinction.empty()) return refuse("has no opacity");
     const auto follows = [](float before, float after) {
         return std::isfinite(after) && std::isgreater(after, before);
@@ -31,9 +31,9 @@ Status validate(const ColourTable& table) {
         if (!follows(before, stop.from)) return refuse("has values that do not rise");
         before = stop.from;
     }
-    if (!follows(before, table.end)) return refuse("ends before its last colour");
+    if (!follows(before, table.end)) return refuse("ends before its last color");
     if (table.bar_begin && !is_within(*table.bar_begin, table.lowest(), table.end)) {
-        return refuse("has a colour bar that begins outside its values");
+        return refuse("has a color bar that begins outside its values");
     }
     before = -std::numeric_limits<float>::infinity();
     for (const ExtinctionPoint& point : table.extinction) {

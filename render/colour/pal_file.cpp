@@ -107,16 +107,18 @@ class PalReader {
         const auto words = words_of(line);
         if (words.empty() || words.front().starts_with('#')) return {};
         const auto colon = line.find(':');
-        if (colon == std::string_view::npos) return refuse("'{}': no 'Key:'", words.front());
+        if (colon == std::string_view::npos)
+            return refuse("'{}' is not followed by a colon, as in 'Key: value'", words.front());
         const auto key_words = words_of(line.substr(0, colon));
-        if (key_words.size() != 1) return refuse("'{}': no 'Key:'", words.front());
+        if (key_words.size() != 1)
+            return refuse("'{}' is not followed by a colon, as in 'Key: value'", words.front());
         return take(upper(key_words.front()), words_of(line.substr(colon + 1)));
     }
 
     Result<ColourTable> finish() {
         if (entries_.empty()) {
-            return fail(ErrorCode::bad_argument, "{}:{}: no Color: or SolidColor: in the file",
-                        name_, line_);
+            return fail(ErrorCode::bad_argument,
+                        "{}:{}: the file has no Color: or SolidColor:", name_, line_);
         }
         ColourTable table;
         const double per_ours = settle_meaning(table);
@@ -162,8 +164,8 @@ class PalReader {
         if (key == "UNITS" || key == "UNIT") return take_word(words, unit_);
         if (key == "DECIMALS" || key == "CATEGORY" || key == "TITLE" || key == "NAME") return {};
         return refuse(
-            "unknown key '{}': known are Product, Units, Scale, Offset, Step, RF, ND, Color, "
-            "Color4, SolidColor, SolidColor4",
+            "unknown key '{}'; the known keys are Product, Units, Scale, Offset, Step, RF, ND, "
+            "Color, Color4, SolidColor, SolidColor4",
             shown(key));
     }
 
@@ -173,10 +175,11 @@ class PalReader {
     }
 
     Status take_number(const Words& words, std::optional<double>& number, bool above_zero) {
-        if (words.size() != 1) return refuse("one number is wanted, not {} words", words.size());
+        if (words.size() != 1)
+            return refuse("there must be one number, not {} words", words.size());
         number = number_of(words.front());
-        if (!number) return refuse("'{}' is no number up to a million", shown(words.front()));
-        if (above_zero && *number < 1e-9) return refuse("must be above 0");
+        if (!number) return refuse("'{}' is not a number up to a million", shown(words.front()));
+        if (above_zero && *number < 1e-9) return refuse("the number must be above 0");
         return {};
     }
 
@@ -185,7 +188,7 @@ class PalReader {
         for (std::size_t c = 0; c < channels; ++c) {
             const auto number = number_of(words[first + c]);
             if (!number || *number < 0 || *number > 255) {
-                return refuse("'{}' is no colour: red, green, blue and alpha are 0 to 255",
+                return refuse("'{}' is not a color; red, green, blue and alpha are 0 to 255",
                               shown(words[first + c]));
             }
             colour[c] = static_cast<std::uint8_t>(std::lround(*number));
@@ -195,7 +198,7 @@ class PalReader {
 
     Status take_colour(const Words& words, std::optional<Rgba8>* colour) {
         if (words.size() < 3 || words.size() > 4) {
-            return refuse("red, green and blue are wanted, not {} numbers", words.size());
+            return refuse("there must be red, green and blue, not {} numbers", words.size());
         }
         const auto read = colour_from(words, 0, words.size());
         if (!read) return pass_on(read);
@@ -206,13 +209,14 @@ class PalReader {
     Status take_entry(const Words& words, std::size_t channels, bool solid) {
         if (words.size() != 1 + channels && words.size() != 1 + 2 * channels) {
             return refuse(
-                "a value and {} or {} numbers of colour are wanted, not {} numbers in all",
+                "there must be a value and {} or {} numbers of color, not {} numbers in all",
                 channels, 2 * channels, words.size());
         }
-        if (entries_.size() == most_stops) return refuse("more than {} colours", most_stops);
+        if (entries_.size() == most_stops)
+            return refuse("there are more than {} colors", most_stops);
         Entry entry;
         const auto value = number_of(words.front());
-        if (!value) return refuse("'{}' is no number up to a million", shown(words.front()));
+        if (!value) return refuse("'{}' is not a number up to a million", shown(words.front()));
         entry.value = *value;
         entry.solid = solid;
         const auto colour = colour_from(words, 1, channels);

@@ -93,7 +93,7 @@ void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& t
         const auto from = static_cast<float>(*value);
         if (!table.stops.empty()) {
             ColourStop& before = table.stops.back();
-            if (from <= before.from) point.complain("value", "must rise from point to point");
+            if (from <= before.from) point.complain("value", "must increase from point to point");
             if (!is_stepped) before.until = colour;
         }
         table.stops.push_back({from, colour, colour});
@@ -102,7 +102,7 @@ void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& t
         table.extinction.push_back({from, *opacity});
     }
     if (with_opacity != 0 && with_opacity != points.size()) {
-        points.front().complain("opacity_per_km", "must be given of all points or of none");
+        points.front().complain("opacity_per_km", "must be given for all points or for none");
     }
 }
 

@@ -115,7 +115,8 @@ Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts, 
     const auto ground = geometry.ground({in_x + 0.5, in_y + 0.5});
     const std::ptrdiff_t column = ground ? column_at(spec, *ground) : -1;
     if (column < 0) {
-        return fail(ErrorCode::bad_argument, "there is no ground of the grid at pixel {},{}", x, y);
+        return fail(ErrorCode::bad_argument, "pixel {},{} does not show the ground of the grid", x,
+                    y);
     }
     const grid::GeoPoint place = grid::GridProjection(spec).to_geo(
         {ground->x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
@@ -127,13 +128,14 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
                           grid::GeoPoint place, int threads) {
     if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
     if (view_of(scene.product) == View::section) {
-        return fail(ErrorCode::bad_argument, "a section is probed at a pixel, not at a place");
+        return fail(ErrorCode::bad_argument,
+                    "a section can only be probed at a pixel, not at a place");
     }
     const grid::GridSpec& spec = *view.spec;
     const auto known =
         is_within(place.latitude_deg, -90.0, 90.0) && is_within(place.longitude_deg, -180.0, 360.0);
     if (!known) {
-        return fail(ErrorCode::bad_argument, "{},{} is no latitude and longitude",
+        return fail(ErrorCode::bad_argument, "{},{} is not a latitude and a longitude",
                     place.latitude_deg, place.longitude_deg);
     }
     // West is negative, as everywhere else.

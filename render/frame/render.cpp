@@ -76,10 +76,10 @@ Result<Image> draw_section_picture(const grid::BrickView& view, const Scene& sce
 }  // namespace
 
 Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
-    if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "no grid to draw");
+    if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "there is no grid to draw");
     if (auto valid = grid::validate(*view.spec); !valid) return valid;
     if (facts.moment != scene.moment) {
-        return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
+        return fail(ErrorCode::bad_argument, "the grid holds {}, but the scene shows {}",
                     level2::moment_name(facts.moment), level2::moment_name(scene.moment));
     }
     if (view_of(scene.product) == View::volume && !PacketVolume::can_address(view)) {

@@ -274,8 +274,8 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
                                    const PictureFacts& picture) {
     if (scene.width < smallest_labelled_width || scene.height < smallest_labelled_height) {
         return fail(ErrorCode::bad_argument,
-                    "labels need a picture of at least {} by {} pixels, not {} by {}: leave them "
-                    "out",
+                    "labels need a picture of at least {} by {} pixels, not {} by {}; leave them "
+                    "out or draw a larger picture",
                     smallest_labelled_width, smallest_labelled_height, scene.width, scene.height);
     }
     LabelLayout layout;

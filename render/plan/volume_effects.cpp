@@ -31,10 +31,10 @@ enum StepNumber : std::size_t {
 accuracy::Step slices() {
     accuracy::Step step{"slices", fmt::format("{} slices", fewest_slices), {}};
     for (int count = 2 * fewest_slices; count <= most_slices; count *= 2) {
-        step.effects.push_back(
-            make_effect(fmt::format("slices_{}", count), fmt::format("{} slices", count),
-                        fmt::format("What lies between {} slices is seen by {}.", count / 2, count),
-                        effort_of_a_slice * count / 2));
+        step.effects.push_back(make_effect(
+            fmt::format("slices_{}", count), fmt::format("{} slices", count),
+            fmt::format("Details that lie between {} slices are seen with {}.", count / 2, count),
+            effort_of_a_slice * count / 2));
     }
     return step;
 }

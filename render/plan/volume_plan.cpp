@@ -80,7 +80,7 @@ Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
                                const VolumeChoice& by_default, Predicted which) {
     if (budget && (budget->position_m || budget->value)) {
         return fail(ErrorCode::bad_argument,
-                    "a picture's tolerance is a colour difference (\"dE 2\") or a time");
+                    "the tolerance of a picture must be a color difference (\"dE 2\") or a time");
     }
     if (auto done = predict(scene, chain, which); !done) return pass_on(done);
     const auto measure = [&](const Choice& choice) -> Result<accuracy::Measured> {

@@ -47,9 +47,10 @@ grid::CellResult CellMixer::result() const {
 Result<LevelPair> levels_about(const grid::GridSpec& spec, double height_m) {
     const HeightRange range = height_range(spec);
     if (!is_within(height_m, range.bottom_m, range.top_m)) {
-        return fail(ErrorCode::bad_argument,
-                    "no cells at a height of {} km: those of the grid lie from {:g} to {:g} km",
-                    height_m / 1000, range.bottom_m / 1000, range.top_m / 1000);
+        return fail(
+            ErrorCode::bad_argument,
+            "the grid has no cells at a height of {} km; its cells lie from {:g} to {:g} km",
+            height_m / 1000, range.bottom_m / 1000, range.top_m / 1000);
     }
     const auto& levels = spec.levels_m;
     const auto above = std::lower_bound(levels.begin(), levels.end(), height_m);

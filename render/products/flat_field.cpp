@@ -253,7 +253,7 @@ Result<FlatField> map_field(const BrickView& view, const Scene& scene,
         case Product::section:
             break;
     }
-    return fail(ErrorCode::internal, "{} is no map", product_name(scene.product));
+    return fail(ErrorCode::internal, "{} is not a map", product_name(scene.product));
 }
 
 }  // namespace stormcellar::render

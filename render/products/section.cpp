@@ -99,8 +99,8 @@ Status check_in_grid(const Section& section, const grid::GridSpec& spec) {
     if (std::any_of(in_grid.begin(), in_grid.end(), [](auto in) { return in != 0; })) return {};
     const grid::GridProjection projection(spec);
     return fail(ErrorCode::bad_argument,
-                "the section from {} to {} lies wholly outside the grid, which reaches from {} in "
-                "the south-west to {} in the north-east",
+                "the section from {} to {} lies completely outside the grid, which reaches from {} "
+                "in the southwest to {} in the northeast",
                 place_text(section.line.from), place_text(section.line.to),
                 place_text(projection.to_geo({-0.5, -0.5})),
                 place_text(projection.to_geo({spec.nx - 0.5, spec.ny - 0.5})));

@@ -30,12 +30,14 @@ Status set_light(const std::string& names, Light& light) {
             known = true;
         }
         if (name == "none") {
-            return fail(ErrorCode::bad_argument, "none stands alone, not with others as in '{}'",
-                        names);
+            return fail(ErrorCode::bad_argument,
+                        "none cannot be combined with other kinds of light, as in '{}'", names);
         }
         if (!known) {
-            return fail(ErrorCode::bad_argument,
-                        "unknown light '{}': known are none, gradient, shadow, scattering", name);
+            return fail(
+                ErrorCode::bad_argument,
+                "there is no light '{}'; the known kinds are none, gradient, shadow, scattering",
+                name);
         }
         if (name.size() == rest.size()) break;
         rest.remove_prefix(name.size() + 1);

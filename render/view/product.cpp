@@ -96,8 +96,8 @@ Result<Product> product_from_name(std::string_view name) {
     for (const ProductFacts& facts : product_facts) {
         if (facts.name == name) return facts.product;
     }
-    return fail(ErrorCode::bad_argument, "unknown product '{}': known are {}", name,
-                names_in(product_facts));
+    return fail(ErrorCode::bad_argument, "there is no product '{}'; the known products are {}",
+                name, names_in(product_facts));
 }
 
 std::string products_for_help() {

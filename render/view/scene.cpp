@@ -27,7 +27,7 @@ bool is_place(grid::GeoPoint point) {
 Status check_section(const Scene& scene) {
     if (!scene.section) {
         if (scene.product != Product::section) return {};
-        return fail(ErrorCode::bad_argument, "a section needs two places to go between");
+        return fail(ErrorCode::bad_argument, "a section needs two places between which it runs");
     }
     const SectionLine& line = *scene.section;
     if (!is_place(line.from) || !is_place(line.to)) {
@@ -45,12 +45,12 @@ Status check_section(const Scene& scene) {
 
 Status check_colours(const Scene& scene) {
     if (facts_of(scene.product).needs_reflectivity && scene.moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "{} is made of reflectivity (REF), not of {}",
+        return fail(ErrorCode::bad_argument, "{} is made from reflectivity (REF), not from {}",
                     product_name(scene.product), level2::moment_name(scene.moment));
     }
     if (!scene.colours) return {};
     if (auto valid = validate(*scene.colours); !valid) {
-        return fail(ErrorCode::bad_argument, "colour table {}: it {}", scene.colours->name,
+        return fail(ErrorCode::bad_argument, "color table {}: it {}", scene.colours->name,
                     valid.error().message);
     }
     const std::string wanted = unit_shown(scene);
@@ -58,7 +58,7 @@ Status check_colours(const Scene& scene) {
     // A table of RHO has no unit either.
     const bool of_numbers = unit_of(scene.colours->moment).empty();
     if (unit == wanted || (unit.empty() && !of_numbers)) return {};
-    return fail(ErrorCode::bad_argument, "colour table {} is {}, the picture {}",
+    return fail(ErrorCode::bad_argument, "color table {} is {}, but the picture is {}",
                 scene.colours->name, unit.empty() ? "without a unit" : "in " + unit,
                 wanted.empty() ? "without a unit" : "in " + wanted);
 }
@@ -77,7 +77,7 @@ Status validate(const Scene& scene) {
     }
     if (camera.eye && camera.field_of_view_deg == 0) {
         return fail(ErrorCode::bad_argument,
-                    "a camera with a place of its own needs a field of view above 0 degrees");
+                    "a camera with a position of its own needs a field of view above 0 degrees");
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const std::array<Status, 18> checks = {

@@ -47,7 +47,7 @@ TEST(Budget, ReadsTheFormsOfTheManual) {
     EXPECT_EQ(parsed("2 deg").value_unit, ValueUnit::degree);
     EXPECT_EQ(parsed("0.01 ratio").value, 0.01);
     EXPECT_EQ(parsed("0.01 Ratio").value_unit, ValueUnit::ratio);
-    EXPECT_THAT(error_of("2 deg, 1 dB"), HasSubstr("value error already"));
+    EXPECT_THAT(error_of("2 deg, 1 dB"), HasSubstr("already has a value error"));
 }
 
 TEST(Budget, AnErrorOfZeroMeansExactATimeOfZeroNothing) {
@@ -61,13 +61,13 @@ TEST(Budget, AnErrorOfZeroMeansExactATimeOfZeroNothing) {
 TEST(Budget, NamesWhatWasNotUnderstood) {
     EXPECT_THAT(error_of(""), HasSubstr("empty"));
     EXPECT_THAT(error_of(" \t"), HasSubstr("empty"));
-    EXPECT_THAT(error_of("250 m,"), HasSubstr("\"\" of the budget"));
-    EXPECT_THAT(error_of(",250 m"), HasSubstr("\"\" of the budget"));
+    EXPECT_THAT(error_of("250 m,"), HasSubstr("\"\" in the budget"));
+    EXPECT_THAT(error_of(",250 m"), HasSubstr("\"\" in the budget"));
     EXPECT_THAT(error_of("250 m, soon"), HasSubstr("\"soon\""));
-    EXPECT_THAT(error_of("250"), HasSubstr("\"250\" of the budget has no unit"));
-    EXPECT_THAT(error_of("250 feet"), HasSubstr("\"250 feet\" of the budget has an unknown unit"));
-    EXPECT_THAT(error_of("0,5 dB"), HasSubstr("\"0\" of the budget has no unit"));
-    EXPECT_THAT(error_of("dE 2 3"), HasSubstr("\"3\" was not understood"));
+    EXPECT_THAT(error_of("250"), HasSubstr("\"250\" in the budget has no unit"));
+    EXPECT_THAT(error_of("250 feet"), HasSubstr("\"250 feet\" in the budget has an unknown unit"));
+    EXPECT_THAT(error_of("0,5 dB"), HasSubstr("\"0\" in the budget has no unit"));
+    EXPECT_THAT(error_of("dE 2 3"), HasSubstr("has an unknown word, \"3\""));
     EXPECT_THAT(error_of("dE"), HasSubstr("\"dE\""));
     EXPECT_THAT(error_of("0x10 m"), HasSubstr("unknown unit"));
     EXPECT_THAT(error_of("250 m 0.5 dB"), HasSubstr("\"250 m 0.5 dB\""));
@@ -76,16 +76,17 @@ TEST(Budget, NamesWhatWasNotUnderstood) {
 TEST(Budget, RefusesWhatIsNoMagnitude) {
     for (const char* text : {"-1 m", "-0 m", "nan m", "-nan dB", "inf m", "dE -2", "dE nan",
                              "1e999 m", "-5 ms", "infinity s"}) {
-        EXPECT_THAT(error_of(text), HasSubstr("finite number, not negative")) << text;
+        EXPECT_THAT(error_of(text), HasSubstr("finite number and not negative")) << text;
     }
     EXPECT_THAT(error_of("1e308 km"), HasSubstr("too large"));
 }
 
 TEST(Budget, TakesEachQuantityOnce) {
-    EXPECT_THAT(error_of("1 m, 2 km"), HasSubstr("\"2 km\": the budget has a position error"));
-    EXPECT_THAT(error_of("1 dB, 2 m/s"), HasSubstr("has a value error already"));
-    EXPECT_THAT(error_of("dE 1, 2 dE"), HasSubstr("has a colour error already"));
-    EXPECT_THAT(error_of("1 s, 20 ms"), HasSubstr("has a time already"));
+    EXPECT_THAT(error_of("1 m, 2 km"),
+                HasSubstr("\"2 km\": the budget already has a position error"));
+    EXPECT_THAT(error_of("1 dB, 2 m/s"), HasSubstr("already has a value error"));
+    EXPECT_THAT(error_of("dE 1, 2 dE"), HasSubstr("already has a color error"));
+    EXPECT_THAT(error_of("1 s, 20 ms"), HasSubstr("already has a time"));
 }
 
 TEST(Budget, HostileTextIsRefusedInOneShortLine) {

@@ -133,7 +133,7 @@ TEST(Chain, JointCostsOfNoTwoRungsAreRefused) {
 TEST(Chain, NamesAreNamesAndStandOnce) {
     Chain chain = small_chain();
     chain.steps[0].effects[0].name = "geodesic";
-    EXPECT_THAT(error_of(chain), HasSubstr("geodesic stands twice"));
+    EXPECT_THAT(error_of(chain), HasSubstr("geodesic is there twice"));
     chain.steps[0].effects[0].name = "No Name";
     EXPECT_THAT(error_of(chain), HasSubstr("\"No Name\""));
     chain = small_chain();

@@ -39,10 +39,10 @@ TEST(Effect, AMisspeltNameIsAnsweredWithTheNearest) {
 
 TEST(Effect, WhatIsNoMisspellingIsAnsweredWithTheList) {
     EXPECT_THAT(override_error("wind=on"),
-                HasSubstr("there are refraction, ellipsoid, beam_width"));
+                HasSubstr("the effects are refraction, ellipsoid, beam_width"));
     EXPECT_THAT(override_error("wind=on"), Not(HasSubstr("did you mean")));
     EXPECT_THAT(override_error(std::string(1000000, 'x') + "=on"),
-                HasSubstr("there are refraction"));
+                HasSubstr("the effects are refraction"));
     EXPECT_LT(override_error(std::string(1000000, 'x') + "=on").size(), 400U);
     EXPECT_THAT(parse_override("a=on", {}).error().message, HasSubstr("there are none"));
 }

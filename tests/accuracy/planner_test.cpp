@@ -106,7 +106,7 @@ TEST(Planner, SettingsInTheWayAreNamed) {
 }
 
 TEST(Planner, BudgetsThatBoundNothingOrInAnotherUnitAreRefused) {
-    EXPECT_THAT(plan(small_chain(), Budget{}).error().message, HasSubstr("bounds nothing"));
+    EXPECT_THAT(plan(small_chain(), Budget{}).error().message, HasSubstr("sets no limit"));
     const auto other = plan(small_chain(), budget_of("0.5 m/s"));
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().message, "the budget is in m/s, but the values are in dB");

@@ -122,10 +122,11 @@ TEST(ArchiveReader, WhatIsNoFileIsLeftOutAndNamed) {
     std::vector<std::string> left_out;
     for (const LeftOut& one : reader->left_out())
         left_out.push_back(one.name + " " + one.reason);
-    EXPECT_THAT(left_out, ElementsAre("soft is a link", "hard is a link", "pipe is no regular file",
-                                      "../out names a place outside of the archive",
-                                      "/etc/absolute names a place outside of the archive",
-                                      "a/../../b names a place outside of the archive"));
+    EXPECT_THAT(left_out,
+                ElementsAre("soft is a link", "hard is a link", "pipe is not a regular file",
+                            "../out names a place outside the archive",
+                            "/etc/absolute names a place outside the archive",
+                            "a/../../b names a place outside the archive"));
 }
 
 TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {

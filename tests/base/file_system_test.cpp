@@ -144,7 +144,7 @@ TEST(AtomicFileTarget, AMissingDirectoryIsToldUnderTheFilesOwnName) {
     const testing::TemporaryDirectory directory;
     const auto created = AtomicFile::create(real_file_system(), directory / "none/file");
     ASSERT_FALSE(created);
-    EXPECT_NE(created.error().message.find("none/file: cannot be made: No such file"),
+    EXPECT_NE(created.error().message.find("none/file: cannot be created: No such file"),
               std::string::npos)
         << created.error().message;
     const Status target = check_target(directory / "none/file");

@@ -81,7 +81,7 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
     EXPECT_EQ(found["grids_made"], 0);
     EXPECT_EQ(found["grids_found"], 5);
     EXPECT_EQ(*read_file(out()), bytes);
-    EXPECT_THAT(second.err, HasSubstr("the grids of 5 are in"));
+    EXPECT_THAT(second.err, HasSubstr("5 have their grids in"));
     EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
 }
 
@@ -179,11 +179,12 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     };
     const auto unknown = with_range({"--stations", "KBGM,KZZZ"});
     EXPECT_EQ(unknown.status, 3);
-    EXPECT_THAT(unknown.err, HasSubstr("the catalog has nothing of KZZZ"));
+    EXPECT_THAT(unknown.err, HasSubstr("the catalog has no volume of KZZZ"));
     const auto nobody = with_range({"--bounds=10,41,12,43"});
     EXPECT_EQ(nobody.status, 3);
-    EXPECT_THAT(nobody.err, HasSubstr("no station of the catalog reaches the bounds"));
-    EXPECT_THAT(with_range({"--bounds=-180,-90,180,90"}).err, HasSubstr("too wide for a plane"));
+    EXPECT_THAT(nobody.err, HasSubstr("no station in the catalog reaches these bounds"));
+    EXPECT_THAT(with_range({"--bounds=-180,-90,180,90"}).err,
+                HasSubstr("too wide for a flat projection"));
     // A drop directory is no cache.
     fs::create_directories(directory_ / "ldm" / "KBGM");
     fs::copy_file(raw(sequence[0]), directory_ / "ldm" / "KBGM" / sequence[0]);
@@ -220,13 +221,13 @@ TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
     };
     const auto first = at("10min");
     ASSERT_EQ(first.status, 0) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("the grids of 0 are in"));
-    EXPECT_THAT(first.err, ::testing::ContainsRegex("and [1-9][0-9]? mosaics to make"));
+    EXPECT_THAT(first.err, HasSubstr("0 have their grids in"));
+    EXPECT_THAT(first.err, ::testing::ContainsRegex("and [1-9][0-9]? mosaics must be made"));
     const auto finer = at("5min");
     ASSERT_EQ(finer.status, 0) << finer.err;
-    EXPECT_THAT(finer.err, HasSubstr("the grids of 5 are in"));
+    EXPECT_THAT(finer.err, HasSubstr("5 have their grids in"));
     EXPECT_THAT(finer.err,
-                ::testing::ContainsRegex("0 must be read .* and [1-9][0-9]? mosaics to make"));
+                ::testing::ContainsRegex("0 must be read .* and [1-9][0-9]? mosaics must be made"));
 }
 
 TEST_F(ArchiveLoop, AGridWhoseFileBrokeSinceStaysAndThatIsSaid) {
@@ -234,7 +235,7 @@ TEST_F(ArchiveLoop, AGridWhoseFileBrokeSinceStaysAndThatIsSaid) {
     std::ofstream(raw(sequence[1]), std::ios::trunc) << "no radar data";
     const auto second = run_station({"--json"});
     ASSERT_EQ(second.status, 0) << second.err;
-    EXPECT_THAT(second.err, HasSubstr("the grid that was made of it earlier stays"));
+    EXPECT_THAT(second.err, HasSubstr("the grid that was made from it earlier stays"));
     EXPECT_EQ(nlohmann::json::parse(second.out)["frames"], 5);
 }
 

@@ -85,7 +85,7 @@ TEST_F(CacheChangeTest, PinnedGridsAndTheNewestStayAndThatIsSaid) {
     EXPECT_EQ(some["evicted"].size(), 2U);
     EXPECT_EQ(some["pinned"], 1);
     const auto ran = run({"evict", "--domain", "KBGM", "--bytes", "0"});
-    EXPECT_NE(ran.err.find("remain: they are pinned or the newest of their domains"),
+    EXPECT_NE(ran.err.find("remain, because these grids are pinned or the newest of their domains"),
               std::string::npos)
         << ran.err;
     EXPECT_EQ(facts({"unpin", "--domain", "KBGM"})["unpinned"].size(), 1U)

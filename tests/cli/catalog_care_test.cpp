@@ -126,8 +126,8 @@ TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {
         put_database(station);
     const auto checked = run({"check"});
     EXPECT_EQ(checked.status, 0) << checked.err;
-    EXPECT_NE(checked.out.find("0 changed, of no known station"), std::string::npos) << checked.out;
-    EXPECT_NE(checked.out.find("3 databases are of no known station"), std::string::npos);
+    EXPECT_NE(checked.out.find("0 changed, not a known station"), std::string::npos) << checked.out;
+    EXPECT_NE(checked.out.find("3 databases are of unknown stations"), std::string::npos);
     EXPECT_EQ(run({"check", "--stations", "any"}).out.find("no known"), std::string::npos);
     EXPECT_EQ(run({"check", "--stations", "known,XAAA,XBBB,XCCC"}).out.find("no known"),
               std::string::npos);
@@ -144,7 +144,7 @@ TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {
     EXPECT_TRUE(fs::exists(catalog_ / "XBBB.sqlite"));
     const auto rest = run({"check", "--clear-unknown"});
     EXPECT_EQ(rest.status, 0) << rest.err;
-    EXPECT_NE(rest.out.find("XBBB      removed, 1 file, 0 of them to be read again"),
+    EXPECT_NE(rest.out.find("XBBB      removed, 1 file, 0 of them will be read again"),
               std::string::npos)
         << rest.out;
     EXPECT_FALSE(fs::exists(catalog_ / "XBBB.sqlite"));
@@ -164,7 +164,7 @@ TEST_F(CatalogCare, ThousandsOfDatabasesAreCheckedAndClearedWithFewDescriptors) 
     };
     const auto checked = limited("check");
     EXPECT_EQ(checked.status, 0) << checked.err;
-    EXPECT_NE(checked.out.find("1501 databases are of no known station"), std::string::npos);
+    EXPECT_NE(checked.out.find("1501 databases are of unknown stations"), std::string::npos);
     EXPECT_EQ(limited("stations").status, 0);
     EXPECT_EQ(limited("list --rejected").status, 0);
     EXPECT_EQ(limited("rebuild --drop " + drop_.native()).status, 0);

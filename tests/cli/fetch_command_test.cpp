@@ -48,7 +48,7 @@ TEST_F(FetchCommand, SaysWhatFailedAndWhatWasNotThere) {
     bucket_.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06", {Fault::missing});
     const ProgramResult some = fetch({"--stations", "KTLX"});
     EXPECT_EQ(some.status, 1);
-    EXPECT_THAT(some.err, HasSubstr("KTLX20170101_030027_V06: the server answers 404"));
+    EXPECT_THAT(some.err, HasSubstr("KTLX20170101_030027_V06: the server answered 404"));
     EXPECT_THAT(some.err, HasSubstr("the same command tries them again"));
     EXPECT_EQ(fetch({"--stations", "KABR"}).status, 3);
 }
@@ -57,7 +57,7 @@ TEST_F(FetchCommand, WhatMakesNoSenseIsBadUsage) {
     EXPECT_EQ(fetch({}).status, 2);
     EXPECT_EQ(fetch({"--stations", "KTLX", "--bounds=-100,34,-97,36"}).status, 2);
     EXPECT_EQ(fetch({"--stations", "KT"}).status, 2);
-    EXPECT_EQ(fetch({"--bounds=0,0,1,1"}).status, 2) << "no station stands there";
+    EXPECT_EQ(fetch({"--bounds=0,0,1,1"}).status, 2) << "no station lies within these bounds";
     EXPECT_EQ(run({"fetch", "--stations", "KTLX", "-o", "/tmp/x"}).status, 2) << "no times";
 }
 

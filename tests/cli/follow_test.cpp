@@ -147,7 +147,7 @@ TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
 TEST_F(Follow, WaitsForTheFirstGridOfADomain) {
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp")}));
     ASSERT_TRUE(RunningProgram::wait_for([&] { return !program.err().empty(); }));
-    EXPECT_THAT(program.err(), HasSubstr("no grid of domain 'KBGM' is there; waiting for one"));
+    EXPECT_THAT(program.err(), HasSubstr("there is no grid of domain 'KBGM' yet; waiting for one"));
     EXPECT_THAT(written(), IsEmpty());
     commit("20050822_024400", 22);
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
@@ -161,7 +161,7 @@ TEST_F(Follow, WaitsForTheCache) {
     ASSERT_TRUE(RunningProgram::wait_for([&] { return !program.err().empty(); }));
     EXPECT_THAT(
         program.err(),
-        HasSubstr("there is no cache here yet; no grid of domain 'KBGM' is there; waiting"));
+        HasSubstr("there is no cache here yet; there is no grid of domain 'KBGM' yet; waiting"));
     store_ = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     commit("20050822_024400", 22);
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
@@ -191,7 +191,7 @@ TEST_F(Follow, GoesOnAfterALoopThatCannotBeMade) {
     std::ofstream(commit("20050822_024400", 22), std::ios::trunc) << "no grid";
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif")}));
     ASSERT_TRUE(RunningProgram::wait_for([&] {
-        return program.err().find("nothing written") != std::string::npos;
+        return program.err().find("nothing was written") != std::string::npos;
     })) << program.err();
     commit("20050822_025000", 33);
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();

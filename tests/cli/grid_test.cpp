@@ -42,24 +42,24 @@ class GridTest : public ::testing::Test {
 TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     EXPECT_EQ(grid({}).status, 2);
     EXPECT_EQ(grid({"file"}).status, 2) << "no output";
-    expect_usage({"a", "--overlap", "mean"}, "--overlap is for several FILEs");
-    expect_usage({"a", "--time-method", "blend"}, "--time-method is for several FILEs");
+    expect_usage({"a", "--overlap", "mean"}, "--overlap needs several FILEs");
+    expect_usage({"a", "--time-method", "blend"}, "--time-method needs several FILEs");
     expect_usage({"a", "b", "--overlap", "min"}, "--overlap takes one of");
     expect_usage({"a", "b", "--time-method", "now"}, "--time-method takes one of");
     expect_usage({"a", "b", "--overlap-km", "0"}, "--overlap-km");
     expect_usage({"a", "b", "--fields", "age"},
-                 "--fields age: what tells of single gates is for one FILE; of several there are "
-                 "counts and weights");
-    expect_usage({"a", "b", "--fields", "counts,weight"}, "for one FILE");
-    expect_usage({"a", "--fields", "counts"}, "counts and weights are for several FILEs");
+                 "--fields age: details of single gates need one FILE; several FILEs have counts "
+                 "and weights");
+    expect_usage({"a", "b", "--fields", "counts,weight"}, "need one FILE");
+    expect_usage({"a", "--fields", "counts"}, "counts and weights need several FILEs");
     expect_usage({"a", "--center", "35"}, "--center");
     expect_usage({"a", "--center", "95,0"}, "not on the earth");
     expect_usage({"a", "--center", "35,x"}, "--center");
-    expect_usage({"a", "--extent-km", "100.5,100"}, "no whole number");
+    expect_usage({"a", "--extent-km", "100.5,100"}, "not a whole number");
     expect_usage({"a", "--extent-km", "100"}, "--extent-km");
     expect_usage({"a", "--extent-km", "-100,100"}, "extent");
     expect_usage({"a", "--extent-km", "100000,100000"}, "too large");
-    expect_usage({"a", "--extent-km", "1e9,1e9"}, "at most 16384 of them, 16384 km");
+    expect_usage({"a", "--extent-km", "1e9,1e9"}, "the limit is 16384 cells, 16384 km");
     expect_usage({"a", "--extent-km", "4,4", "--spacing-km", "1e-5"}, "too large");
     expect_usage({"a", "--spacing-km", "0"}, "--spacing-km");
     expect_usage({"a", "--spacing-km", "nan"}, "--spacing-km");
@@ -83,8 +83,8 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
         expect_usage(arguments, part);
     };
     expect_usage_of(degrees, {"--spacing-deg", "0"}, "--spacing-deg");
-    expect_usage_of(degrees, {"--spacing-deg", "1", "--spacing-km", "1"}, "once each");
-    expect_usage_of(degrees, {"--extent-deg", "4,4", "--extent-km", "9,9"}, "once each");
+    expect_usage_of(degrees, {"--spacing-deg", "1", "--spacing-km", "1"}, "the extent once");
+    expect_usage_of(degrees, {"--extent-deg", "4,4", "--extent-km", "9,9"}, "the extent once");
     expect_usage_of(degrees, {"--extent-deg", "4"}, "--extent-deg takes");
     expect_usage_of(degrees, {"--extent-deg", "4,x"}, "--extent-deg takes");
     expect_usage_of(degrees, {"--extent-deg", "4,4.005", "--spacing-deg", "0.01"}, "whole number");
@@ -98,8 +98,8 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage_of(cone, {"--parallels", "30,-30"}, "opposite");
     expect_usage_of(cone, {"--parallels", "30,90"}, "not at 90");
     expect_usage({"a", "--fields", "age,hight"},
-                 "--fields takes any of age, height_offset, distance, weight or all, of several "
-                 "FILEs counts, weights or all, not 'hight'");
+                 "--fields takes age, height_offset, distance, weight or all for one FILE, and "
+                 "counts, weights or all for several FILEs, not 'hight'");
     expect_usage({"a", "--fields", "age,"}, "not ''");
     expect_usage({"a", "--time", "yesterday"}, "--time");
     expect_usage({"a", "--no-such-option"}, "--no-such-option");
@@ -110,11 +110,11 @@ TEST_F(GridTest, AnOptionWithAnEmptyValueIsBadUsageAndNamed) {
     for (const char* option :
          {"--method", "--tolerance", "--averaging", "--profile", "--effect", "--center",
           "--projection", "--extent-km", "--levels-km", "--moment", "--time", "--fields"}) {
-        expect_usage({"a", option, ""}, std::string{option} + ": is empty");
+        expect_usage({"a", option, ""}, std::string{option} + ": must not be empty");
     }
     const ProgramResult ran = grid({"a", "-o", ""});
     EXPECT_EQ(ran.status, 2);
-    EXPECT_NE(ran.err.find("--output: is empty"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("--output: must not be empty"), std::string::npos) << ran.err;
     EXPECT_EQ(grid({"", "-o", file("out.nc")}).status, 2);
 }
 
@@ -137,7 +137,7 @@ TEST_F(GridTest, ReportsFactsAndTimings) {
               "200,100", "--spacing-km", "2", "--levels-km", "0.1:1:0.3", "--center", "-10,20"});
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.err,
-              "stormcellar: note: KTLX, at 35.3334,-97.2778, sees no cell of the grid about "
+              "stormcellar: note: KTLX, at 35.3334,-97.2778, sees no cell of the grid around "
               "-10.0000,20.0000\n");
     const auto json = nlohmann::json::parse(ran.out);
     EXPECT_EQ(json["station"], "KTLX");
@@ -185,8 +185,8 @@ TEST_F(GridTest, AFrameTimeFarFromTheVolumeIsNoted) {
         EXPECT_EQ(ran.status, 0) << ran.err;
         return ran.err;
     };
-    const std::string volume_time = " the volume, of 1999-05-03T23:56:21Z\n";
-    const std::string head = "stormcellar: note: the frame is ";
+    const std::string volume_time = " the volume, which is of 1999-05-03T23:56:21Z\n";
+    const std::string head = "stormcellar: note: the grid's time is ";
     EXPECT_EQ(noted("2026-05-04"), head + "27 years after" + volume_time);
     EXPECT_EQ(noted("1999-04-30T23:56:21Z"), head + "3 days before" + volume_time);
     EXPECT_EQ(noted("1999-05-03T22:26:21Z"), head + "1.5 hours before" + volume_time);
@@ -199,7 +199,7 @@ TEST_F(GridTest, AVolumeThatNobodyPlacesSaysHowToNameIt) {
     const std::string nameless = volume("example_nexrad_archive_msg1.bz2");
     const ProgramResult ran = grid({nameless, "-o", file("out.nc")});
     EXPECT_EQ(ran.status, 1);
-    EXPECT_NE(ran.err.find("--station ICAO names it"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("name the radar with --station ICAO"), std::string::npos) << ran.err;
     std::filesystem::copy_file(nameless, file("KTLX_msg1.bz2"));
     const ProgramResult named = grid({file("KTLX_msg1.bz2"), "-o", file("out.nc"), "--json"});
     ASSERT_EQ(named.status, 0) << named.err;
@@ -251,7 +251,7 @@ TEST_F(GridTest, TheVolumeItselfAndThingsThatAreNoFilesStay) {
     const auto size = std::filesystem::file_size(file("volume"));
     const auto itself = grid({file("volume"), "-o", file("volume")});
     EXPECT_EQ(itself.status, 2);
-    EXPECT_NE(itself.err.find("is the volume itself"), std::string::npos);
+    EXPECT_NE(itself.err.find("this is the input file itself"), std::string::npos);
     EXPECT_EQ(std::filesystem::file_size(file("volume")), size);
     ASSERT_EQ(::mkfifo(file("fifo").c_str(), 0600), 0);
     EXPECT_EQ(grid({file("volume"), "-o", file("fifo")}).status, 1);

@@ -118,7 +118,7 @@ TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
         const ProgramResult asked = info(arguments);
         EXPECT_EQ(asked.status, 2);
         EXPECT_EQ(asked.out, "");
-        EXPECT_NE(asked.err.find("holds 4 volumes: say which one with --volume 1 to 4"),
+        EXPECT_NE(asked.err.find("holds 4 volumes; choose one with --volume 1 to 4"),
                   std::string::npos)
             << asked.err;
     }
@@ -139,7 +139,7 @@ TEST_F(InfoTest, RefusesATargetBeforeItDecodes) {
         EXPECT_EQ(ran.err.find("Level II"), std::string::npos) << "it decoded first: " << ran.err;
         return ran.status;
     };
-    EXPECT_EQ(refused(file), 2) << "the volume itself";
+    EXPECT_EQ(refused(file), 2) << "the input file itself";
     EXPECT_EQ(refused(directory_.path()), 1);
     EXPECT_EQ(refused(directory_ / "missing" / "x.nc"), 1);
     EXPECT_EQ(refused("/dev/null"), 1);

@@ -85,7 +85,7 @@ TEST_F(InputFilesTest, OneMemberIsNamedBehindItsArchive) {
     EXPECT_EQ(nlohmann::json::parse(one.out)["site"], "KENX");
     const ProgramResult none = run({"info", path + "!order/other"});
     EXPECT_EQ(none.status, 1);
-    EXPECT_THAT(none.err, HasSubstr("has no such member"));
+    EXPECT_THAT(none.err, HasSubstr("does not have this member"));
 }
 
 TEST_F(InputFilesTest, InfoTellsOfEachVolume) {
@@ -142,7 +142,7 @@ TEST_F(InputFilesTest, AnArchiveIsReplayedMemberByMember) {
         run({"replay", path, in_records, at("chunks"), "--interval", "0", "--as", "chunks"});
     EXPECT_EQ(chunks.status, 0) << chunks.err;
     EXPECT_THAT(chunks.err,
-                HasSubstr("README.txt: holds no LDM records: it cannot come in chunks"));
+                HasSubstr("README.txt: holds no LDM records, so it cannot come in chunks"));
     EXPECT_TRUE(fs::exists(directory_ / "chunks" / "KLBB"));
 }
 

@@ -181,7 +181,7 @@ TEST_F(Loop, DrawsTheProductAndMomentAskedFor) {
     EXPECT_THAT(cappi.out, ::testing::HasSubstr("\"moment\": \"REF\""));
     const auto velocity = run({"KBGM", "--moment", "VEL", "-o", out("b.webp")});
     EXPECT_EQ(velocity.status, 3);
-    EXPECT_THAT(velocity.err, ::testing::HasSubstr("it keeps REF"));
+    EXPECT_THAT(velocity.err, ::testing::HasSubstr("its grids are of REF"));
     EXPECT_FALSE(fs::exists(out("b.webp")));
 }
 
@@ -260,7 +260,7 @@ TEST_F(Loop, NothingButDamagedGridsIsAFailureAndWritesNothing) {
     fs::resize_file(grids_[0], 100);
     const auto ran = run({"KBGM", "-o", out("a.webp"), "-o", out("frames/")});
     EXPECT_EQ(ran.status, 1);
-    EXPECT_THAT(ran.err, HasSubstr("the only grid is damaged; nothing written"));
+    EXPECT_THAT(ran.err, HasSubstr("the only grid is damaged; nothing was written"));
     EXPECT_THAT(written(), IsEmpty());
 }
 
@@ -268,7 +268,7 @@ TEST_F(Loop, NothingMatchedIsStatusThree) {
     commit_three();
     const auto other = run({"KTLX", "-o", out("a.webp")});
     EXPECT_EQ(other.status, 3);
-    EXPECT_THAT(other.err, HasSubstr("domains are KBGM"));
+    EXPECT_THAT(other.err, HasSubstr("the domains are KBGM"));
     const auto late = run({"KBGM", "--from", "2006-01-01", "-o", out("a.webp")});
     EXPECT_EQ(late.status, 3);
     EXPECT_THAT(late.err, HasSubstr("from 2006-01-01"));
@@ -278,7 +278,7 @@ TEST_F(Loop, NothingMatchedIsStatusThree) {
 TEST_F(Loop, NonsenseIsBadUsageInOneLineAndWritesNothing) {
     commit_three();
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-        {{"KBGM", "-o", out("a.avi")}, "unknown ending '.avi'"},
+        {{"KBGM", "-o", out("a.avi")}, "the ending '.avi' is not known"},
         {{"KBGM", "-o", out("")}, "a.webp"},
         {{"KBGM", "-o", out("a.webp"), "--from", "noon"}, "--from: 'noon' is not a time"},
         {{"KBGM", "-o", out("a.webp"), "--fps", "0"}, "0.1 to 60"},

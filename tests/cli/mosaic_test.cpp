@@ -158,10 +158,10 @@ TEST_F(Mosaic, ALadderShowsWhatAFrameCosts) {
 TEST_F(Mosaic, ToHoldOutTakesAFileOfThreeRepeatsOrThreeFiles) {
     const ProgramResult two = run({"accuracy", real(bgm), real(bgm)});
     EXPECT_EQ(two.status, 2);
-    EXPECT_NE(two.err.find("3 FILEs or more"), std::string::npos) << two.err;
+    EXPECT_NE(two.err.find("at least 3 of them"), std::string::npos) << two.err;
     const ProgramResult once = run({"accuracy", "--held-out", real(bgm)});
     EXPECT_EQ(once.status, 1);
-    EXPECT_NE(once.err.find("takes three"), std::string::npos) << once.err;
+    EXPECT_NE(once.err.find("there must be three"), std::string::npos) << once.err;
 }
 
 }  // namespace

@@ -38,8 +38,9 @@ TEST_F(SceneFileTest, WhatMakesNoSenseTogetherNamesTheFile) {
     EXPECT_THAT(said(frame), HasSubstr(tilted));
     EXPECT_THAT(said(loop), HasSubstr(tilted));
     EXPECT_THAT(said(frame + " --width 500"), HasSubstr(tilted));
-    EXPECT_THAT(said(frame + " --tilt 100"),
-                HasSubstr("tilt must be 0 to 90, not 100 (beside --scene " + at("s.toml") + ")"));
+    EXPECT_THAT(
+        said(frame + " --tilt 100"),
+        HasSubstr("tilt must be 0 to 90, not 100 (together with --scene " + at("s.toml") + ")"));
     write("[picture]\nproduct = \"section\"\n");
     EXPECT_THAT(said(frame), HasSubstr(at("s.toml") + ": a section needs its two ends"));
     const auto mended =
@@ -61,13 +62,15 @@ TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
     for (const char* more : {"--tolerance \"dE 5\"", "--explain", "--effect=every_pixel=off"}) {
         const auto both = draw(std::string("--product composite ") + more);
         EXPECT_EQ(both.status, exit_bad_usage) << more;
-        EXPECT_THAT(both.err, HasSubstr("--tolerance, --effect and --explain are for volumes"));
+        EXPECT_THAT(both.err,
+                    HasSubstr("--tolerance, --effect and --explain need --product volume"));
     }
     write("[picture]\nproduct = \"composite\"\n" + plan);
     const auto within = draw("");
     EXPECT_EQ(within.status, exit_bad_usage);
     EXPECT_THAT(within.err,
-                HasSubstr(at("s.toml") + ": [plan] is for volumes: composite is drawn"));
+                HasSubstr(at("s.toml") +
+                          ": [plan] needs the product volume; it does not work with composite"));
     EXPECT_EQ(draw("--product volume").status, exit_done) << "now the plan has something to say";
 }
 
@@ -88,12 +91,13 @@ TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
     }
     const auto both = draw("--product composite --opacity 2");
     EXPECT_EQ(both.status, exit_bad_usage);
-    EXPECT_THAT(both.err, HasSubstr("--opacity is for volume: composite does not use it (beside "));
+    EXPECT_THAT(both.err,
+                HasSubstr("--opacity is for volume; composite does not use it (together with "));
     write("[picture]\nproduct = \"composite\"\n" + keys);
     for (const char* more : {"", "--product vil"}) {
         const auto within = draw(more);
         EXPECT_EQ(within.status, exit_bad_usage) << "the file is no good for its own product";
-        EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume: "));
+        EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume; "));
         EXPECT_THAT(within.err, HasSubstr(at("s.toml")));
     }
     EXPECT_EQ(draw("--product volume").status, exit_done) << "now they have something to say";
@@ -117,16 +121,16 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
         const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         return all.find(fmt::format(", {} slices", count)) != std::string::npos;
     };
-    EXPECT_THAT(refused("--slices 40 --tolerance \"dE 9\""),
-                HasSubstr("--slices and --tolerance exclude each other: the tolerance chooses"));
+    EXPECT_THAT(
+        refused("--slices 40 --tolerance \"dE 9\""),
+        HasSubstr("--slices and --tolerance cannot be used together: the tolerance chooses"));
     EXPECT_THAT(refused("--slices 40 --effect slices_128=on"),
-                HasSubstr("--slices and --effect slices_... exclude each other"));
+                HasSubstr("--slices and --effect slices_... cannot be used together"));
     EXPECT_EQ(draw("--slices 40 --effect every_pixel=off").status, exit_done);
     EXPECT_TRUE(has_slices(40)) << "no rung, but asked for";
     const auto explained = draw("--slices 40 --explain");
     EXPECT_EQ(explained.status, exit_done) << explained.err;
-    EXPECT_THAT(explained.out,
-                HasSubstr("has the 40 slices that were asked for, the plan is of 64"));
+    EXPECT_THAT(explained.out, HasSubstr("has the 40 slices that you asked for; the plan has 64"));
     EXPECT_TRUE(has_slices(40));
     const std::string scene = "--scene " + at("s.toml");
     write("[volume]\nslices = 40\n");
@@ -140,7 +144,7 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     write("[volume]\nslices = 40\n[plan]\ntolerance = \"dE 9\"\n");
     EXPECT_THAT(
         refused(scene),
-        HasSubstr(at("s.toml") + ": [volume] slices and [plan] tolerance exclude each other"));
+        HasSubstr(at("s.toml") + ": [volume] slices and [plan] tolerance cannot be used together"));
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
     }
     EXPECT_EQ(settings_.scene.scene.slices, render::Scene{}.slices) << "nothing was taken";
     EXPECT_THAT(complaint("[loop]\noutputs = [\"a.xyz\"]\n"),
-                HasSubstr("/a.xyz: unknown ending '.xyz'; this build writes .webp, "));
+                HasSubstr("/a.xyz: the ending '.xyz' is not known; this build writes .webp, "));
 }
 
 TEST_F(SceneFileTest, PathsStartAtTheFile) {
@@ -193,10 +193,10 @@ TEST_F(SceneFileTest, AnOlderKeyIsTakenToo) {
         ASSERT_TRUE(read(fmt::format("[picture]\n{} = \"safe-rho\"\nmoment = \"RHO\"\n", key)));
         EXPECT_EQ(scene_of(settings_.scene)->colours->name, "safe-rho");
         EXPECT_THAT(complaint(fmt::format("[picture]\n{} = \"none-such\"\n", key)),
-                    HasSubstr(fmt::format("s.toml:2: [picture] {}: no colour table", key)));
+                    HasSubstr(fmt::format("s.toml:2: [picture] {}: there is no color table", key)));
     }
     EXPECT_EQ(complaint("[picture]\ncolors = \"phi\"\ncolours = \"cfp\"\n"),
-              "s.toml:3: [picture] colours: is the older name of colors: give one of them");
+              "s.toml:3: [picture] colours: is the older name of colors; give only one of them");
 }
 
 // 2026-11-25: numbers of a file were printed and parsed again.
@@ -256,14 +256,16 @@ TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
     const Status storms = read_scene_file(scenes / "small-storm.toml", settings_.scene,
                                           settings_.plan, settings_.loop);
     ASSERT_FALSE(storms);
-    EXPECT_THAT(storms.error().message, HasSubstr("a scene of simulated storms, for stormcellar"));
-    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"), HasSubstr("s.toml: a color table, which"));
+    EXPECT_THAT(storms.error().message, HasSubstr("this is a simulated scene for stormcellar"));
+    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"),
+                HasSubstr("s.toml: this is a color table, which"));
     EXPECT_THAT(
         complaint("[paths]\ndrop = \"/d\"\n[[loop]]\nname = \"a\"\n"),
-        HasSubstr("s.toml: a configuration of stormcellard; a picture's scene has [picture]"));
+        HasSubstr(
+            "s.toml: this is a configuration of stormcellard; a picture scene has [picture]"));
     const auto picture = synth::read_scene(scenes / "picture-section.toml");
     ASSERT_FALSE(picture);
-    EXPECT_THAT(picture.error().message, HasSubstr("a picture's scene ([picture])"));
+    EXPECT_THAT(picture.error().message, HasSubstr("this is a picture scene ([picture])"));
 }
 
 TEST_F(SceneFileTest, ShippedScenesDraw) {

@@ -66,10 +66,10 @@ TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
         ASSERT_TRUE(scene) << scene.error().message;
         EXPECT_EQ(scene->colours->name, "safe-reflectivity");
         EXPECT_THAT(scene_of(parse(fmt::format("{} none-such", spelling))).error().message,
-                    ::testing::StartsWith(fmt::format("{}: no colour table", spelling)));
+                    ::testing::StartsWith(fmt::format("{}: there is no color table", spelling)));
     }
     EXPECT_EQ(scene_of(parse("--colours phi --colors cfp")).error().message,
-              "--colours: is the older name of --colors: give one of them");
+              "--colours: is the older name of --colors; give only one of them");
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
@@ -81,7 +81,7 @@ TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
 TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     for (const PictureOption& row : picture_options())
         EXPECT_THAT(help_of(row), ::testing::Not(::testing::HasSubstr("{"))) << row.option;
-    EXPECT_EQ(help_of(slices_option()), "Slices through the volume, 8 to 4096");
+    EXPECT_EQ(help_of(slices_option()), "Number of slices through the volume, 8 to 4096");
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
@@ -131,7 +131,7 @@ TEST(SceneOptions, WhatAProductDoesNotUseIsRefused) {
         }
     }
     EXPECT_EQ(scene_of(parse("--product composite --slices 64")).error().message,
-              "--slices is for volume: composite does not use it");
+              "--slices is for volume; composite does not use it");
 }
 
 TEST(SceneOptions, ACameraMayStandAnywhere) {

@@ -117,7 +117,7 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "close to sweep    p50 200 ms, p95 500 ms, max 2.0 s (180 living grids)\n"
         "antenna to cache  p50 21 s, p95 30 s, max 33 s (3 volumes; 6 more were over an hour "
         "old)\n"
-        "loops    1 of 1 running, 30 made, 2 restarts; kept by process 18: running\n"
+        "loops    1 of 1 running, 30 made, 2 restarts; run by process 18: running\n"
         "\n"
         "station  volume  cached   data    p50     p95    max  sweep p50  sweep p95  sweep max  "
         "antenna p50  antenna p95  gridded  partial  rejected  missing\n"
@@ -126,7 +126,7 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "KTLX     11 min    10 s  5.0 s  85 ms  120 ms  2.5 s     200 ms     500 ms      2.0 s  "
         "       21 s         30 s       12        1         2       70\n"
         "missing chunks of KTLX, volume 2022-03-17T00:08:42Z: 3, 9, ...\n"
-        "rejected last:\n"
+        "last rejected:\n"
         "  2022-03-17T00:01:00Z  /d/x: corrupt (why)\n"
         "\n"
         "loop    running  last made  frames  made  restarts\n"
@@ -137,15 +137,15 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
 TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
     json status = {{"loops", {{"running", 1U}, {"each", {{{"name", "a"}, {"running", true}}}}}},
                    {"loops_service", {{"state", "running"}, {"pid", 18U}, {"alive", false}}}};
-    const std::string gone = "; process 18, which kept them, is gone\n";
+    const std::string gone = "; process 18, which ran them, is gone\n";
     EXPECT_NE(status_table(status, now).find(gone), std::string::npos);
     status["loops_service"]["state"] = "stopped";
     EXPECT_EQ(status_table(status, now).find(gone), std::string::npos);
-    EXPECT_NE(status_table(status, now).find("; kept by process 18: stopped\n"), std::string::npos);
+    EXPECT_NE(status_table(status, now).find("; run by process 18: stopped\n"), std::string::npos);
     status.erase("loops_service");
     EXPECT_EQ(status_table(status, now).find("process keeps"), std::string::npos);
     status["loops"]["elsewhere"] = true;
-    EXPECT_NE(status_table(status, now).find("; no process keeps them\n"), std::string::npos);
+    EXPECT_NE(status_table(status, now).find("; no process runs them\n"), std::string::npos);
 }
 
 TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {

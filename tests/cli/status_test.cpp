@@ -76,7 +76,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     const auto after = status({"--state", daemon.root() / "state", "--json"});
     EXPECT_EQ(after.status, 1);
     EXPECT_NE(after.err.find("stormcellar: no daemon answers ("), std::string::npos) << after.err;
-    EXPECT_NE(after.err.find("status.json is "), std::string::npos) << after.err;
+    EXPECT_NE(after.err.find("status.json, "), std::string::npos) << after.err;
     const json document = json::parse(after.out);
     EXPECT_EQ(document["source"]["answered"], false);
     EXPECT_TRUE(document["source"]["age_s"].is_number());
@@ -225,7 +225,7 @@ TEST(StatusLoops, StandBesideWhatTheDaemonAnswers) {
                    [{"name": "plains", "running": true}]}})");
     const auto table = status({"--config", ingest.root() / "stormcellard.toml"});
     EXPECT_EQ(table.status, 0);
-    EXPECT_NE(table.out.find("; kept by process 1: running\n"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("; run by process 1: running\n"), std::string::npos) << table.out;
     EXPECT_NE(table.out.find("\nplains "), std::string::npos) << table.out;
     EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
 }
@@ -258,8 +258,8 @@ TEST(AskSocket, WhoMayNotAskIsToldHowToBeLetIn) {
     write_file(directory / "s", "");
     ASSERT_EQ(::chown((directory / "s").c_str(), static_cast<uid_t>(-1), ::getgid()), 0);
     const std::string group = ::getgrgid(::getgid())->gr_name;
-    EXPECT_EQ(how_to_be_let_in(directory / "s"), "; members of the group " + group +
-                                                     " may ask: sudo usermod -aG " + group +
+    EXPECT_EQ(how_to_be_let_in(directory / "s"), "; only members of the group " + group +
+                                                     " may ask: run sudo usermod -aG " + group +
                                                      " USER, then log in again");
     EXPECT_EQ(how_to_be_let_in(directory / "none"), "");
 }

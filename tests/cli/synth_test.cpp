@@ -114,7 +114,7 @@ TEST_F(Synth, ReplayDeliversTheVolumes) {
     EXPECT_EQ(nlohmann::json::parse(result.out)["files"], 2);
     EXPECT_EQ(nlohmann::json::parse(result.out)["interrupted"], false);
     EXPECT_THAT(result.err, HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to "
-                                      "2024-06-01T22:01:00Z, to be played in no time\n"));
+                                      "2024-06-01T22:01:00Z; the replay takes no time\n"));
     EXPECT_THAT(names_in(at("drop")), ElementsAre(first_volume, second_volume));
     for (const char* name : {first_volume, second_volume}) {
         EXPECT_EQ(fs::file_size(at("drop/") + name), fs::file_size(at("volumes/") + name));
@@ -171,7 +171,7 @@ TEST_F(Synth, ReplayNamesMistakes) {
     EXPECT_EQ(run({"replay", at("volumes"), drop, "--interval", "1", "--speed", "2"}).status, 2);
     const auto faults = run({"replay", at("volumes"), drop, "--faults", "lose=1"});
     EXPECT_EQ(faults.status, 2);
-    EXPECT_THAT(faults.err, HasSubstr("faults: there is no 'lose'"));
+    EXPECT_THAT(faults.err, HasSubstr("faults: there is no fault 'lose'"));
 }
 
 // 2026-11-22: it did not report how long it would take or wait, and printed no document.
@@ -184,8 +184,8 @@ TEST_F(Synth, AReplayThatWaitsSaysSoAndAnInterruptedOneWhatWasDone) {
         [&] { return replay.err().find("waiting") != std::string::npos; }));
     EXPECT_EQ(replay.end(SIGINT), -SIGINT);
     EXPECT_THAT(replay.err(),
-                HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to 2024-06-01T22:01:00Z, "
-                          "to be played in 60 min (--speed N: faster; --interval S: "));
+                HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to 2024-06-01T22:01:00Z; "
+                          "the replay takes 60 min (--speed N makes it faster; --interval S "));
     EXPECT_THAT(replay.err(), HasSubstr("stormcellar: waiting 60 min for " + at("volumes/") +
                                         second_volume + "\n"));
     EXPECT_THAT(replay.err(), HasSubstr("stormcellar: interrupted after 1 of 2 files\n"));

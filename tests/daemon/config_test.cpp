@@ -165,8 +165,9 @@ TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
 
 TEST_F(ConfigFile, BudgetsThatMakeNoSenseAreRefused) {
     const std::string p = std::string(paths) + "[cache]\n";
-    EXPECT_EQ(complaint(p + "bytes = \"20 XB\"\n"),
-              "s.toml:6: [cache] bytes: '20 XB' is no amount of bytes, as 20 GB, 512 MiB or 0");
+    EXPECT_EQ(
+        complaint(p + "bytes = \"20 XB\"\n"),
+        "s.toml:6: [cache] bytes: '20 XB' is not an amount of bytes such as 20 GB, 512 MiB or 0");
     EXPECT_EQ(complaint(p + "bytes = -1\n").substr(0, 36), "s.toml:6: [cache] bytes: -1 is out o");
     EXPECT_EQ(complaint(p + "percent = 101\n").substr(0, 9), "s.toml:6:");
     EXPECT_EQ(complaint(p + "low_watermark = 0\n").substr(0, 9), "s.toml:6:");

@@ -83,7 +83,8 @@ TEST_F(Loops, AVolumeThatComesIsInTheLoop) {
 
 TEST_F(Loops, ThatOneWaitsForItsFirstGridIsSaidOnce) {
     daemon_.start(one_loop, with_program());
-    EXPECT_TRUE(daemon_.wait_for_log("loop binghamton: note: no grid of domain 'KBGM' is there"))
+    EXPECT_TRUE(
+        daemon_.wait_for_log("loop binghamton: note: there is no grid of domain 'KBGM' yet"))
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
 }
@@ -180,13 +181,14 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
         EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
     };
     refused(check("[picture]\nproduct = \"hologram\"\n", loop, path),
-            "scene.toml:2: [picture] product: unknown product 'hologram'");
+            "scene.toml:2: [picture] product: there is no product 'hologram'");
     refused(check("[picture]\nproduct = \"vil\"\n[volume]\nhaze = true\n", loop, path),
-            "scene.toml: [volume] haze is for volume: vil does not use it");
+            "scene.toml: [volume] haze is for volume; vil does not use it");
     refused(check("[picture]\nproduct = \"section\"\n", loop, path),
             "scene.toml: a section needs its two ends");
     refused(check("", "scene = \"scene.toml\"\noutputs = [\"a.webp\"]\n", path), "--domain");
-    refused(check("", "domain = \"KBGM\"\noutputs = [\"a.xyz\"]\n", path), "unknown ending '.xyz'");
+    refused(check("", "domain = \"KBGM\"\noutputs = [\"a.xyz\"]\n", path),
+            "the ending '.xyz' is not known");
     refused(check("", loop, "/nowhere"), "no program stormcellar");
 }
 

@@ -45,7 +45,7 @@ def export(program, level2_file, directory):
         same(facts["written"], path, "written")
         return facts, [path]
     same(ran.returncode, 2, "exit status, " + ran.stderr)
-    asked = re.search(r"holds (\d+) volumes: say which one with --volume 1 to \1", ran.stderr)
+    asked = re.search(r"holds (\d+) volumes; choose one with --volume 1 to \1", ran.stderr)
     assert asked, ran.stderr
     same(ran.stdout, "", "facts when nothing was written")
     paths = [f"{directory}/{number}.nc" for number in range(1, int(asked[1]) + 1)]

@@ -299,7 +299,7 @@ TEST(Mosaic, WhatCannotBeMergedIsABadArgument) {
     };
     refused(with_one([&](Partial& p) { p.site = good[0].site; }), {}, "twice");
     refused(with_one([](Partial& p) { p.site.latitude_deg = std::nan(""); }), {}, "on the earth");
-    refused(with_one([](Partial& p) { p.view.quantization.step = 1; }), {}, "quantised");
+    refused(with_one([](Partial& p) { p.view.quantization.step = 1; }), {}, "quantized");
     GridSpec other = *good[2].view.spec;
     other.offset_x_cells += 1;
     refused(with_one([&](Partial& p) { p.view.spec = &other; }), {}, "whole bricks");

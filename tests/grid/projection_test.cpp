@@ -259,7 +259,7 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
     refused(
         latitude_longitude, {0, 0}, [&](auto& s) { s.spacing_deg = nan; }, "above 0");
     refused(
-        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_m = 1; }, "no spacing in metres");
+        latitude_longitude, {0, 0}, [](auto& s) { s.spacing_m = 1; }, "no spacing in meters");
     refused(
         latitude_longitude, {0, 0},
         [](auto& s) {
@@ -296,13 +296,13 @@ TEST(GridProjection, WhatAProjectionCannotHoldIsRefusedWithAReason) {
         [](auto& s) {
             s.parallels_deg = {60, 60};
         },
-        "centre");
+        "center");
     refused(
-        lambert_conformal, {88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "no pole");
+        lambert_conformal, {88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
     refused(
-        lambert_conformal, {-88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "no pole");
+        lambert_conformal, {-88.9, 0}, [](auto& s) { s.spacing_m = 9000; }, "cannot hold a pole");
     refused(
-        lambert_conformal, {10, 0}, [](auto& s) { s.spacing_m = 1e6; }, "opposite its centre");
+        lambert_conformal, {10, 0}, [](auto& s) { s.spacing_m = 1e6; }, "opposite its center");
     GridSpec bad = spec_of(azimuthal_equidistant, {35, 0});
     bad.projection = static_cast<Projection>(3);
     EXPECT_NE(why_refused(bad), "");

@@ -98,7 +98,8 @@ TEST(Refractivity, RefusesWhatIsNoAtmosphere) {
     const double nan = std::nan("");
     EXPECT_THAT(refusal({}), HasSubstr("0 levels"));
     EXPECT_THAT(refusal({{0, 300}}), HasSubstr("1 levels"));
-    EXPECT_THAT(refusal({{0, 300}, {0, 299}}), HasSubstr("level 2: height 0 m does not rise"));
+    EXPECT_THAT(refusal({{0, 300}, {0, 299}}),
+                HasSubstr("level 2: height 0 m is not above the one before"));
     EXPECT_THAT(refusal({{0, 300}, {nan, 299}}), HasSubstr("level 2: height nan"));
     EXPECT_THAT(refusal({{-501, 300}, {10, 299}}), HasSubstr("level 1: height -501"));
     EXPECT_THAT(refusal({{0, 300}, {100'001, 1}}), HasSubstr("level 2: height 100001"));
@@ -106,7 +107,7 @@ TEST(Refractivity, RefusesWhatIsNoAtmosphere) {
     EXPECT_THAT(refusal({{0, 0}, {10, 1}}), HasSubstr("level 1: refractivity 0"));
     EXPECT_THAT(refusal({{0, 300}, {1000, nan}}), HasSubstr("level 2: refractivity nan"));
     EXPECT_THAT(refusal({{0, 1001}, {1000, 100}}), HasSubstr("at most 1000"));
-    EXPECT_THAT(refusal({{0, 300}, {1, 297}}), HasSubstr("changes by -3 per metre"));
+    EXPECT_THAT(refusal({{0, 300}, {1, 297}}), HasSubstr("changes by -3 per meter"));
     EXPECT_EQ(refusal({{0, 300}, {1, 298}}), "");
     std::vector<RefractivityLevel> many;
     for (int i = 0; i < 10'001; ++i)

@@ -168,11 +168,13 @@ TEST_F(SiteComparisonTest, ThirtySecondsAreNamedAndNothingElse) {
 
 TEST_F(SiteComparisonTest, WithoutAMotionThereIsNoTime) {
     const SiteComparison unknown = compared(*b_, std::nullopt);
-    EXPECT_THAT(untold(unknown),
-                ElementsAre("XSYB against XSYA: time not told: the motion is not known"));
+    EXPECT_THAT(
+        untold(unknown),
+        ElementsAre("XSYB against XSYA: time cannot be determined: the motion is not known"));
     const SiteComparison still = compared(*b_, UniformMotion{0.5, 0.5});
-    EXPECT_THAT(untold(still),
-                ElementsAre("XSYB against XSYA: time not told: the weather stands still"));
+    EXPECT_THAT(
+        untold(still),
+        ElementsAre("XSYB against XSYA: time cannot be determined: the weather stands still"));
 }
 
 // The same echo, seen five minutes later and 8 km farther: no fault of the antenna.
@@ -210,7 +212,7 @@ TEST_F(SiteComparisonTest, WithoutEchoInCommonNothingIsTold) {
     const auto found = compare_sites(good_->as_site(), other.as_site(), {});
     ASSERT_TRUE(found);
     EXPECT_EQ(untold(*found).size(), 4U);
-    EXPECT_THAT(untold(*found)[0], HasSubstr("no echo where both sites look"));
+    EXPECT_THAT(untold(*found)[0], HasSubstr("there is no echo where both sites look"));
     EXPECT_THAT(faults(*found), IsEmpty());
 
     ComparisonOptions strong;

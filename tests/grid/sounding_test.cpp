@@ -101,21 +101,25 @@ TEST(Sounding, TheLowestLayerEndsAtTheFirstLevel) {
 TEST(Sounding, NamesTheColumnThatIsMissing) {
     EXPECT_THAT(refusal(""), HasSubstr("no line names the columns"));
     EXPECT_THAT(refusal("# nothing\n\n"), HasSubstr("no line names the columns"));
-    EXPECT_THAT(refusal("\nheight,refractivity\n"), StartsWith("dir/a.csv:2: no column height_m"));
-    EXPECT_THAT(refusal("height_m\n"), HasSubstr("no column refractivity, nor pressure_hpa"));
+    EXPECT_THAT(refusal("\nheight,refractivity\n"),
+                StartsWith("dir/a.csv:2: there is no column height_m"));
+    EXPECT_THAT(refusal("height_m\n"),
+                HasSubstr("there is no column refractivity or pressure_hpa"));
     EXPECT_THAT(refusal("height_m,pressure_hpa,dew_point_c\n"), HasSubstr("temperature_c"));
-    EXPECT_THAT(refusal("height_m,pressure_hpa,temperature_c\n"), HasSubstr("needs one of"));
+    EXPECT_THAT(refusal("height_m,pressure_hpa,temperature_c\n"),
+                HasSubstr("there must be exactly one"));
     EXPECT_THAT(refusal("height_m,pressure_hpa,temperature_c,dew_point_c,"
                         "relative_humidity_percent\n"),
-                HasSubstr("needs one of"));
+                HasSubstr("there must be exactly one"));
     EXPECT_THAT(refusal("height_m,height_m,refractivity\n"), HasSubstr("named twice"));
     EXPECT_THAT(refusal(std::string(200, ',')), HasSubstr("201 columns"));
 }
 
 TEST(Sounding, NamesLineAndColumnOfWhatIsWrong) {
     const std::string good = head + "0,1000,20,10\n";
-    EXPECT_THAT(refusal(good), HasSubstr("dir/a.csv: 1 levels"));
-    EXPECT_THAT(refusal(good + "100,990,19\n"), StartsWith("dir/a.csv:3: 3 columns, not 4"));
+    EXPECT_THAT(refusal(good), HasSubstr("dir/a.csv: has 1 levels"));
+    EXPECT_THAT(refusal(good + "100,990,19\n"),
+                StartsWith("dir/a.csv:3: there are 3 columns, not 4"));
     EXPECT_THAT(refusal(good + "100,990,,9\n"),
                 StartsWith("dir/a.csv:3: column temperature_c (number 3): not a number: ''"));
     EXPECT_THAT(refusal(good + "100,9x,19,9\n"), HasSubstr("pressure_hpa (number 2): not a num"));
@@ -124,7 +128,8 @@ TEST(Sounding, NamesLineAndColumnOfWhatIsWrong) {
     EXPECT_THAT(refusal(good + "100,1e999,19,9\n"), HasSubstr("pressure_hpa"));
     EXPECT_THAT(refusal(good + "100,990,292,9\n"), HasSubstr("292 is not from -120 to 60"));
     EXPECT_THAT(refusal(good + "100,0,19,9\n"), HasSubstr("pressure_hpa (number 2): 0 is not"));
-    EXPECT_THAT(refusal(good + "0,990,19,9\n"), HasSubstr("height_m: 0 does not rise above 0"));
+    EXPECT_THAT(refusal(good + "0,990,19,9\n"),
+                HasSubstr("height_m: 0 is not above the one before, 0"));
     EXPECT_THAT(refusal(good + "100,1001,19,9\n"), HasSubstr("pressure_hpa: 1001 is more than"));
     EXPECT_THAT(refusal(good + "100,990,8,9\n"), HasSubstr("dew_point_c: 9 is above the temp"));
     EXPECT_THAT(refusal(good + "1,990,19,-100\n"), HasSubstr(":3: the refractivity changes by"));
@@ -137,7 +142,7 @@ TEST(Sounding, BoundsSizeAndLevels) {
     std::string many = "height_m,refractivity\n";
     for (int i = 0; i <= 10'000; ++i)
         many += std::to_string(i) + ",300\n";
-    EXPECT_THAT(refusal(many), HasSubstr(":10002: more than 10000 levels"));
+    EXPECT_THAT(refusal(many), HasSubstr(":10002: there are more than 10000 levels"));
 }
 
 TEST(Sounding, ReadsAFileAndSaysWhichIsMissing) {

@@ -121,7 +121,7 @@ TEST_P(Animation, FrameOfAnotherSizeIsRefusedForGood) {
     const auto added = (*writer)->add(test_frame(0, 60, 43));
     ASSERT_FALSE(added);
     EXPECT_EQ(added.error().code, ErrorCode::bad_argument);
-    EXPECT_THAT(added.error().message, HasSubstr("60 by 43 pixels after one of 61 by 43"));
+    EXPECT_THAT(added.error().message, HasSubstr("60 by 43 pixels cannot follow one of 61 by 43"));
     EXPECT_THAT(added.error().message, HasSubstr(directory_.path().native()));
     EXPECT_FALSE((*writer)->add(test_frame(0)));
     EXPECT_FALSE((*writer)->finish());
@@ -169,7 +169,7 @@ TEST(AnimationName, NeedsAnEndingThatSomeBuildWrites) {
     const Status directory = check_animation_name("/tmp");
     ASSERT_FALSE(directory);
     EXPECT_EQ(directory.error().message,
-              "/tmp: is a directory; name it /tmp/ to have PNG files in it");
+              "/tmp: is a directory; name it /tmp/ to write PNG files into it");
 }
 
 TEST(AnimationOutput, UnknownEndingIsRefusedWithThoseThatAreKnown) {
@@ -185,7 +185,7 @@ TEST(AnimationOutput, BuildWithoutFfmpegSaysSo) {
     for (const char* name : {"a.mp4", "a.webm"}) {
         const auto writer = AnimationWriter::create(name, {});
         ASSERT_FALSE(writer);
-        EXPECT_THAT(writer.error().message, HasSubstr("without FFmpeg"));
+        EXPECT_THAT(writer.error().message, HasSubstr("has no FFmpeg"));
     }
 }
 #endif

@@ -107,7 +107,7 @@ TEST(Validate, NamesWhatIsWrongWithATable) {
     };
     using ::testing::HasSubstr;
     EXPECT_EQ(with([](ColourTable&) {}), "");
-    EXPECT_THAT(with([](ColourTable& t) { t.stops.clear(); }), HasSubstr("no colours"));
+    EXPECT_THAT(with([](ColourTable& t) { t.stops.clear(); }), HasSubstr("no colors"));
     EXPECT_THAT(with([](ColourTable& t) { t.stops[3].from = t.stops[2].from; }),
                 HasSubstr("do not rise"));
     EXPECT_THAT(with([](ColourTable& t) { t.stops[3].from = std::nanf(""); }),

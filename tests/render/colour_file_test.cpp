@@ -127,18 +127,19 @@ TEST(PalFile, ErrorsNameTheLine) {
     EXPECT_THAT(message("; nothing\n"), ::testing::HasSubstr("no Color:"));
     EXPECT_THAT(message("Color: 1 2 3 4\nbogus\n"), StartsWith("t.pal:2: 'bogus'"));
     EXPECT_THAT(message("Colr: 1 2 3 4\n"), StartsWith("t.pal:1: unknown key 'COLR'"));
-    EXPECT_THAT(message("\n\nColor: 1 2 3\n"), StartsWith("t.pal:3: a value and 3 or 6"));
-    EXPECT_THAT(message("Color: 1 2 3 256\n"), StartsWith("t.pal:1: '256' is no colour"));
+    EXPECT_THAT(message("\n\nColor: 1 2 3\n"),
+                StartsWith("t.pal:3: there must be a value and 3 or 6"));
+    EXPECT_THAT(message("Color: 1 2 3 256\n"), StartsWith("t.pal:1: '256' is not a color"));
     EXPECT_THAT(message("Color: 1 2 -3 4\n"), StartsWith("t.pal:1: '-3'"));
     EXPECT_THAT(message("Color: nan 2 3 4\n"), StartsWith("t.pal:1: 'nan'"));
     EXPECT_THAT(message("Color: 1e9 2 3 4\n"), StartsWith("t.pal:1: '1e9'"));
-    EXPECT_THAT(message("Scale: 0\n"), StartsWith("t.pal:1: must be above 0"));
-    EXPECT_THAT(message("Scale: -1\n"), StartsWith("t.pal:1: must be above 0"));
-    EXPECT_THAT(message("RF: 1\n"), StartsWith("t.pal:1: red"));
+    EXPECT_THAT(message("Scale: 0\n"), StartsWith("t.pal:1: the number must be above 0"));
+    EXPECT_THAT(message("Scale: -1\n"), StartsWith("t.pal:1: the number must be above 0"));
+    EXPECT_THAT(message("RF: 1\n"), StartsWith("t.pal:1: there must be red"));
     std::string many;
     for (int i = 0; i < 5000; ++i)
         many += "Color: " + std::to_string(i) + " 0 0 0\n";
-    EXPECT_THAT(message(many), StartsWith("t.pal:4097: more than 4096"));
+    EXPECT_THAT(message(many), StartsWith("t.pal:4097: there are more than 4096"));
     EXPECT_THAT(message("Color: 1 2 3 4\n\x1b[31mX: 1\n"),
                 ::testing::Not(::testing::HasSubstr("\x1b")));
 }
@@ -219,7 +220,7 @@ TEST(TomlColours, ErrorsNameLineAndKey) {
                 ::testing::HasSubstr("stepped: must be true or false"));
     EXPECT_THAT(message("colour = 1\n" + two), ::testing::HasSubstr("unknown key"));
     EXPECT_THAT(message(two + "opacity_per_km = 1\n"),
-                ::testing::HasSubstr("of all points or of none"));
+                ::testing::HasSubstr("for all points or for none"));
     EXPECT_THAT(message(two + "[[point]]\nvalue = 2\ncolour = \"#000000\"\n"),
                 ::testing::HasSubstr("t.toml:8: "));
     EXPECT_THAT(message(two + "[[point]]\nvalue = 3\ncolour = \"#00000\"\n"),

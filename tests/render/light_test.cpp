@@ -24,8 +24,9 @@ TEST(Light, IsNamedByItsKinds) {
     for (const char* mixed : {"none,gradient", "shadow,none", "none,none"}) {
         const Status status = set_light(mixed, light);
         ASSERT_FALSE(status) << mixed;
-        EXPECT_EQ(status.error().message,
-                  fmt::format("none stands alone, not with others as in '{}'", mixed));
+        EXPECT_EQ(
+            status.error().message,
+            fmt::format("none cannot be combined with other kinds of light, as in '{}'", mixed));
     }
     EXPECT_TRUE(light.shadow) << "errors change nothing";
     ASSERT_TRUE(set_light("none", light));

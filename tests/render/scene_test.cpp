@@ -80,14 +80,14 @@ TEST(SceneValidation, NamesTheFieldThatIsOutOfRange) {
          [](Scene& s) {
              s.section = SectionLine{{35, -97}, {-35, 83}};
          }},
-        {"echotop is made of reflectivity (REF), not of VEL",
+        {"echotop is made from reflectivity (REF), not from VEL",
          [](Scene& s) {
              s.product = Product::echo_top;
              s.moment = level2::Moment::vel;
          }},
-        {"nws-velocity is in m/s, the picture in dBZ",
+        {"nws-velocity is in m/s, but the picture is in dBZ",
          [](Scene& s) { s.colours = find_colour_table("nws-velocity").value(); }},
-        {"nws-rho is without a unit, the picture in dBZ",
+        {"nws-rho is without a unit, but the picture is in dBZ",
          [](Scene& s) { s.colours = find_colour_table("nws-rho").value(); }},
         {"do not rise",
          [](Scene& s) {
