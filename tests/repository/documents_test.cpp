@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -12,18 +11,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path;
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // What cmake/Install.cmake installs as documents, in the same places below one directory.
 bool is_installed(const fs::path& path) {
@@ -71,7 +65,7 @@ struct Link {
 std::vector<Link> links_of(const fs::path& document) {
     static const std::regex link(R"(\]\(([^)\s]+)\))");
     std::vector<Link> links;
-    const std::string text = without_code(text_of(testing::source_directory() / document));
+    const std::string text = without_code(testing::text_of(testing::source_directory() / document));
     for (const std::string& target : found_in(text, link)) {
         if (target.find("://") != std::string::npos) continue;
         const std::size_t hash = target.find('#');
@@ -87,7 +81,8 @@ std::vector<Link> links_of(const fs::path& document) {
 std::set<std::string> headings_of(const fs::path& document) {
     static const std::regex heading(R"(\n#+ ([^\n]*))");
     std::set<std::string> names;
-    const std::string text = "\n" + without_code(text_of(testing::source_directory() / document));
+    const std::string text =
+        "\n" + without_code(testing::text_of(testing::source_directory() / document));
     for (const std::string& title : found_in(text, heading)) {
         std::string name;
         for (const char letter : title) {
@@ -123,7 +118,7 @@ TEST(Documents, WhatTheInstalledOnesLinkToIsInstalled) {
         for (const Link& link : links_of(document))
             EXPECT_TRUE(is_installed(link.file)) << document << " links to " << link.file;
     }
-    const std::string rules = text_of(testing::source_directory() / "cmake/Install.cmake");
+    const std::string rules = testing::text_of(testing::source_directory() / "cmake/Install.cmake");
     EXPECT_NE(rules.find("install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})"),
               std::string::npos);
     for (const char* file : {"README.md", "CONTRIBUTING.md", "GLOSSARY.md", "bunzip/README.md"})
@@ -140,7 +135,7 @@ TEST(Documents, WhatManualPagesUnitsAndConfigurationNameIsThere) {
           "packaging/man/stormcellard.toml.5.in", "systemd/stormcellard.service.in",
           "systemd/stormcellar-loops.service.in", "daemon/stormcellard.toml",
           "daemon/monitoring/stormcellar-alerts.yml"}) {
-        const std::string text = text_of(testing::source_directory() / file);
+        const std::string text = testing::text_of(testing::source_directory() / file);
         for (const std::regex* what : {&installed, &named}) {
             for (const std::string& document : found_in(text, *what)) {
                 ++checked;
@@ -198,7 +193,7 @@ TEST(Documents, NobodyRefersToADocumentThatIsNotThere) {
     const fs::path root = testing::source_directory();
     std::size_t checked = 0;
     for (const fs::path& source : sources()) {
-        for (const std::string& document : documents_named_in(text_of(source))) {
+        for (const std::string& document : documents_named_in(testing::text_of(source))) {
             ++checked;
             EXPECT_TRUE(fs::exists(root / document)) << source << " names " << document;
         }
@@ -211,7 +206,7 @@ TEST(Documents, FindItNamesFilesThatAreThere) {
     static const std::regex row(R"(\n\|[^\n]*\| `([^`\n]+)` \|(?=\n))");
     static const std::regex question(R"(\n(\| [A-Z][^\n|]*\? )\|)");
     const fs::path root = testing::source_directory();
-    const std::string page = text_of(root / "docs/find-it.md");
+    const std::string page = testing::text_of(root / "docs/find-it.md");
     const std::vector<std::string> files = found_in(page, row);
     EXPECT_GE(files.size(), 30U);
     EXPECT_EQ(files.size(), found_in(page, question).size()) << "a question without a file";
@@ -231,7 +226,7 @@ TEST(Documents, SourcesThatTheyNameAreThere) {
     std::size_t checked = 0;
     for (const fs::path& document : documents()) {
         if (document.parent_path() == "docs/results") continue;
-        for (const std::string& named : found_in(text_of(root / document), path)) {
+        for (const std::string& named : found_in(testing::text_of(root / document), path)) {
             ++checked;
             EXPECT_TRUE(fs::exists(root / named) || fs::exists(root / "include" / named))
                 << document << " names " << named;

@@ -3,7 +3,6 @@
 // lives where NAME.cpp lies; public headers include public ones alone.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar {
@@ -150,11 +150,6 @@ Rooms included_rooms(const std::string& text) {
     return rooms;
 }
 
-std::string read(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::vector<fs::path> sources_of(const fs::path& room) {
     std::vector<fs::path> sources;
     for (const auto& entry : fs::recursive_directory_iterator(room)) {
@@ -179,7 +174,7 @@ std::vector<fs::path> all_sources_of(const std::string& room) {
 std::vector<std::string> violations(const std::string& room, const Rooms& may) {
     std::vector<std::string> found;
     for (const auto& source : all_sources_of(room)) {
-        for (const auto& included : included_rooms(read(source))) {
+        for (const auto& included : included_rooms(testing::text_of(source))) {
             if (included != room && !may.contains(included)) {
                 found.push_back(source.string() + " includes " + included);
             }
@@ -225,7 +220,7 @@ TEST_P(Layering, IncludesRunOneWayInsideToo) {
         const std::string own = inner_room_of(place_of(path));
         if (own.empty()) continue;
         ASSERT_TRUE(inside->second.contains(own)) << path << " is in no room of " << room;
-        for (const fs::path& included : quoted_includes(read(source))) {
+        for (const fs::path& included : quoted_includes(testing::text_of(source))) {
             const Place place = place_of(included);
             if (place.room != room) continue;
             const std::string other = inner_room_of(place);
@@ -240,7 +235,7 @@ TEST_P(Layering, PublicHeadersIncludePublicOnes) {
         testing::source_directory() / "include" / "stormcellar" / GetParam().first;
     if (!fs::exists(headers)) return;
     for (const fs::path& header : sources_of(headers)) {
-        for (const fs::path& included : quoted_includes(read(header)))
+        for (const fs::path& included : quoted_includes(testing::text_of(header)))
             EXPECT_TRUE(place_of(included).is_public) << header << " includes " << included;
     }
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar {
@@ -18,19 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path;
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::map<std::string, std::string> daemon_sources() {
     std::map<std::string, std::string> sources;
     for (const auto& entry :
          fs::recursive_directory_iterator(testing::source_directory() / "daemon")) {
         const auto ending = entry.path().extension();
         if (ending == ".h" || ending == ".cpp")
-            sources[entry.path().filename().string()] = read(entry.path());
+            sources[entry.path().filename().string()] = testing::text_of(entry.path());
     }
     return sources;
 }
@@ -51,13 +45,15 @@ std::string between(const std::string& text, const std::string& from, const std:
 
 // The names of daemon/log/log_event.h.
 std::vector<std::string> events() {
-    const std::string header = read(testing::source_directory() / "daemon/log/log_event.h");
+    const std::string header =
+        testing::text_of(testing::source_directory() / "daemon/log/log_event.h");
     static const std::regex name(R"(\n    ([a-z_]+),)");
     return matches(between(header, "enum class Event {", "};"), name);
 }
 
 std::string chapter() {
-    const std::string manual = read(testing::source_directory() / "docs/reference/log.md");
+    const std::string manual =
+        testing::text_of(testing::source_directory() / "docs/reference/log.md");
     return between(manual, "\n## What the log lines mean", "\n## ");
 }
 
@@ -90,8 +86,8 @@ TEST(LogLines, EveryEventIsLogged) {
     for (const auto& [name, text] : daemon_sources())
         if (!name.starts_with("log_event")) all += text;
     // The results of files are named by event_of().
-    all +=
-        between(read(testing::source_directory() / "daemon/log/log_event.cpp"), "event_of(", "\n}");
+    all += between(testing::text_of(testing::source_directory() / "daemon/log/log_event.cpp"),
+                   "event_of(", "\n}");
     for (const std::string& event : events())
         EXPECT_TRUE(std::regex_search(all, std::regex("Event::" + event + R"(\b)"))) << event;
 }

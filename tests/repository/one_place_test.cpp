@@ -2,7 +2,6 @@
 // their names stand, so that a second list of them is found when it is written.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,18 +11,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/repository/text_of.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path;
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::string> names_in(const std::string& text, const std::regex& what) {
     std::vector<std::string> found;
@@ -50,7 +44,7 @@ const std::map<std::string, std::string>& code_by_path() {
                 const auto ending = entry.path().extension();
                 if (ending != ".h" && ending != ".cpp") continue;
                 code[fs::relative(entry.path(), root).string()] =
-                    without_comments(contents_of(entry.path()));
+                    without_comments(testing::text_of(entry.path()));
             }
         }
         return code;
@@ -78,7 +72,7 @@ const std::set<std::string> option_table{"cli/picture/picture_options.cpp"};
 const std::set<std::string> subcommand_registry{"cli/subcommands.cpp"};
 
 TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
-    const std::string table = contents_of(testing::source_directory() / *option_table.begin());
+    const std::string table = testing::text_of(testing::source_directory() / *option_table.begin());
     const auto options = names_in(table, std::regex(R"re(option = "(--[a-z-]+)")re"));
     ASSERT_GE(options.size(), 29U);
     const std::set<std::string> distinct(options.begin(), options.end());
@@ -90,7 +84,7 @@ TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
 }
 
 TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
-    const std::string table = contents_of(testing::source_directory() / *option_table.begin());
+    const std::string table = testing::text_of(testing::source_directory() / *option_table.begin());
     const auto keys = names_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
     ASSERT_GE(keys.size(), 28U);
     // These are words that the metadata and the JSON of a picture have as well.
@@ -103,7 +97,7 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
 
 TEST(OnePlace, ASubcommandIsRegisteredOnce) {
     const std::string registry =
-        contents_of(testing::source_directory() / *subcommand_registry.begin());
+        testing::text_of(testing::source_directory() / *subcommand_registry.begin());
     const auto names = names_in(registry, std::regex(R"re(Subcommand\{"([a-z]+)")re"));
     ASSERT_GE(names.size(), 11U);
     EXPECT_TRUE(std::ranges::is_sorted(names)) << "as --help shows them";
