@@ -26,15 +26,6 @@ extern char** environ;
 namespace stormcellar::bench {
 namespace {
 
-Bytes without_gzip(const Bytes& bytes) {
-    if (!level2::is_gzip(bytes)) return bytes;
-    level2::GzipStream gzip(bytes);
-    Bytes inflated;
-    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
-        inflated.insert(inflated.end(), piece.begin(), piece.end());
-    return inflated;
-}
-
 void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
     bz_stream stream{};
     if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) std::abort();
@@ -89,7 +80,7 @@ std::optional<ProgramRun> run_program(std::string program, std::vector<std::stri
 }  // namespace
 
 std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled) {
-    peeled = without_gzip(file);
+    peeled = level2::without_gzip(file);
     return level2::ldm_records(peeled);
 }
 

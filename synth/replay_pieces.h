@@ -20,7 +20,4 @@ namespace stormcellar::synth {
 // Whether the control word of the last LDM record says that the volume ends.
 [[nodiscard]] bool ends_volume(std::span<const std::byte> bytes);
 
-// What is inside of gzip, as far as it can be read; other bytes as they are.
-[[nodiscard]] std::vector<std::byte> without_gzip(std::vector<std::byte> bytes);
-
 }  // namespace stormcellar::synth
