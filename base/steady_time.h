@@ -1,6 +1,7 @@
-// base/steady_time.h -- instants of the monotonic clock, which nobody sets.
+// base/steady_time.h -- instants of the monotonic clock, which nobody sets, and how long something
+// took by it.
 //
-// Thread contract: any thread.
+// Thread contract: any thread; a Stopwatch is used by one thread at a time.
 #pragma once
 
 #include <chrono>
@@ -11,5 +12,22 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 [[nodiscard]] inline SteadyTime steady_now() {
     return std::chrono::steady_clock::now();
 }
+
+[[nodiscard]] inline double seconds_since(SteadyTime start) {
+    return std::chrono::duration<double>(steady_now() - start).count();
+}
+
+// Seconds from one lap to the next.
+class Stopwatch {
+  public:
+    double lap_s() {
+        const double lap = seconds_since(last_);
+        last_ = steady_now();
+        return lap;
+    }
+
+  private:
+    SteadyTime last_ = steady_now();
+};
 
 }  // namespace stormcellar

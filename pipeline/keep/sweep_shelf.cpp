@@ -122,8 +122,8 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
     return sweep;
 }
 
-tl::unexpected<Error> shelf_failure(const char* what, int number) {
-    auto failed = system_failure(fmt::format("{} of a growing volume", what), number);
+tl::unexpected<Error> system_failure(const char* what, int number) {
+    auto failed = stormcellar::system_failure(fmt::format("{} of a growing volume", what), number);
     // Not that a raw file is gone, which not_found means to whoever takes files in.
     if (failed.value().code == ErrorCode::not_found) failed.value().code = ErrorCode::io;
     return failed;
@@ -143,7 +143,7 @@ int nameless_file(const std::filesystem::path& directory) {
 
 Result<std::unique_ptr<SweepShelf>> SweepShelf::make_in(const std::filesystem::path& directory) {
     Descriptor descriptor{nameless_file(directory)};
-    if (!descriptor.is_open()) return shelf_failure("cannot make a file for the sweeps", errno);
+    if (!descriptor.is_open()) return system_failure("cannot make a file for the sweeps", errno);
     return std::unique_ptr<SweepShelf>(new SweepShelf(std::move(descriptor)));
 }
 
@@ -163,7 +163,7 @@ Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
             ::pwrite(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
                      static_cast<off_t>(place.offset + done));
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return shelf_failure("cannot write sweeps", errno);
+        if (written < 0) return system_failure("cannot write sweeps", errno);
         done += static_cast<std::uint64_t>(written);
     }
     end_ += place.packed_bytes;
@@ -177,7 +177,7 @@ Result<Sweep> SweepShelf::get(const Place& place) const {
             ::pread(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
                     static_cast<off_t>(place.offset + done));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return shelf_failure("cannot read sweeps", errno);
+        if (got < 0) return system_failure("cannot read sweeps", errno);
         if (got == 0) return fail(ErrorCode::io, "sweeps that were put aside are gone");
         done += static_cast<std::uint64_t>(got);
     }

@@ -36,6 +36,12 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
+// When the frames of the domains are made.
+enum class FramesWhen {
+    volume_comes,  // each that it changes, at once, as the daemon does
+    asked_for,     // by MosaicMaker::make_again() alone: of an archive each is then made once
+};
+
 // West, south, east, north in degrees; east of the antimeridian west is the greater one.
 using Bounds = std::array<double, 4>;
 [[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and holding something
