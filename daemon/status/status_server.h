@@ -4,8 +4,8 @@
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
 // Everything else is 404, 405 or 400; each answer ends its connection. On a port, a request whose
-// Host is no name of the loopback addresses is 421 (loopback_host.h); on the socket any Host will
-// do. No answer is to be cached, or taken for another type than it says. HTTP itself is
+// Host is no name of the loopback addresses is 421 (is_loopback_host()); on the socket any Host
+// will do. No answer is to be cached, or taken for another type than it says. HTTP itself is
 // libmicrohttpd's business, which answers what is no HTTP (400, 413, 414, 431) with fixed text of
 // its own, without these fields.
 // One thread of its own, at a lower priority. Clients can be as hostile as they like: connections
