@@ -16,7 +16,7 @@ namespace stormcellar::cli {
 // What the frames of a loop share.
 struct Drawing {
     render::Scene scene;
-    render::FrameCache keeper;
+    render::FrameCache cache;
 };
 
 // One frame; none when the grid's file is damaged, which is noted in the report.
