@@ -1,13 +1,13 @@
-// render/map/map_marks.h -- what stands on the map: sites, cities, the rings' distances, heights,
-// north and a scale bar.
+// render/map/map_marks.h -- what stands on the map and where: sites, cities, the rings' distances,
+// heights, north and a scale bar.
 //
-// Planned first and drawn later, so that nothing stands on anything else: the north arrow and the
-// scale bar have a corner, the lower left one unless a site is there; then come names of sites,
-// heights, distances and cities, the largest first. A name that has no room is left out; a site's
-// mark is drawn all the same, a city's is not. All lies inside the picture; plans are in its
-// pixels. The scale bar holds at the middle of the picture, across it: 1, 2 or 5 times a power of
-// ten, by the distance on WGS84 (1 % of it at worst). None where the view's middle shows no ground.
-// Needs of the view only where points are and which ground is under a pixel.
+// Planned first and drawn later (render/map/draw_marks.h), so that nothing stands on anything else:
+// the north arrow and the scale bar have a corner, the lower left one unless a site is there; then
+// come names of sites, heights, distances and cities, the largest first. A name that has no room is
+// left out; a site's mark is drawn all the same, a city's is not. All lies inside the picture;
+// plans are in its pixels. The scale bar holds at the middle of the picture, across it: 1, 2 or 5
+// times a power of ten, by the distance on WGS84 (1 % of it at worst). None where the view's middle
+// shows no ground. Needs of the view only where points are and which ground is under a pixel.
 // Thread contract: pure functions and plain data.
 #pragma once
 
@@ -54,12 +54,6 @@ struct MapMarks {
 };
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);
-
-// Cities, distances and heights: with the map, before a volume.
-void draw_ground_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
-                       const MapMarks& marks);
-// Sites, north arrow and scale bar: over everything.
-void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks);
 
 // "50 km", "200 m".
 [[nodiscard]] std::string distance_text(double metres);
