@@ -2,13 +2,13 @@
 
 #include <cerrno>
 #include <memory>
-#include <system_error>
 #include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/system_error.h"
 #include "stormcellar/base/descriptor.h"
 
 namespace stormcellar {
@@ -16,27 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ErrorCode code_of(int error_number) {
-    switch (error_number) {
-        case ENOENT:
-        case ENOTDIR:
-        case ELOOP:  // a link instead of a directory or a file
-            return ErrorCode::not_found;
-        case EACCES:
-        case EPERM:
-            return ErrorCode::permission;
-        case EMFILE:
-        case ENFILE:
-        case ENOMEM:
-            return ErrorCode::exhausted;
-        default:
-            return ErrorCode::io;
-    }
-}
-
+// A link where a directory or a file should be leads nowhere.
 tl::unexpected<Error> failure(const fs::path& path, int error_number) {
-    return fail(code_of(error_number), "{}: {}", path.native(),
-                std::system_category().message(error_number));
+    auto failed = system_failure(path.native(), error_number);
+    if (error_number == ELOOP) failed.value().code = ErrorCode::not_found;
+    return failed;
 }
 
 // The directory that holds a path, and the name in it.

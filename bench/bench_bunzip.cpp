@@ -130,14 +130,9 @@ std::vector<Way> ways_of(const Records& records, const Request& request, const f
 }
 
 void measure(const fs::path& file, const Request& request, Table& table) {
-    const auto raw = read_file(file);
-    if (!raw) {
-        fmt::print(stderr, "{}\n", raw.error().message);
-        return;
-    }
-    Bytes peeled;
-    const Records records = ldm_records(*raw, peeled);
-    if (records.empty()) return;
+    const auto found = read_records(file);
+    if (!found || found->records.empty()) return;
+    const Records& records = found->records;
     Rooms rooms;
     rooms.workspaces.resize(static_cast<std::size_t>(
         *std::max_element(request.threads.begin(), request.threads.end())));

@@ -55,25 +55,20 @@ level2::DecodeOptions with_threads(int threads) {
 }
 
 void measure(const fs::path& file, const Request& request, Table& table) {
-    const auto raw = read_file(file);
-    if (!raw) {
-        fmt::print(stderr, "{}\n", raw.error().message);
-        return;
-    }
-    Bytes peeled;
-    const auto records = ldm_records(*raw, peeled);
-    if (records.empty()) return;
-    const auto decoded = level2::decode(*raw);
+    const auto found = read_records(file);
+    if (!found || found->records.empty()) return;
+    const Bytes& raw = found->raw;
+    const auto decoded = level2::decode(raw);
     if (!decoded) return;
     const auto message_bytes = static_cast<double>(decoded->report.message_bytes);
     const double arrays = arrays_mib(decoded->volume);
     double libbz2_s = HUGE_VAL;
     std::vector<double> decode_s(request.threads.size(), HUGE_VAL);
     for (int run = 0; run < request.runs; ++run) {
-        keep_least_seconds(libbz2_s, [&] { decompress_all(records); });
+        keep_least_seconds(libbz2_s, [&] { decompress_all(found->records); });
         for (std::size_t i = 0; i < decode_s.size(); ++i) {
             keep_least_seconds(decode_s[i], [&] {
-                if (!level2::decode(*raw, with_threads(request.threads[i]))) std::abort();
+                if (!level2::decode(raw, with_threads(request.threads[i]))) std::abort();
             });
         }
     }
@@ -88,7 +83,7 @@ void measure(const fs::path& file, const Request& request, Table& table) {
                    {"mb_per_s", {message_bytes / 1e6 / decode_s[i], 1}},
                    {"peak_mib", {peak.value_or(HUGE_VAL), 1}},
                    {"arrays_mib", {arrays, 1}},
-                   {"file_mib", {static_cast<double>(raw->size()) / mebibyte, 1}}});
+                   {"file_mib", {static_cast<double>(raw.size()) / mebibyte, 1}}});
     }
 }
 
@@ -113,16 +108,7 @@ int run(int argc, char** argv) {
                      std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return status;
     if (!request->has("--give-back")) keep_freed_memory();
-    const std::vector<fs::path> files = request->volumes();
-    if (files.empty()) {
-        fmt::print(stderr, "bench_decode: no files: name some, or say --data DIR\n");
-        return 3;
-    }
-    Table table(request->json);
-    for (const fs::path& file : files)
-        measure(file, *request, table);
-    table.finish();
-    return 0;
+    return measure_files("bench_decode", *request, measure);
 }
 
 }  // namespace

@@ -164,22 +164,16 @@ Row row_of(const fs::path& file, const NamedSpec& named, int threads, const Phas
 }
 
 void measure(const fs::path& file, const Request& request, Table& table) {
-    const auto raw = read_file(file);
-    if (!raw) {
-        fmt::print(stderr, "{}\n", raw.error().message);
-        return;
-    }
-    Bytes peeled;
-    const auto records = ldm_records(*raw, peeled);
-    if (!can_be_gridded(file, *raw)) return;
+    const auto found = read_records(file);
+    if (!found || !can_be_gridded(file, found->raw)) return;
     const fs::path netcdf = fs::temp_directory_path() / fmt::format("bench_grid.{}.nc", ::getpid());
     for (const NamedSpec& named : specs) {
         for (const int threads : request.threads) {
             Phases least;
             for (int run = 0; run < request.runs; ++run) {
-                if (!records.empty())
-                    keep_least_seconds(least.libbz2_s, [&] { decompress_all(records); });
-                run_once(file, *raw, named, threads, netcdf, least);
+                if (!found->records.empty())
+                    keep_least_seconds(least.libbz2_s, [&] { decompress_all(found->records); });
+                run_once(file, found->raw, named, threads, netcdf, least);
             }
             table.add(row_of(file, named, threads, least));
         }

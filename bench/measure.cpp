@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include <bzlib.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,20 +19,12 @@
 #include "bunzip/bunzip.h"
 #include "level2/containers/gzip_stream.h"
 #include "level2/containers/ldm_framer.h"
+#include "stormcellar/base/file_system.h"
 
 extern char** environ;
 
 namespace stormcellar::bench {
 namespace {
-
-Bytes without_gzip(const Bytes& bytes) {
-    if (!level2::is_gzip(bytes)) return bytes;
-    level2::GzipStream gzip(bytes);
-    Bytes inflated;
-    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
-        inflated.insert(inflated.end(), piece.begin(), piece.end());
-    return inflated;
-}
 
 void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
     bz_stream stream{};
@@ -49,11 +43,58 @@ void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
     BZ2_bzDecompressEnd(&stream);
 }
 
+enum class Stderr { shown, dropped };
+
+// From the program's start to its end. None where it failed.
+std::optional<ProgramRun> run_program(std::string program, std::vector<std::string> arguments,
+                                      Stderr errors) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return {};
+    std::vector<char*> argv = {program.data()};
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+    posix_spawn_file_actions_addclose(&actions, ends[0]);
+    if (errors == Stderr::dropped)
+        posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    int status = -1;
+    ProgramRun run;
+    run.seconds = seconds_of([&] {
+        pid_t child = 0;
+        if (::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
+            ::waitpid(child, &status, 0);
+        }
+    });
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    run.said.resize(std::size_t{1} << 16);  // what a pipe holds
+    const ssize_t length = ::read(ends[0], run.said.data(), run.said.size());
+    ::close(ends[0]);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length < 0) return {};
+    run.said.resize(static_cast<std::size_t>(length));
+    return run;
+}
+
 }  // namespace
 
 std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled) {
-    peeled = without_gzip(file);
+    peeled = level2::without_gzip(file);
     return level2::ldm_records(peeled);
+}
+
+std::optional<RecordFile> read_records(const std::filesystem::path& path) {
+    auto raw = read_file(path);
+    if (!raw) {
+        fmt::print(stderr, "{}\n", raw.error().message);
+        return std::nullopt;
+    }
+    RecordFile file;
+    file.raw = std::move(*raw);
+    file.records = ldm_records(file.raw, file.peeled);
+    return file;
 }
 
 void decompress_all(std::span<const std::span<const std::byte>> records) {
@@ -94,30 +135,9 @@ long high_water_kib() {
 }
 
 std::optional<std::string> run_self(std::vector<std::string> arguments) {
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) return {};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    std::string own = "/proc/self/exe";
-    std::vector<char*> argv = {own.data()};
-    for (std::string& argument : arguments)
-        argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    pid_t child = 0;
-    const int failed = ::posix_spawn(&child, own.c_str(), &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    std::string said(std::size_t{1} << 16, '\0');
-    const ssize_t length = failed == 0 ? ::read(ends[0], said.data(), said.size()) : 0;
-    ::close(ends[0]);
-    if (failed != 0) return {};
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length <= 0) return {};
-    said.resize(static_cast<std::size_t>(length));
-    return said;
+    auto run = run_program("/proc/self/exe", std::move(arguments), Stderr::shown);
+    if (!run || run->said.empty()) return {};
+    return std::move(run->said);
 }
 
 std::optional<double> peak_mib(std::vector<std::string> arguments) {
@@ -129,33 +149,9 @@ std::optional<double> peak_mib(std::vector<std::string> arguments) {
 std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments) {
     std::error_code failed;
     const auto own = std::filesystem::read_symlink("/proc/self/exe", failed);
-    std::array<int, 2> ends{};
-    if (failed || ::pipe(ends.data()) != 0) return {};
-    std::string program = own.parent_path().parent_path() / "cli" / "stormcellar";
-    std::vector<char*> argv = {program.data()};
-    for (std::string& argument : arguments)
-        argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-    int status = -1;
-    ProgramRun run;
-    run.seconds = seconds_of([&] {
-        pid_t child = 0;
-        if (::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
-            ::waitpid(child, &status, 0);
-        }
-    });
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    run.said.resize(std::size_t{1} << 16);  // the capacity of a pipe
-    const ssize_t length = ::read(ends[0], run.said.data(), run.said.size());
-    ::close(ends[0]);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length < 0) return {};
-    run.said.resize(static_cast<std::size_t>(length));
-    return run;
+    if (failed) return {};
+    return run_program(own.parent_path().parent_path() / "cli" / "stormcellar",
+                       std::move(arguments), Stderr::dropped);
 }
 
 }  // namespace stormcellar::bench

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,15 @@ void keep_least_seconds(double& least, Work work) {
 // Returns the streams of the LDM records in a file; empty if there are none. If it is a gzip file,
 // they point into `peeled`.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled);
+// A file, and the streams of its LDM records, which are empty where it has none. The records point
+// into `peeled`, which is the file without its gzip layer, if it has one.
+struct RecordFile {
+    Bytes raw;
+    Bytes peeled;
+    std::vector<std::span<const std::byte>> records;
+};
+// None where the file cannot be read, which is then said on stderr.
+[[nodiscard]] std::optional<RecordFile> read_records(const std::filesystem::path& path);
 
 // Decompresses all records with libbz2 alone, one stream each, into parts of one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);

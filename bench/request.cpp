@@ -136,19 +136,22 @@ ReadRequest read_request(const Program& program, std::span<char* const> argument
     return {std::move(*request), 0};
 }
 
-int run_over_files(
-    const Program& program, std::span<char* const> arguments,
-    const std::function<void(const std::filesystem::path&, const Request&, Table&)>& measure) {
+int run_over_files(const Program& program, std::span<char* const> arguments,
+                   const MeasureFile& measure) {
     const auto [request, status] = read_request(program, arguments);
     if (!request) return status;
-    const std::vector<fs::path> files = request->volumes();
+    return measure_files(program.name, *request, measure);
+}
+
+int measure_files(std::string_view program, const Request& request, const MeasureFile& measure) {
+    const std::vector<fs::path> files = request.volumes();
     if (files.empty()) {
-        fmt::print(stderr, "{}: no files: name some, or say --data DIR\n", program.name);
+        fmt::print(stderr, "{}: no files: name some, or say --data DIR\n", program);
         return 3;
     }
-    Table table(request->json);
+    Table table(request.json);
     for (const fs::path& file : files)
-        measure(file, *request, table);
+        measure(file, request, table);
     table.finish();
     return 0;
 }

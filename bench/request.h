@@ -52,10 +52,15 @@ struct ReadRequest {
 
 class Table;
 
+using MeasureFile =
+    std::function<void(const std::filesystem::path&, const Request& request, Table& table)>;
+
 // The body of a benchmark over files: reads the request, measures each file into a table, and
 // prints it. Returns the exit status of main(): 2 after bad usage, 3 if there are no files.
-[[nodiscard]] int run_over_files(
-    const Program& program, std::span<char* const> arguments,
-    const std::function<void(const std::filesystem::path&, const Request&, Table&)>& measure);
+[[nodiscard]] int run_over_files(const Program& program, std::span<char* const> arguments,
+                                 const MeasureFile& measure);
+// The same for a request that has been read.
+[[nodiscard]] int measure_files(std::string_view program, const Request& request,
+                                const MeasureFile& measure);
 
 }  // namespace stormcellar::bench

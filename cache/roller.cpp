@@ -212,10 +212,11 @@ bool Roller::leaves_out(const GridName& name) {
     return true;
 }
 
-bool Roller::would_keep(const GridName& name) {
+bool Roller::would_keep(const GridName& name) const {
+    const std::string_view group = group_of(name.domain);
     const Lock lock(mutex_);
-    account_.set_now(surroundings_.now());
-    account_.ask_who_is_known(group_of(name.domain));
+    // Somebody has made the station known since the account asked: the commit will ask again.
+    if (!account_.is_known(group) && surroundings_.is_known(group)) return true;
     if (account_.is_expired(name, budgets_)) return false;
     if (account_.is_to_stay(name)) return true;
     const std::uint64_t mean = account_.used() / std::max<std::size_t>(1, account_.grid_count());

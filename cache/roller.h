@@ -81,7 +81,8 @@ class Roller {
     RollReport roll(const OnStep& step = {});  // store.h
     void set_budgets(Budgets budgets);
     [[nodiscard]] StoreUsage usage() const;
-    [[nodiscard]] bool would_keep(const GridName& name);
+    // By what is known and what time it was when a grid was last reserved, settled or rolled over.
+    [[nodiscard]] bool would_keep(const GridName& name) const;
     [[nodiscard]] std::uint64_t block_bytes() const { return block_bytes_; }
 
   private:

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "base/beneath.h"
-#include "catalog/database_uri.h"
 #include "catalog/schema.h"
 #include "catalog/station_database.h"
 
@@ -28,6 +27,23 @@ constexpr int most_log_bytes = 512 << 10;
 // KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200 stations
 // would be more than everything else. The kernel's cache has the rest.
 constexpr int most_cached_kib = 128;
+
+// So that no character of the path has a meaning; `query` is "" or begins with '?'.
+std::string uri_of(const std::filesystem::path& path, std::string_view query) {
+    std::string uri = "file:";
+    for (const char c : path.native()) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                           (byte >= 'a' && byte <= 'z') || c == '/' || c == '.' || c == '_' ||
+                           c == '-';
+        if (plain) {
+            uri += c;
+        } else {
+            uri += fmt::format("%{:02X}", byte);
+        }
+    }
+    return uri + std::string{query};
+}
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
     // If permission is missing, SQLite only says that a file cannot be opened.

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "level2/containers/gzip_stream.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/level2/chunk_name.h"
 #include "synth/replay_pieces.h"
@@ -158,7 +159,7 @@ class Player {
         const auto made = make_directory(chunks ? target : target.parent_path());
         if (!made) return pass_on(made);
         Growing growing;
-        growing.bytes = chunks ? without_gzip(std::move(*bytes)) : std::move(*bytes);
+        growing.bytes = chunks ? level2::without_gzip(*bytes) : std::move(*bytes);
         growing.ends = piece_ends(growing.bytes);
         growing.arrivals =
             arrivals_of(options_.faults, static_cast<std::uint32_t>(item + 1), growing.ends.size());

@@ -1,7 +1,6 @@
 #include "synth/replay_pieces.h"
 
 #include "level2/containers/archive_header.h"
-#include "level2/containers/gzip_stream.h"
 #include "level2/containers/ldm_framer.h"
 
 namespace stormcellar::synth {
@@ -53,15 +52,6 @@ bool ends_volume(std::span<const std::byte> bytes) {
         if (part->kind == Kind::record) negative = part->negative;
     }
     return negative;
-}
-
-std::vector<std::byte> without_gzip(std::vector<std::byte> bytes) {
-    if (!level2::is_gzip(bytes)) return bytes;
-    level2::GzipStream gzip(bytes);
-    std::vector<std::byte> inside;
-    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
-        inside.insert(inside.end(), piece.begin(), piece.end());
-    return inside;
 }
 
 }  // namespace stormcellar::synth

@@ -21,7 +21,4 @@ namespace stormcellar::synth {
 // Returns true if the control word of the last LDM record says that the volume ends.
 [[nodiscard]] bool ends_volume(std::span<const std::byte> bytes);
 
-// Returns what is inside gzip, as far as it can be read. Other bytes are returned unchanged.
-[[nodiscard]] std::vector<std::byte> without_gzip(std::vector<std::byte> bytes);
-
 }  // namespace stormcellar::synth

@@ -204,13 +204,20 @@ Storm read_storm(TomlTable& table) {
     return storm;
 }
 
+// What layers and boxes have in common: where they are, from where to where, and how strong.
+template <class Echo>
+Echo read_slab(TomlTable& table) {
+    Echo echo;
+    echo.footprint = read_footprint(table);
+    echo.base_m = table.number("base_km", heights_km).value_or(0) * km;
+    echo.top_m = needed_number(table, "top_km", heights_km) * km;
+    if (echo.top_m <= echo.base_m) table.complain("top_km", "must be above base_km");
+    echo.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
+    return echo;
+}
+
 Layer read_layer(TomlTable& table) {
-    Layer layer;
-    layer.footprint = read_footprint(table);
-    layer.base_m = table.number("base_km", heights_km).value_or(0) * km;
-    layer.top_m = needed_number(table, "top_km", heights_km) * km;
-    if (layer.top_m <= layer.base_m) table.complain("top_km", "must be above base_km");
-    layer.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
+    auto layer = read_slab<Layer>(table);
     layer.melting_m = table.number("melting_km", heights_km).value_or(3.5) * km;
     layer.bright_band_db = table.number("bright_band_db", {0, 30}).value_or(0);
     layer.bright_band_depth_m = table.number("bright_band_depth_km", {0.05, 5}).value_or(0.3) * km;
@@ -228,12 +235,7 @@ Wave read_wave(TomlTable table) {
 }
 
 Box read_box(TomlTable& table) {
-    Box box;
-    box.footprint = read_footprint(table);
-    box.base_m = table.number("base_km", heights_km).value_or(0) * km;
-    box.top_m = needed_number(table, "top_km", heights_km) * km;
-    if (box.top_m <= box.base_m) table.complain("top_km", "must be above base_km");
-    box.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
+    auto box = read_slab<Box>(table);
     box.edge_m = table.number("edge_km", {0.001, 100}).value_or(0.5) * km;
     box.wave = read_wave(table);
     return box;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/plot.h"
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/accuracy/held_out_accuracy.h"
 #include "cli/accuracy/ladder_markdown.h"
 #include "cli/accuracy/mosaic_accuracy.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/explain.h"
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/grid/grid_mosaic.h"
 #include "cli/grid/grid_notes.h"
 #include "cli/grid/grid_request.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/shared/problem_notes.h"
 #include "level2/decode/volume_checks.h"
 #include "stormcellar/base/file_system.h"

@@ -10,11 +10,11 @@
 #include <fmt/ranges.h>
 
 #include "base/byte_size.h"
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/picture/picture.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/progress.h"
-#include "pipeline/mosaic/mosaic_maker.h"
+#include "pipeline/mosaic/domain_frames.h"
 #include "stormcellar/grid/grid_window.h"
 
 namespace stormcellar::cli {

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/loop/loop_draw.h"
 #include "cli/loop/loop_encoding.h"
 #include "cli/loop/loop_grids.h"

@@ -1,6 +1,6 @@
 #include "cli/loop/loop_draw.h"
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
 #include "stormcellar/cache/grid_file.h"

@@ -1,6 +1,6 @@
 #include "cli/loop/loop_encoding.h"
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/picture/picture.h"
 
 namespace stormcellar::cli {

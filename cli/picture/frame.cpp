@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/floating_point.h"
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"

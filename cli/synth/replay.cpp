@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/progress.h"

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/progress.h"

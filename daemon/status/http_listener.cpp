@@ -1,6 +1,7 @@
 #include "daemon/status/http_listener.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fcntl.h>
@@ -9,13 +10,22 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "daemon/config/loopback_host.h"
-
 namespace stormcellar::daemon {
 namespace {
 
 // for the request line and all headers, and for the headers of the answer
 constexpr std::size_t request_memory = 8192;
+
+constexpr std::array<std::string_view, 3> loopback_names = {"127.0.0.1", "localhost", "[::1]"};
+
+bool begins_with(std::string_view text, std::string_view name) noexcept {
+    return text.size() >= name.size() && ::strncasecmp(text.data(), name.data(), name.size()) == 0;
+}
+
+bool is_port(std::string_view text) noexcept {
+    return !text.empty() && text.size() <= 5 &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
 
 // Checks every Host field: a client that sends two may mean either.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
@@ -34,6 +44,15 @@ bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
 }
 
 }  // namespace
+
+bool is_loopback_host(std::string_view host) noexcept {
+    for (const std::string_view name : loopback_names) {
+        if (!begins_with(host, name)) continue;
+        const std::string_view rest = host.substr(name.size());
+        if (rest.empty() || (rest.front() == ':' && is_port(rest.substr(1)))) return true;
+    }
+    return false;
+}
 
 // The functions that libmicrohttpd calls, always from within turn() or the destructor.
 struct HttpListener::Callbacks {

@@ -35,6 +35,24 @@ class MetricsWriter {
     // of the last values, if there are any, and sum and count of all since the start.
     void sample(const Timings& timings, Labels labels = {});
 
+    // Families of one sample without labels.
+    void gauge(std::string_view name, std::string_view help, double value) {
+        family(name, Type::gauge, help);
+        sample(value);
+    }
+    void gauge(std::string_view name, std::string_view help, std::uint64_t value) {
+        family(name, Type::gauge, help);
+        sample(value);
+    }
+    void counter(std::string_view name, std::string_view help, std::uint64_t value) {
+        family(name, Type::counter, help);
+        sample(value);
+    }
+    void summary(std::string_view name, std::string_view help, const Timings& timings) {
+        family(name, Type::summary, help);
+        sample(timings);
+    }
+
     [[nodiscard]] std::string take() { return std::move(text_); }
 
   private:

@@ -4,7 +4,7 @@
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
 // Everything else gives 404, 405 or 400. Each answer ends its connection. On a port, a request
-// whose Host is not a name of the loopback addresses gives 421 (loopback_host.h); on the socket any
+// whose Host is not a name of the loopback addresses gives 421 (http_listener.h); on the socket any
 // Host is accepted. Answers forbid caching and guessing of the content type. HTTP itself is done by
 // libmicrohttpd, which answers invalid HTTP (400, 413, 414, 431) with fixed texts of its own,
 // without these header fields.

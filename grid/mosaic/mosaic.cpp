@@ -96,6 +96,25 @@ void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
     });
 }
 
+// What an update has to merge: the columns of bricks that changed, and the sites that reach them.
+struct ChangedPart {
+    std::vector<bool> columns;
+    std::vector<PlacedSite> sites;
+};
+Result<ChangedPart> changed_part(const MosaicView& previous, std::span<const Partial> partials,
+                                 std::span<const GridWindow> changed,
+                                 const MosaicOptions& options) {
+    if (Status good = check_options(options); !good) return pass_on(good);
+    if (Status good = check_previous(previous, options); !good) return pass_on(good);
+    const GridSpec& domain = *previous.cells.spec;
+    auto sites = place_sites(domain, partials, previous.cells.quantization);
+    if (!sites) return pass_on(sites);
+    std::vector<bool> columns = changed_columns(previous.cells, changed);
+    drop_untouched(previous.cells, columns, *sites);
+    measure_distances(domain, options.threads, *sites);
+    return ChangedPart{std::move(columns), std::move(*sites)};
+}
+
 }  // namespace
 
 std::string_view overlap_name(Overlap overlap) {
@@ -137,31 +156,21 @@ Result<Mosaic> merge(const GridSpec& domain, std::span<const Partial> partials,
 
 Result<Mosaic> update(const MosaicView& previous, std::span<const Partial> partials,
                       std::span<const GridWindow> changed, const MosaicOptions& options) {
-    if (Status good = check_options(options); !good) return pass_on(good);
-    if (Status good = check_previous(previous, options); !good) return pass_on(good);
+    auto work = changed_part(previous, partials, changed, options);
+    if (!work) return pass_on(work);
     const GridSpec& domain = *previous.cells.spec;
-    auto sites = place_sites(domain, partials, previous.cells.quantization);
-    if (!sites) return pass_on(sites);
-    std::vector<bool> columns = changed_columns(previous.cells, changed);
-    drop_untouched(previous.cells, columns, *sites);
-    measure_distances(domain, options.threads, *sites);
     Mosaic made = empty_mosaic(domain, previous.cells.quantization, options);
-    fill_mosaic({domain, options, *sites, &previous, std::move(columns), made});
+    fill_mosaic({domain, options, work->sites, &previous, std::move(work->columns), made});
     return made;
 }
 
 Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
                        std::span<const GridWindow> changed, const MosaicOptions& options) {
-    if (Status good = check_options(options); !good) return good;
     const MosaicView view = mosaic.view();
-    if (Status good = check_previous(view, options); !good) return good;
-    const GridSpec& domain = *view.cells.spec;
-    auto sites = place_sites(domain, partials, view.cells.quantization);
-    if (!sites) return pass_on(sites);
-    std::vector<bool> columns = changed_columns(view.cells, changed);
-    drop_untouched(view.cells, columns, *sites);
-    measure_distances(domain, options.threads, *sites);
-    refill_mosaic({domain, options, *sites, nullptr, std::move(columns), mosaic});
+    auto work = changed_part(view, partials, changed, options);
+    if (!work) return pass_on(work);
+    refill_mosaic(
+        {*view.cells.spec, options, work->sites, nullptr, std::move(work->columns), mosaic});
     return {};
 }
 

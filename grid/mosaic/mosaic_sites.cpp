@@ -7,6 +7,7 @@
 
 #include "base/floating_point.h"
 #include "base/parallel.h"
+#include "grid/place/site_extent.h"
 #include "grid/sweep/sweep_stack.h"
 
 namespace stormcellar::grid {
@@ -21,13 +22,7 @@ bool is_usable(const Quantization& quantization) {
 Result<PlacedSite> place(const GridSpec& domain, const Partial& partial,
                          const Quantization& quantization) {
     const SitePosition& site = partial.site;
-    const bool on_earth = is_within(site.latitude_deg, -90.0, 90.0) &&
-                          is_within(site.longitude_deg, -360.0, 360.0) &&
-                          is_within(site.altitude_m, -10000.0, 10000.0);
-    if (!on_earth) {
-        return fail(ErrorCode::bad_argument, "the site {} at {}, {}, {} m is not on the earth",
-                    site.icao, site.latitude_deg, site.longitude_deg, site.altitude_m);
-    }
+    if (Status good = check_on_earth(site); !good) return pass_on(good);
     const BrickView& view = partial.view;
     const auto window = view.spec == nullptr ? std::nullopt : window_of(domain, *view.spec);
     if (!window || !is_whole_bricks(domain, *window) || !has_shape_of(view, *view.spec)) {

@@ -6,6 +6,7 @@
 #include "base/floating_point.h"
 #include "grid/frame/sphere_frame.h"
 #include "grid/place/frame_table.h"
+#include "grid/place/site_extent.h"
 #include "stormcellar/grid/projection.h"
 
 namespace stormcellar::grid {
@@ -77,13 +78,7 @@ Result<std::shared_ptr<const ColumnGeometry>> make_column_geometry(const SitePos
                                                                    const GridSpec& spec,
                                                                    ChosenFrame kind) {
     if (auto valid = validate(spec); !valid) return pass_on(valid);
-    const bool on_earth = is_within(site.latitude_deg, -90.0, 90.0) &&
-                          is_within(site.longitude_deg, -360.0, 360.0) &&
-                          is_within(site.altitude_m, -10000.0, 10000.0);
-    if (!on_earth) {
-        return fail(ErrorCode::bad_argument, "the site {} at {}, {}, {} m is not on the earth",
-                    site.icao, site.latitude_deg, site.longitude_deg, site.altitude_m);
-    }
+    if (Status good = check_on_earth(site); !good) return pass_on(good);
     return std::make_shared<const ColumnGeometry>(site, spec, kind);
 }
 

@@ -3,7 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/floating_point.h"
+
 namespace stormcellar::grid {
+
+Status check_on_earth(const SitePosition& site) {
+    const bool on_earth = is_within(site.latitude_deg, -90.0, 90.0) &&
+                          is_within(site.longitude_deg, -360.0, 360.0) &&
+                          is_within(site.altitude_m, -10000.0, 10000.0);
+    if (on_earth) return {};
+    return fail(ErrorCode::bad_argument, "the site {} at {}, {}, {} m is not on the earth",
+                site.icao, site.latitude_deg, site.longitude_deg, site.altitude_m);
+}
 
 GeoPoint middle_of(std::span<const SitePosition> sites) {
     const double base_deg = sites.front().longitude_deg;

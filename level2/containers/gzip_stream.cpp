@@ -66,4 +66,13 @@ GzipEnd GzipStream::end_of(int code) const {
     return trailer ? GzipEnd::bad_checksum : GzipEnd::corrupt;
 }
 
+std::vector<std::byte> without_gzip(std::span<const std::byte> bytes) {
+    if (!is_gzip(bytes)) return {bytes.begin(), bytes.end()};
+    GzipStream gzip(bytes);
+    std::vector<std::byte> inside;
+    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
+        inside.insert(inside.end(), piece.begin(), piece.end());
+    return inside;
+}
+
 }  // namespace stormcellar::level2

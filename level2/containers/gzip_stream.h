@@ -53,4 +53,8 @@ class GzipStream {
     GzipEnd end_ = GzipEnd::none;
 };
 
+// The bytes without their gzip layer, as far as it can be read; without such a layer a copy. For
+// files that are trusted: the length is not bounded.
+[[nodiscard]] std::vector<std::byte> without_gzip(std::span<const std::byte> bytes);
+
 }  // namespace stormcellar::level2

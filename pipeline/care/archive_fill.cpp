@@ -280,7 +280,7 @@ Status ArchiveFill::make_frames(const std::vector<UtcTime>& instants, const Fill
     for (const UtcTime instant : instants) {
         if (stop) return {};
         const cache::GridName frame{options_.domain->name, options_.moment, instant};
-        const auto standing = keeper.standing_of(frame);
+        const auto standing = standing_of(store_, keeper.domains(), frame);
         if (!standing) return pass_on(standing);
         if (*standing == FrameStanding::to_make) {
             const auto made = keeper.make_again(frame, options_.threads, problems);

@@ -8,7 +8,7 @@
 
 #include "base/checksum.h"
 #include "pipeline/drop/station_place.h"
-#include "pipeline/mosaic/mosaic_maker.h"
+#include "pipeline/mosaic/domain_frames.h"
 #include "stormcellar/base/version.h"
 
 namespace stormcellar::pipeline {

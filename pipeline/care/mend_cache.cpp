@@ -291,7 +291,7 @@ Result<IngestOutcome> CacheMender::make(const MissingGrid& grid) {
 }
 
 Result<std::vector<cache::GridName>> CacheMender::missing_frames(std::chrono::milliseconds newest) {
-    auto missing = ingestor_.mosaics().missing_frames(newest);
+    auto missing = pipeline::missing_frames(store_, ingestor_.mosaics().domains(), newest);
     if (!missing) return missing;
     std::erase_if(*missing, [&](const cache::GridName& name) { return failed_.contains(name); });
     return missing;

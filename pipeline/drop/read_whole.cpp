@@ -12,7 +12,7 @@
 
 #include "base/beneath.h"
 #include "base/checksum.h"
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "stormcellar/base/descriptor.h"
 #include "stormcellar/level2/growing_volume.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "pipeline/drop/drop_names.h"
 #include "pipeline/ingest/take_volumes.h"
 

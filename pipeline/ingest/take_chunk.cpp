@@ -1,7 +1,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "pipeline/drop/drop_names.h"
 #include "pipeline/ingest/finish_chunks.h"
 #include "pipeline/ingest/handlers.h"

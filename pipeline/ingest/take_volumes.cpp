@@ -6,7 +6,7 @@
 
 #include <fmt/ranges.h>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "level2/decode/volume_checks.h"
 #include "level2/messages/message_2.h"
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "grid/judge/audit.h"
 #include "grid/plan/position_error.h"
 #include "pipeline/keep/keep_rule.h"

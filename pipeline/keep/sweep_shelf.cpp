@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstring>
 #include <span>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <lz4.h>
 #include <unistd.h>
 
+#include "base/system_error.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::pipeline {
@@ -123,12 +123,10 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
 }
 
 tl::unexpected<Error> system_failure(const char* what, int number) {
-    const ErrorCode code =
-        number == ENOSPC || number == EDQUOT                       ? ErrorCode::no_space
-        : number == EACCES || number == EPERM || number == EROFS   ? ErrorCode::permission
-        : number == EMFILE || number == ENFILE || number == ENOMEM ? ErrorCode::exhausted
-                                                                   : ErrorCode::io;
-    return fail(code, "{} of a growing volume: {}", what, std::system_category().message(number));
+    auto failed = stormcellar::system_failure(fmt::format("{} of a growing volume", what), number);
+    // Not that a raw file is gone, which not_found means to whoever takes files in.
+    if (failed.value().code == ErrorCode::not_found) failed.value().code = ErrorCode::io;
+    return failed;
 }
 
 // If the file system cannot make a file without a name, the file loses its name at once.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/mosaic/domain_frames.h"
 #include "pipeline/mosaic/frame_parts.h"
 #include "pipeline/mosaic/mapped_partials.h"
-#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::pipeline {

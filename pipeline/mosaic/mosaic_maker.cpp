@@ -78,31 +78,11 @@ bool is_damage(const Error& error) {
            error.code == ErrorCode::io;
 }
 
+bool is_frame_time(UtcTime time, std::chrono::seconds interval) {
+    return instants_between(time, time, interval).size() == 1;
+}
+
 }  // namespace
-
-FrameOptions frame_options(const Domain& domain, level2::Moment moment, int threads) {
-    FrameOptions options;
-    options.overlap.moment = moment;
-    options.overlap.overlap = domain.overlap.value_or(grid::default_overlap(moment));
-    options.overlap.length_m = domain.overlap_length_m;
-    options.time = domain.time;
-    options.threads = threads;
-    return options;
-}
-
-std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::seconds interval) {
-    const auto day = std::chrono::floor<std::chrono::days>(from);
-    std::vector<UtcTime> instants;
-    const auto since = from - UtcTime{day};
-    const auto steps = (since + interval - std::chrono::milliseconds{1}) / interval;
-    for (UtcTime at = UtcTime{day} + steps * interval; at <= to; at += interval) {
-        instants.push_back(at);
-        // Frames are counted from midnight for any interval.
-        const auto next_day = std::chrono::floor<std::chrono::days>(at) + std::chrono::days{1};
-        if (at + interval > UtcTime{next_day}) at = UtcTime{next_day} - interval;
-    }
-    return instants;
-}
 
 MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains, FramesWhen frames)
     : store_(store),
@@ -215,6 +195,22 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
         store_->commit(job.domain.name, frame->description, frame->mosaic.cells.view());
     if (!committed) return pass_on(committed);
     return FrameMade{std::move(*committed), provenance.stations, std::move(frame->merged)};
+}
+
+Result<FrameMade> MosaicMaker::make_again(const cache::GridName& frame, int threads,
+                                          std::vector<std::string>& problems) {
+    const auto found = domain_of(is_idle() ? std::span<const Domain>{} : domains_, frame);
+    if (!found) return pass_on(found);
+    const Domain* const domain = *found;
+    if (!is_frame_time(frame.time, domain->interval)) {
+        return fail(ErrorCode::bad_argument, "{} has frames every {} s, so none at {}",
+                    domain->name, domain->interval.count(), format_utc(frame.time));
+    }
+    const std::scoped_lock lock(frames_of(domain->name, frame.moment));
+    auto partials =
+        MappedPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, problems);
+    if (!partials) return pass_on(partials);
+    return make({*domain, frame.moment, frame.time, threads}, *partials, problems);
 }
 
 }  // namespace stormcellar::pipeline

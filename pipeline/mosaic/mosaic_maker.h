@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "pipeline/keep/geometry_cache.h"
+#include "pipeline/mosaic/domain_frames.h"
 #include "pipeline/mosaic/instant_cache.h"
 #include "pipeline/mosaic/mosaic_frame.h"
 #include "pipeline/options/domain.h"
-#include "pipeline/options/frames_when.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 
@@ -57,23 +57,6 @@ struct FrameMade {
     std::optional<std::vector<grid::GridWindow>> merged;  // as in MosaicFrame
 };
 
-// Returns the options with which a domain's frames are made.
-[[nodiscard]] FrameOptions frame_options(const Domain& domain, level2::Moment moment, int threads);
-
-// Returns the instants from the first to the last, both included: whole multiples of the interval
-// since midnight UTC.
-[[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
-                                                    std::chrono::seconds interval);
-
-// Volumes of a site that are farther apart make no frame between them.
-inline constexpr std::chrono::milliseconds greatest_frame_gap = FrameOptions{}.greatest_gap;
-
-enum class FrameStanding {
-    not_due,  // no volume before the instant, or none after it, that is close enough
-    current,  // exists, and was made of the present partials by the present rules
-    to_make,  // is missing, damaged, or differs from what the present partials give
-};
-
 class MappedPartials;
 
 class MosaicMaker {
@@ -88,22 +71,16 @@ class MosaicMaker {
     Result<Kept> take_in(const VolumeSource& source, int threads);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }
-    // Returns the domain of this name (not of a partial) if it has frames or partials of the
-    // moment.
-    [[nodiscard]] const Domain* find(std::string_view name, level2::Moment moment) const;
+    // As find_domain() says, among these domains.
+    [[nodiscard]] const Domain* find(std::string_view name, level2::Moment moment) const {
+        return find_domain(domains_, name, moment);
+    }
 
     // Makes a frame from the existing partials and replaces the existing one. `problems` names
     // partials that are left out. Errors: not_found if the domain is not configured, or no site has
     // a volume near the instant; bad_argument for an instant at which the domain has no frames.
     Result<FrameMade> make_again(const cache::GridName& frame, int threads,
                                  std::vector<std::string>& problems);
-    // Returns the state of a frame that make_again() would make. Errors: as there.
-    [[nodiscard]] Result<FrameStanding> standing_of(const cache::GridName& frame) const;
-    // Returns missing frames, newest first: those between the partials of the newest volumes
-    // (within `newest` of the last) that are newer than the oldest existing frame. Errors: the
-    // cache cannot be read.
-    [[nodiscard]] Result<std::vector<cache::GridName>> missing_frames(
-        std::chrono::milliseconds newest) const;
 
   private:
     struct FrameJob {
@@ -119,8 +96,6 @@ class MosaicMaker {
     // The mutex of the domain's frames must be held.
     Result<FrameMade> make(const FrameJob& job, MappedPartials& partials,
                            std::vector<std::string>& problems);
-    Status add_missing(const Domain& domain, level2::Moment moment,
-                       std::chrono::milliseconds newest, std::vector<cache::GridName>& all) const;
     Status keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
                 int threads, Kept& kept);
     Status refresh(const Domain& domain, level2::Moment moment,

@@ -37,6 +37,12 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
+// When the frames of the domains are made.
+enum class FramesWhen {
+    volume_comes,  // each that it changes, at once, as the daemon does
+    asked_for,     // by MosaicMaker::make_again() alone: of an archive each is then made once
+};
+
 // West, south, east and north in degrees. East of the antimeridian, west is greater than east.
 using Bounds = std::array<double, 4>;
 [[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and not empty

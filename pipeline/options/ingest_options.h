@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "pipeline/options/domain.h"
-#include "pipeline/options/frames_when.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_rule.h"
 #include "stormcellar/level2/selection.h"

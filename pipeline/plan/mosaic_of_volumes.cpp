@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/stopwatch.h"
+#include "base/steady_time.h"
 #include "grid/plan/grid_effects.h"
 #include "pipeline/plan/mosaic_plan.h"
 #include "stormcellar/grid/brick_grid.h"

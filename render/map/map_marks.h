@@ -58,12 +58,6 @@ struct MapMarks {
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);
 
-// Draws cities, distances and heights, with the map, before a volume.
-void draw_ground_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
-                       const MapMarks& marks);
-// Draws sites, north arrow and scale bar, over everything.
-void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks);
-
 // Returns "50 km" or "200 m".
 [[nodiscard]] std::string distance_text(double metres);
 

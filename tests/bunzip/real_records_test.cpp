@@ -21,13 +21,7 @@ namespace fs = std::filesystem;
 Bytes bytes_of_file(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
-    Bytes bytes = bytes_of(text);
-    if (!level2::is_gzip(bytes)) return bytes;
-    level2::GzipStream gzip(bytes);
-    Bytes inflated;
-    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
-        inflated.insert(inflated.end(), piece.begin(), piece.end());
-    return inflated;
+    return level2::without_gzip(bytes_of(text));
 }
 
 // Returns the streams of a file, which is one bzip2 stream or LDM records.

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "stormcellar/cache/store.h"
-#include "tests/cache/sized_grid.h"
+#include "tests/cache/made_grids.h"
 
 namespace {
 

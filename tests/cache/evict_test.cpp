@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/pins.h"
-#include "tests/cache/sized_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/temporary_directory.h"
 

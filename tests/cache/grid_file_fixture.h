@@ -11,7 +11,7 @@
 #include "base/checksum.h"
 #include "cache/format.h"
 #include "stormcellar/cache/grid_file.h"
-#include "tests/cache/small_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cache {

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "stormcellar/cache/grid_file.h"
-#include "tests/cache/small_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cache {

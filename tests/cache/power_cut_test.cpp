@@ -6,7 +6,7 @@
 
 #include "cache/pins.h"
 #include "stormcellar/cache/store.h"
-#include "tests/cache/sized_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
@@ -94,34 +94,33 @@ std::uint64_t operations_of_a_whole_life() {
     return disk.operation_count();
 }
 
+enum class Ending { failure, power_cut };
+
+// A life in which every operation from the `at`th on fails, and what it leaves.
+void live_until(std::uint64_t at, Ending ending) {
+    SCOPED_TRACE(at);
+    const testing::TemporaryDirectory directory;
+    testing::PowerCutFileSystem disk;
+    disk.fail_from(at);
+    Promises promised;
+    live(disk, directory / "cache", promised);
+    if (ending == Ending::power_cut) disk.power_cut();
+    check(directory / "cache", promised);
+}
+
 // The room of a grid is used again only when its removal is on disk: else a cut would bring it back
 // beside what took its room.
 TEST(RollingPowerCut, LeavesWholeGridsAndTheBudgetAtEachOperation) {
     const std::uint64_t operations = operations_of_a_whole_life();
     ASSERT_GT(operations, 80U);
-    for (std::uint64_t at = 0; at <= operations; ++at) {
-        SCOPED_TRACE(at);
-        const testing::TemporaryDirectory directory;
-        testing::PowerCutFileSystem disk;
-        disk.fail_from(at);
-        Promises promised;
-        live(disk, directory / "cache", promised);
-        disk.power_cut();
-        check(directory / "cache", promised);
-    }
+    for (std::uint64_t at = 0; at <= operations; ++at)
+        live_until(at, Ending::power_cut);
 }
 
 TEST(RollingPowerCut, ADiskThatFailsForGoodLeavesWholeGridsAndTheBudget) {
     const std::uint64_t operations = operations_of_a_whole_life();
-    for (std::uint64_t at = 0; at <= operations; at += 3) {
-        SCOPED_TRACE(at);
-        const testing::TemporaryDirectory directory;
-        testing::PowerCutFileSystem disk;
-        disk.fail_from(at);
-        Promises promised;
-        live(disk, directory / "cache", promised);
-        check(directory / "cache", promised);
-    }
+    for (std::uint64_t at = 0; at <= operations; at += 3)
+        live_until(at, Ending::failure);
 }
 
 }  // namespace

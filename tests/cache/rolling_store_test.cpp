@@ -6,7 +6,7 @@
 
 #include "cache/pins.h"
 #include "stormcellar/cache/store.h"
-#include "tests/cache/sized_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/cache/small_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 

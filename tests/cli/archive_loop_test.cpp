@@ -6,11 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/care/rebuild_catalog.h"
 #include "stormcellar/cache/store.h"
-#include "tests/testing/data.h"
+#include "tests/pipeline/small_house.h"
 #include "tests/testing/program.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar {
 namespace {
@@ -26,15 +24,8 @@ class ArchiveLoop : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        fs::create_directory(directory_ / "drop");
-        for (const std::string& name : sequence) {
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw(name));
-            fs::permissions(raw(name), fs::perms::owner_write, fs::perm_options::add);
-        }
-        pipeline::RebuildOptions rebuild;
-        rebuild.catalog = directory_ / "catalog";
-        rebuild.drop = directory_ / "drop";
-        ASSERT_TRUE(pipeline::rebuild_catalog(rebuild));
+        pipeline::catalog_real_volumes(directory_.path(), sequence);
+        if (HasFatalFailure()) return;
         ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/cache/sized_grid.h"
+#include "tests/cache/made_grids.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "stormcellar/cache/store.h"
-#include "stormcellar/grid/brick_grid.h"
+#include "tests/cli/uniform_grid.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -26,16 +25,7 @@ using testing::RunningProgram;
 class Follow : public ::testing::Test {
   protected:
     fs::path commit(const std::string& compact_time, float dbz) {
-        grid::Grid grid;
-        grid.spec = grid::default_spec(42.2, -75.98);
-        grid.spec.nx = grid.spec.ny = 40;
-        grid.time = parse_compact(compact_time).value();
-        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
-        grid.values.assign(grid.spec.cell_count(), dbz);
-        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
-        const auto bricks =
-            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
-        const auto path = store_.commit("KBGM", cache::describe(grid), bricks.view());
+        const auto path = testing::commit_grid(store_, testing::uniform_grid(compact_time, dbz));
         EXPECT_TRUE(path) << path.error().message;
         return path ? *path : fs::path{};
     }

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
-#include "stormcellar/cache/store.h"
-#include "stormcellar/grid/brick_grid.h"
+#include "tests/cli/uniform_grid.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -21,16 +20,8 @@ class Frame : public ::testing::Test {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;
         for (const char* time : {"20050822_024400", "20050822_025000"}) {
-            grid::Grid grid;
-            grid.spec = grid::default_spec(42.2, -75.98);
-            grid.spec.nx = grid.spec.ny = 40;
-            grid.time = parse_compact(time).value();
-            grid.sites = {{"KBGM", 42.2, -75.98, 490}};
-            grid.values.assign(grid.spec.cell_count(), 33);
-            grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
-            const auto bricks =
-                grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
-            const auto path = store->commit("KBGM", cache::describe(grid), bricks.view());
+            const grid::Grid grid = testing::uniform_grid(time, 33);
+            const auto path = testing::commit_grid(*store, grid);
             ASSERT_TRUE(path) << path.error().message;
             if (time == std::string("20050822_024400")) commit_velocity(*store, grid);
         }
@@ -45,9 +36,7 @@ class Frame : public ::testing::Test {
             const std::size_t ix = i / levels % static_cast<std::size_t>(grid.spec.nx);
             if (ix >= 30) grid.status[i] = grid::CellStatus::not_seen;
         }
-        const auto bricks =
-            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::vel));
-        const auto path = store.commit("KBGM", cache::describe(grid), bricks.view());
+        const auto path = testing::commit_grid(store, grid);
         ASSERT_TRUE(path) << path.error().message;
     }
 

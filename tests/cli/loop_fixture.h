@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stormcellar/cache/store.h"
-#include "stormcellar/grid/brick_grid.h"
+#include "tests/cli/uniform_grid.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -21,16 +20,9 @@ namespace fs = std::filesystem;
 class Loop : public ::testing::Test {
   protected:
     void commit(const std::string& compact_time, float dbz, int cells = 40) {
-        grid::Grid grid;
-        grid.spec = grid::default_spec(42.2, -75.98);
-        grid.spec.nx = grid.spec.ny = cells;
-        grid.time = grid.start_time = grid.end_time = parse_compact(compact_time).value();
-        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
-        grid.values.assign(grid.spec.cell_count(), dbz);
-        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
-        const auto bricks =
-            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
-        const auto path = store_.commit("KBGM", cache::describe(grid), bricks.view());
+        grid::Grid grid = testing::uniform_grid(compact_time, dbz, cells);
+        grid.start_time = grid.end_time = grid.time;
+        const auto path = testing::commit_grid(store_, grid);
         ASSERT_TRUE(path) << path.error().message;
         grids_.push_back(*path);
     }

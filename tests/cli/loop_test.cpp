@@ -11,10 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/ingest/ingest.h"
 #include "tests/cli/loop_fixture.h"
+#include "tests/pipeline/small_house.h"
 #include "tests/render/decoded_animation.h"
-#include "tests/testing/data.h"
 
 namespace stormcellar {
 namespace {
@@ -376,10 +375,7 @@ TEST_F(Loop, RealVolumesBecomeALoop) {
     STORMCELLAR_NEED_DATA();
     auto catalog = catalog::CatalogWriter::open(directory_ / "catalog");
     ASSERT_TRUE(catalog) << catalog.error().message;
-    pipeline::IngestOptions options;
-    options.spacing_m = 4000;
-    options.nx = options.ny = 115;
-    pipeline::Ingestor ingestor(*catalog, store_, options);
+    pipeline::Ingestor ingestor(*catalog, store_, pipeline::small_grid());
     for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
         const auto outcome =
             ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, false);

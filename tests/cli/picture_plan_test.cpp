@@ -3,23 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "stormcellar/grid/brick_grid.h"
-#include "stormcellar/grid/grid.h"
+#include "tests/cli/uniform_grid.h"
 
 namespace stormcellar::cli {
 namespace {
 
-grid::BrickGrid small_grid() {
-    grid::Grid grid;
-    grid.spec = grid::default_spec(42.2, -75.98);
-    grid.spec.nx = grid.spec.ny = 20;
-    grid.values.assign(grid.spec.cell_count(), 33);
-    grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
-    return grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
-}
-
 TEST(PlanPicture, ABudgetThatNothingKeepsIsUnmet) {
-    const grid::BrickGrid bricks = small_grid();
+    const auto bricks = grid::BrickGrid::from(testing::uniform_grid("20050822_024400", 33, 20),
+                                              grid::default_quantization(level2::Moment::ref));
     const auto planned = [&](const std::string& tolerance) {
         render::Scene scene;
         scene.width = 400;

@@ -5,12 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/ingest/ingest.h"
 #include "pipeline/keep/instance_lock.h"
-#include "stormcellar/base/file_system.h"
-#include "tests/testing/data.h"
+#include "tests/pipeline/small_house.h"
 #include "tests/testing/program.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -24,10 +21,7 @@ class QueryTest : public ::testing::Test {
         STORMCELLAR_NEED_DATA();
         auto catalog = *catalog::CatalogWriter::open(directory_ / "catalog");
         auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-        pipeline::IngestOptions options;
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
-        pipeline::Ingestor ingestor(catalog, store, options);
+        pipeline::Ingestor ingestor(catalog, store, pipeline::small_grid());
         for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
             ASSERT_TRUE(ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, true));
         }

@@ -12,8 +12,7 @@
 #include "cli/picture/scene_file.h"
 #include "cli/subcommands.h"
 #include "stormcellar/base/file_system.h"
-#include "stormcellar/cache/store.h"
-#include "stormcellar/grid/brick_grid.h"
+#include "tests/cli/uniform_grid.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
@@ -44,20 +43,12 @@ class SceneFileTest : public ::testing::Test {
         EXPECT_TRUE(status.error().message.starts_with(directory)) << status.error().message;
         return status.error().message.substr(directory.size());
     }
-    // A grid of REF about KBGM, and one of a domain of two sites.
+    // A grid of REF about KBGM.
     void commit() {
         auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;
-        grid::Grid grid;
-        grid.spec = grid::default_spec(42.2, -75.98);
-        grid.spec.nx = grid.spec.ny = 40;
-        grid.time = parse_compact("20050822_024400").value();
-        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
-        grid.values.assign(grid.spec.cell_count(), 33);
-        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
-        const auto bricks =
-            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
-        const auto path = store->commit("KBGM", cache::describe(grid), bricks.view());
+        const auto path =
+            testing::commit_grid(*store, testing::uniform_grid("20050822_024400", 33));
         ASSERT_TRUE(path) << path.error().message;
     }
     struct Ran {

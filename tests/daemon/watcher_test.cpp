@@ -357,102 +357,86 @@ TEST(Inotify, NamesADirectoryAsItIsCalled) {
     EXPECT_TRUE(none.error().message.starts_with((directory / "none").native() + ": "));
 }
 
-TEST(ForcedWatcher, SaysWhenTheKernelDroppedEvents) {
-    const testing::TemporaryDirectory directory;
-    FakeEvents events;
-    Notes notes(directory.path());
-    Watcher watcher(directory.path(), events, notes);
-    ASSERT_TRUE(watcher.scan());
-    write_file(directory / "a", "1");
-    events.waiting = {{-1, IN_Q_OVERFLOW, ""}, {1, IN_CLOSE_WRITE, "a"}};
-    watcher.read_events();
-    EXPECT_EQ(notes.said, (Lines{"lost", "closed a"}));
+class ForcedWatcher : public ::testing::Test {
+  protected:
+    testing::TemporaryDirectory directory_;
+    FakeEvents events_;
+    Notes notes_{directory_.path()};
+    Watcher watcher_{directory_.path(), events_, notes_};
+};
+
+TEST_F(ForcedWatcher, SaysWhenTheKernelDroppedEvents) {
+    ASSERT_TRUE(watcher_.scan());
+    write_file(directory_ / "a", "1");
+    events_.waiting = {{-1, IN_Q_OVERFLOW, ""}, {1, IN_CLOSE_WRITE, "a"}};
+    watcher_.read_events();
+    EXPECT_EQ(notes_.said, (Lines{"lost", "closed a"}));
 }
 
-TEST(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEverything) {
-    const testing::TemporaryDirectory directory;
+TEST_F(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEverything) {
     for (const char* name : {"a", "b", "c"}) {
-        fs::create_directory(directory / name);
-        write_file(directory / name / "file", "1");
+        fs::create_directory(directory_ / name);
+        write_file(directory_ / name / "file", "1");
     }
-    FakeEvents events;
-    events.most = 2;
-    Notes notes(directory.path());
-    Watcher watcher(directory.path(), events, notes);
-    ASSERT_TRUE(watcher.scan());
-    EXPECT_TRUE(watcher.is_blind());
-    ASSERT_EQ(notes.problems.size(), 1U) << "said of the first";
-    EXPECT_EQ(notes.problems[0].code, ErrorCode::no_space);
-    EXPECT_EQ(notes.taken(), (std::set<std::string>{"a/file", "b/file", "c/file"}));
-    events.watched.clear();
-    ASSERT_TRUE(watcher.scan());
-    EXPECT_EQ(notes.problems.size(), 1U) << "said once";
-    events.watched.clear();
-    events.most = 1000;
-    ASSERT_TRUE(watcher.scan());
-    EXPECT_FALSE(watcher.is_blind()) << "somebody raised the limit";
-    events.watched.clear();
-    events.most = 2;
-    ASSERT_TRUE(watcher.scan());
-    EXPECT_EQ(notes.problems.size(), 2U) << "said anew";
+    events_.most = 2;
+    ASSERT_TRUE(watcher_.scan());
+    EXPECT_TRUE(watcher_.is_blind());
+    ASSERT_EQ(notes_.problems.size(), 1U) << "said of the first";
+    EXPECT_EQ(notes_.problems[0].code, ErrorCode::no_space);
+    EXPECT_EQ(notes_.taken(), (std::set<std::string>{"a/file", "b/file", "c/file"}));
+    events_.watched.clear();
+    ASSERT_TRUE(watcher_.scan());
+    EXPECT_EQ(notes_.problems.size(), 1U) << "said once";
+    events_.watched.clear();
+    events_.most = 1000;
+    ASSERT_TRUE(watcher_.scan());
+    EXPECT_FALSE(watcher_.is_blind()) << "somebody raised the limit";
+    events_.watched.clear();
+    events_.most = 2;
+    ASSERT_TRUE(watcher_.scan());
+    EXPECT_EQ(notes_.problems.size(), 2U) << "said anew";
 }
 
-TEST(ForcedWatcher, SilentDirectoriesAreWatchedAllTheSameAndSaidOnce) {
-    const testing::TemporaryDirectory directory;
-    fs::create_directories(directory / "day/shared");
-    FakeEvents events;
-    events.silent = "shared";
-    Notes notes(directory.path());
-    Watcher watcher(directory.path(), events, notes);
-    ASSERT_TRUE(watcher.scan());
-    EXPECT_TRUE(watcher.is_blind());
-    EXPECT_EQ(watcher.directory_count(), 3U) << "what this machine writes is told of";
-    ASSERT_TRUE(watcher.scan());
-    ASSERT_EQ(notes.problems.size(), 1U);
-    EXPECT_EQ(notes.problems[0].code, ErrorCode::unsupported);
-    fs::remove(directory / "day/shared");
-    ASSERT_TRUE(watcher.scan());
-    EXPECT_FALSE(watcher.is_blind());
+TEST_F(ForcedWatcher, SilentDirectoriesAreWatchedAllTheSameAndSaidOnce) {
+    fs::create_directories(directory_ / "day/shared");
+    events_.silent = "shared";
+    ASSERT_TRUE(watcher_.scan());
+    EXPECT_TRUE(watcher_.is_blind());
+    EXPECT_EQ(watcher_.directory_count(), 3U) << "what this machine writes is told of";
+    ASSERT_TRUE(watcher_.scan());
+    ASSERT_EQ(notes_.problems.size(), 1U);
+    EXPECT_EQ(notes_.problems[0].code, ErrorCode::unsupported);
+    fs::remove(directory_ / "day/shared");
+    ASSERT_TRUE(watcher_.scan());
+    EXPECT_FALSE(watcher_.is_blind());
 }
 
-TEST(ForcedWatcher, EventsOfAWatchThatIsGoneAreLeftAlone) {
-    const testing::TemporaryDirectory directory;
-    FakeEvents events;
-    Notes notes(directory.path());
-    Watcher watcher(directory.path(), events, notes);
-    ASSERT_TRUE(watcher.scan());
-    write_file(directory / "a", "1");
-    events.waiting = {{99, IN_CLOSE_WRITE, "a"}, {1, IN_IGNORED, ""}, {1, IN_CLOSE_WRITE, "a"}};
-    watcher.read_events();
-    EXPECT_EQ(notes.said, Lines{});
-    EXPECT_EQ(watcher.directory_count(), 0U);
+TEST_F(ForcedWatcher, EventsOfAWatchThatIsGoneAreLeftAlone) {
+    ASSERT_TRUE(watcher_.scan());
+    write_file(directory_ / "a", "1");
+    events_.waiting = {{99, IN_CLOSE_WRITE, "a"}, {1, IN_IGNORED, ""}, {1, IN_CLOSE_WRITE, "a"}};
+    watcher_.read_events();
+    EXPECT_EQ(notes_.said, Lines{});
+    EXPECT_EQ(watcher_.directory_count(), 0U);
 }
 
-TEST(ForcedWatcher, WritesAreToldOfFilesThatAreFollowedAndOfNoOthers) {
-    const testing::TemporaryDirectory directory;
-    FakeEvents events;
-    Notes notes(directory.path());
-    notes.followed = "a";
-    Watcher watcher(directory.path(), events, notes);
-    ASSERT_TRUE(watcher.scan());
-    write_file(directory / "a", "1");
-    write_file(directory / "b", "1");
-    events.waiting = {{1, IN_MODIFY, "a"}, {1, IN_MODIFY, "b"}, {1, IN_MODIFY, "gone"}};
-    watcher.read_events();
-    EXPECT_EQ(notes.said, Lines{"grew a"});
+TEST_F(ForcedWatcher, WritesAreToldOfFilesThatAreFollowedAndOfNoOthers) {
+    notes_.followed = "a";
+    ASSERT_TRUE(watcher_.scan());
+    write_file(directory_ / "a", "1");
+    write_file(directory_ / "b", "1");
+    events_.waiting = {{1, IN_MODIFY, "a"}, {1, IN_MODIFY, "b"}, {1, IN_MODIFY, "gone"}};
+    watcher_.read_events();
+    EXPECT_EQ(notes_.said, Lines{"grew a"});
 }
 
 // The file of an event may have been deleted long before the event is read (scour).
-TEST(ForcedWatcher, AFileThatIsGoneWhenItsEventIsReadIsNotReported) {
-    const testing::TemporaryDirectory directory;
-    FakeEvents events;
-    Notes notes(directory.path());
-    Watcher watcher(directory.path(), events, notes);
-    ASSERT_TRUE(watcher.scan());
-    events.waiting = {{1, IN_CLOSE_WRITE, "a"}, {1, IN_CREATE | IN_ISDIR, "d"}};
-    watcher.read_events();
-    EXPECT_EQ(notes.said, Lines{});
-    EXPECT_TRUE(notes.problems.empty());
+TEST_F(ForcedWatcher, AFileThatIsGoneWhenItsEventIsReadIsNotReported) {
+    ASSERT_TRUE(watcher_.scan());
+    events_.waiting = {{1, IN_CLOSE_WRITE, "a"}, {1, IN_CREATE | IN_ISDIR, "d"}};
+    watcher_.read_events();
+    EXPECT_EQ(notes_.said, Lines{});
+    EXPECT_TRUE(notes_.problems.empty());
 }
 
 }  // namespace

@@ -11,9 +11,7 @@
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/level2/encode.h"
-#include "synth/observe.h"
-#include "synth/replay_pieces.h"
-#include "tests/fault/cut_gates.h"
+#include "tests/fault/feed_volume.h"
 #include "tests/fault/hostile_watch.h"
 
 namespace stormcellar::fault {
@@ -76,15 +74,6 @@ top_km = 10
 peak_dbz = 50
 )";
 
-// Observes one radar's view, which is then used for all of them.
-level2::Volume observed() {
-    const auto parsed = synth::parse_scene(feed_scene, "feed");
-    if (!parsed) throw std::runtime_error(parsed.error().message);
-    level2::Volume volume = synth::observe(*parsed, 0);
-    cut_gates(volume, real_gates);
-    return volume;
-}
-
 void give_to(level2::Volume& volume, std::string_view icao) {
     const auto station = find_station(icao);
     if (!station) throw std::runtime_error("a station that is not in the table");
@@ -112,17 +101,6 @@ void move_to(level2::Volume& volume, UtcTime start, double takes_s, int number) 
     }
 }
 
-std::vector<std::vector<std::byte>> record_pieces_of(const std::vector<std::byte>& bytes) {
-    std::vector<std::vector<std::byte>> pieces;
-    std::size_t begin = 0;
-    for (const std::size_t end : synth::piece_ends(bytes)) {
-        pieces.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
-                            bytes.begin() + static_cast<std::ptrdiff_t>(end));
-        begin = end;
-    }
-    return pieces;
-}
-
 }  // namespace
 
 std::span<const std::string_view> real_stations() {
@@ -131,7 +109,8 @@ std::span<const std::string_view> real_stations() {
 
 RealFeed::RealFeed(fs::path drop, fs::path cache, double period_s)
     : drop_(std::move(drop)), cache_(std::move(cache)), period_s_(period_s) {
-    const level2::Volume pattern = observed();
+    // One radar's view, which then stands for all of them.
+    const level2::Volume pattern = observed_volume(feed_scene, real_gates);
     for (std::size_t i = 0; i < stations.size(); ++i) {
         Station station;
         station.pattern = pattern;
@@ -168,19 +147,15 @@ void RealFeed::begin_volume(Station& station) {
     move_to(station.pattern, start, period_s_, number);
     const auto encoded = level2::encode(station.pattern, {.compression_level = 6});
     if (!encoded) throw std::runtime_error(encoded.error().message);
-    station.pieces = record_pieces_of(encoded->joined());
+    station.pieces = pieces_of(encoded->joined());
     station.next = 0;
     const std::string icao = station.pattern.station, time = format_compact(start);
     station.volume = {icao, start, {}, {}, {}};
     if (!station.comes_as_chunks) {
         station.volume.files = {drop_ / icao / (icao + time + "_V06")};
     } else {
-        for (std::size_t i = 0; i < station.pieces.size(); ++i) {
-            const char kind = i == 0 ? 'S' : i + 1 == station.pieces.size() ? 'E' : 'I';
-            station.volume.files.push_back(
-                drop_ / icao / fmt::format("{}", number) /
-                fmt::format("{}-{}-{:03}-{}", time.substr(0, 8), time.substr(9), i + 1, kind));
-        }
+        for (const std::string& name : chunk_names(start, station.pieces.size()))
+            station.volume.files.push_back(drop_ / icao / fmt::format("{}", number) / name);
     }
     fs::create_directories(station.volume.files.front().parent_path());
     ++begun_;

@@ -10,9 +10,8 @@
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/encode.h"
-#include "synth/observe.h"
 #include "synth/replay_pieces.h"
-#include "tests/fault/cut_gates.h"
+#include "tests/fault/feed_volume.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::fault {
@@ -53,11 +52,7 @@ top_km = 9
 peak_dbz = 55
 )",
                                          station, latitude_deg, longitude_deg, antenna_altitude_m);
-    const auto scene = synth::parse_scene(text, station);
-    if (!scene) throw std::runtime_error(scene.error().message);
-    level2::Volume volume = synth::observe(*scene, 0);
-    cut_gates(volume, gates);
-    return volume;
+    return observed_volume(text, gates);
 }
 
 void move_to(level2::Volume& volume, UtcTime start) {
@@ -69,17 +64,6 @@ void move_to(level2::Volume& volume, UtcTime start) {
         for (level2::Radial& radial : sweep.radials)
             radial.time += by;
     }
-}
-
-std::vector<std::vector<std::byte>> pieces_of(const std::vector<std::byte>& bytes) {
-    std::vector<std::vector<std::byte>> pieces;
-    std::size_t begin = 0;
-    for (const std::size_t end : synth::piece_ends(bytes)) {
-        pieces.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
-                            bytes.begin() + static_cast<std::ptrdiff_t>(end));
-        begin = end;
-    }
-    return pieces;
 }
 
 void expect(const Status& done) {
@@ -134,18 +118,12 @@ Shipments::Shipments(fs::path drop, std::uint32_t seed, const std::vector<std::s
 Shipment Shipments::laid_out(Way way, const std::string& station, UtcTime start,
                              std::vector<std::vector<std::byte>> pieces) {
     Shipment shipment{way, std::move(pieces), {{}, Contents::whole_volume, station, start}};
-    const std::string time = format_compact(start);
     if (way != Way::chunks) {
-        shipment.delivered.files = {drop_ / station / (station + time + "_V06")};
+        shipment.delivered.files = {drop_ / station / (station + format_compact(start) + "_V06")};
         return shipment;
     }
-    const std::size_t count = shipment.pieces.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const char kind = i == 0 ? 'S' : i + 1 == count ? 'E' : 'I';
-        shipment.delivered.files.push_back(
-            drop_ / station / fmt::format("{}", number_) /
-            fmt::format("{}-{}-{:03}-{}", time.substr(0, 8), time.substr(9), i + 1, kind));
-    }
+    for (const std::string& name : chunk_names(start, shipment.pieces.size()))
+        shipment.delivered.files.push_back(drop_ / station / fmt::format("{}", number_) / name);
     return shipment;
 }
 

@@ -62,5 +62,12 @@ TEST(GzipStream, TellsDamageAndGarbageApart) {
     EXPECT_EQ(damaged.end(), GzipEnd::corrupt);
 }
 
+TEST(GzipStream, GzipIsPeeledAndNothingElse) {
+    const wire::Bytes record = pattern(10'000);
+    EXPECT_EQ(without_gzip(wire::gzip(record)), record);
+    EXPECT_EQ(without_gzip(record), record);
+    EXPECT_TRUE(without_gzip({}).empty());
+}
+
 }  // namespace
 }  // namespace stormcellar::level2

@@ -208,15 +208,6 @@ TEST(Message2, NothingBehindTheHeadersSizeIsRead) {
 
 // --- Real volumes ---
 
-wire::Bytes peeled(wire::Bytes bytes) {
-    if (!is_gzip(bytes)) return bytes;
-    GzipStream gzip(bytes);
-    wire::Bytes inflated;
-    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
-        inflated.insert(inflated.end(), piece.begin(), piece.end());
-    return inflated;
-}
-
 std::vector<RdaStatus> statuses_in(std::span<const std::byte> messages) {
     std::vector<RdaStatus> statuses;
     while (messages.size() >= message_header_bytes) {
@@ -235,7 +226,7 @@ std::vector<RdaStatus> statuses_in(std::span<const std::byte> messages) {
 
 // Reads all of a file of messages; of LDM records the first, which holds the metadata.
 std::vector<RdaStatus> statuses_of_file(const std::string& name) {
-    const wire::Bytes file = peeled(read_file(*testing::data_directory() / name).value());
+    const wire::Bytes file = without_gzip(read_file(*testing::data_directory() / name).value());
     const auto content = std::span{file}.subspan(read_archive_header(file) ? 24 : 0);
     if (!is_ldm_record(content)) return statuses_in(content);
     LdmFramer framer(file);

@@ -6,14 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/care/rebuild_catalog.h"
-#include "pipeline/ingest/ingest.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 #include "tests/pipeline/small_domain.h"
-#include "tests/testing/data.h"
+#include "tests/pipeline/small_house.h"
 #include "tests/testing/metered_file_system.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -31,16 +28,9 @@ class ArchiveFillTest : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        fs::create_directory(directory_ / "drop");
-        for (const std::string& name : sequence) {
-            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw(name));
-            fs::permissions(raw(name), fs::perms::owner_write, fs::perm_options::add);
-        }
-        RebuildOptions rebuild;
-        rebuild.catalog = directory_ / "catalog";
-        rebuild.drop = directory_ / "drop";
-        ASSERT_TRUE(rebuild_catalog(rebuild));
-        catalog_.emplace(*catalog::CatalogReader::open(rebuild.catalog));
+        catalog_real_volumes(directory_.path(), sequence);
+        if (HasFatalFailure()) return;
+        catalog_.emplace(*catalog::CatalogReader::open(directory_ / "catalog"));
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
     [[nodiscard]] cache::StoreWriter store(const std::string& name) const {

@@ -13,8 +13,7 @@
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/level2/chunk_directory.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/pipeline/small_house.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -58,9 +57,7 @@ class ChunkFiles : public ::testing::Test {
 TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
     CatalogWriter catalog = *CatalogWriter::open(directory_ / "catalog");
     auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    IngestOptions options;
-    options.spacing_m = 4000;
-    options.nx = options.ny = 115;
+    IngestOptions options = small_grid();
     options.living.scratch = directory_.path();
     options.living.make = false;
     Ingestor ingestor(catalog, store, options);

@@ -8,7 +8,7 @@
 #include "pipeline/ingest/ingest.h"
 #include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/pipeline/small_house.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -67,10 +67,8 @@ class Claims : public ::testing::Test {
         return drop() / name;
     }
     Ingestor& with(std::shared_ptr<StationRule> stations) {
-        IngestOptions options;
+        IngestOptions options = small_grid();
         options.stations = std::move(stations);
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
         options.beneath = drop();
         options.living.scratch = directory_.path();
         ingestor_.emplace(catalog_, store_, options);

@@ -12,8 +12,7 @@
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "tests/archive/archive_maker.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/pipeline/small_house.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -23,7 +22,7 @@ using catalog::CatalogEntry;
 using catalog::FileState;
 using ::testing::HasSubstr;
 
-class IngestArchiveTest : public ::testing::Test {
+class IngestArchiveTest : public SmallHouse {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
     static std::vector<std::byte> real(const std::string& name) {
@@ -41,20 +40,7 @@ class IngestArchiveTest : public ::testing::Test {
         return directory_ / name;
     }
     std::vector<CatalogEntry> volumes() { return catalog_.list("KBGM", {}).value(); }
-    std::size_t grids() {
-        return store_.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size();
-    }
-    static IngestOptions small_grid() {
-        IngestOptions options;
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
-        return options;
-    }
-    testing::TemporaryDirectory directory_;
-    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
-    cache::StoreWriter store_ =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    Ingestor ingestor_{catalog_, store_, small_grid()};
+    std::size_t grid_count() { return grids("KBGM").size(); }
 };
 
 TEST_F(IngestArchiveTest, ItsVolumesAreGriddedAndCatalogedByTheirNames) {
@@ -62,7 +48,7 @@ TEST_F(IngestArchiveTest, ItsVolumesAreGriddedAndCatalogedByTheirNames) {
         const fs::path path = put("order.bin", archive::make_archive(kind, two_volumes()));
         const auto outcome = ingestor_.ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
-        EXPECT_EQ(grids(), 2U);
+        EXPECT_EQ(grid_count(), 2U);
         ASSERT_EQ(volumes().size(), 2U);
         EXPECT_EQ(volumes()[0].path, member_path(path, "order/KBGM20050822_024414.gz"));
         EXPECT_EQ(volumes()[0].state, FileState::complete);
@@ -98,10 +84,10 @@ TEST_F(IngestArchiveTest, OneThatIsStillBeingWrittenIsWaitedFor) {
     bytes.resize(whole - 300'000);
     const fs::path path = put("order.tar", bytes);
     EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::incomplete);
-    EXPECT_EQ(grids(), 0U);
+    EXPECT_EQ(grid_count(), 0U);
     put("order.tar", all);
     EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::gridded);
-    EXPECT_EQ(grids(), 2U);
+    EXPECT_EQ(grid_count(), 2U);
 }
 
 TEST_F(IngestArchiveTest, OfOneThatStaysCutWhatIsWholeIsTaken) {
@@ -110,7 +96,7 @@ TEST_F(IngestArchiveTest, OfOneThatStaysCutWhatIsWholeIsTaken) {
     const auto outcome = ingestor_.ingest(put("order.tar", bytes), true);
     ASSERT_TRUE(outcome);
     EXPECT_EQ(outcome->result(), IngestResult::gridded);
-    EXPECT_EQ(grids(), 1U);
+    EXPECT_EQ(grid_count(), 1U);
     EXPECT_THAT(outcome->reason, HasSubstr("cut or damaged"));
 }
 
@@ -121,12 +107,12 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     const fs::path path =
         put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
     EXPECT_EQ(by_turns.ingest(path, false)->result(), IngestResult::incomplete);
-    EXPECT_EQ(grids(), 1U);
+    EXPECT_EQ(grid_count(), 1U);
     int turns = 1;
     while (by_turns.ingest(path, true)->result() == IngestResult::incomplete && turns < 10)
         ++turns;
     EXPECT_EQ(turns, 3) << "a file that is no volume has one, too";
-    EXPECT_EQ(grids(), 2U);
+    EXPECT_EQ(grid_count(), 2U);
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
 }
 
@@ -144,7 +130,7 @@ TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
             EXPECT_TRUE(std::get<ended::Incomplete>(outcome->ending).has_next_turn);
         }
         EXPECT_EQ(turns, 4) << "three members, and the end";
-        EXPECT_EQ(grids(), 2U);
+        EXPECT_EQ(grid_count(), 2U);
         fs::remove(path);
     }
 }

@@ -9,8 +9,7 @@
 
 #include "stormcellar/cache/grid_file.h"
 #include "tests/level2/wire.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/pipeline/small_house.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -18,15 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 using catalog::FileState;
 
-class IngestTest : public ::testing::Test {
+class IngestTest : public SmallHouse {
   protected:
     fs::path real(const std::string& name) { return *testing::data_directory() / name; }
     fs::path write(const std::string& name, const std::string& text) {
         std::ofstream(directory_ / name, std::ios::binary) << text;
         return directory_ / name;
-    }
-    std::vector<cache::StoreEntry> grids(const std::string& domain) {
-        return *store_.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
     }
     catalog::CatalogEntry only_entry(const std::string& station) {
         const auto entries = catalog_.list(station, {std::nullopt, std::nullopt, true});
@@ -44,17 +40,6 @@ class IngestTest : public ::testing::Test {
             ->description()
             .provenance.source_files.at(0);
     }
-    IngestOptions small_grid() {
-        IngestOptions options;
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
-        return options;
-    }
-    testing::TemporaryDirectory directory_;
-    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
-    cache::StoreWriter store_ =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    Ingestor ingestor_{catalog_, store_, small_grid()};
 };
 
 TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {

@@ -24,8 +24,7 @@
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"
 #include "synth/replay_pieces.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/pipeline/small_house.h"
 
 namespace stormcellar::pipeline {
 
@@ -54,9 +53,7 @@ struct House {
     explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {}) {
         catalog.emplace(*catalog::CatalogWriter::open(where / "catalog"));
         store.emplace(*cache::StoreWriter::open(real_file_system(), where / "cache", true));
-        IngestOptions options;
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
+        IngestOptions options = small_grid();
         if (living) {
             options.living.scratch = where;
             options.living.has_time = std::move(has_time);
@@ -117,9 +114,7 @@ class LivingChunks : public Living {
     // As another process would, with so much room for what is put aside.
     void begin_again_with(std::uint64_t shelf_bytes) {
         house_.ingestor.reset();
-        IngestOptions options;
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
+        IngestOptions options = small_grid();
         options.living.scratch = directory_ / "living";
         options.living.shelf_bytes = shelf_bytes;
         house_.ingestor.emplace(*house_.catalog, *house_.store, options);

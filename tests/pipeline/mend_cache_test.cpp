@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/pipeline/small_house.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -18,7 +17,7 @@ namespace fs = std::filesystem;
 using std::chrono::hours;
 using std::chrono::minutes;
 
-class MendCache : public ::testing::Test {
+class MendCache : public SmallHouse {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
 
@@ -34,12 +33,9 @@ class MendCache : public ::testing::Test {
             ASSERT_EQ(outcome->result(), IngestResult::gridded) << outcome->reason;
         }
     }
-    std::vector<cache::StoreEntry> grids() {
-        return *store_.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
-    }
     void expect_all_good(std::size_t count) {
-        EXPECT_EQ(grids().size(), count);
-        for (const auto& grid : grids()) {
+        EXPECT_EQ(grids("KBGM").size(), count);
+        for (const auto& grid : grids("KBGM")) {
             const auto file = cache::GridFile::open(grid.path);
             ASSERT_TRUE(file) << file.error().message;
             EXPECT_TRUE(file->verify());
@@ -52,23 +48,12 @@ class MendCache : public ::testing::Test {
             .write(reinterpret_cast<const char*>(bytes.data()),
                    static_cast<std::streamsize>(bytes.size()));
     }
-    static IngestOptions small_grid() {
-        IngestOptions options;
-        options.spacing_m = 4000;
-        options.nx = options.ny = 115;
-        return options;
-    }
-    testing::TemporaryDirectory directory_;
-    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
-    cache::StoreWriter store_ =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    Ingestor ingestor_{catalog_, store_, small_grid()};
     CacheMender mender_{catalog_, store_, ingestor_, level2::Moment::ref};
 };
 
 TEST_F(MendCache, AGridThatWasCutIsMadeAgainFromItsFile) {
     take_in(1);
-    const auto grid = grids().at(0);
+    const auto grid = grids("KBGM").at(0);
     const auto good = *read_file(grid.path);
     EXPECT_EQ(mender_.mend(grid, MendDepth::header)->condition, GridCondition::sound);
     fs::resize_file(grid.path, good.size() / 2);
@@ -83,7 +68,7 @@ TEST_F(MendCache, AGridThatWasCutIsMadeAgainFromItsFile) {
 
 TEST_F(MendCache, AnAlteredCodeIsFoundWhenAllIsRead) {
     take_in(1);
-    const auto grid = grids().at(0);
+    const auto grid = grids("KBGM").at(0);
     alter_last_byte_of(grid.path);
     EXPECT_EQ(mender_.mend(grid, MendDepth::header)->condition, GridCondition::sound);
     EXPECT_EQ(mender_.mend(grid, MendDepth::all)->condition, GridCondition::made_again);
@@ -94,7 +79,7 @@ TEST_F(MendCache, ADamagedGridWithoutItsFileIsDropped) {
     take_in(2);
     fs::remove(directory_ / "KBGM20050822_024414.gz");
     std::ofstream(directory_ / "KBGM20050822_025001.gz", std::ios::app) << "changed since";
-    for (const auto& grid : grids()) {
+    for (const auto& grid : grids("KBGM")) {
         fs::resize_file(grid.path, 4096);
         const auto mended = mender_.mend(grid, MendDepth::header);
         ASSERT_TRUE(mended);
@@ -111,7 +96,7 @@ TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
         alter_last_byte_of(directory_ / name);
         fs::last_write_time(directory_ / name, time);
     }
-    const auto first = grids().at(0), second = grids().at(1);
+    const auto first = grids("KBGM").at(0), second = grids("KBGM").at(1);
     fs::resize_file(first.path, 4096);
     const auto mended = mender_.mend(first, MendDepth::header);
     ASSERT_TRUE(mended) << mended.error().message;
@@ -123,7 +108,7 @@ TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
     ASSERT_TRUE(missing);
     ASSERT_EQ(missing->size(), 2U);
     EXPECT_EQ(mender_.make(missing->at(0)).error().code, ErrorCode::corrupt);
-    EXPECT_TRUE(grids().empty());
+    EXPECT_TRUE(grids("KBGM").empty());
     EXPECT_EQ(mender_.missing(hours{6})->size(), 1U) << "it is not tried again";
     for (const auto& row : *catalog_.list("KBGM", {}))
         EXPECT_EQ(row.state, catalog::FileState::complete) << "of the file that was cataloged";
@@ -131,7 +116,7 @@ TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
 
 TEST_F(MendCache, ADatabaseThatCannotBeReadIsItsOwnStationsTrouble) {
     take_in(1);
-    fs::remove(grids().at(0).path);
+    fs::remove(grids("KBGM").at(0).path);
     std::ofstream(directory_ / "catalog/KAAA.sqlite") << std::string(8192, 'x');
     fs::permissions(directory_ / "catalog/KAAA.sqlite", fs::perms::none);
     fs::create_directory(directory_ / "catalog/KZZZ.sqlite");
@@ -142,15 +127,15 @@ TEST_F(MendCache, ADatabaseThatCannotBeReadIsItsOwnStationsTrouble) {
 
 TEST_F(MendCache, AGridThatWasEvictedMeanwhileIsNoDamage) {
     take_in(1);
-    const auto grid = grids().at(0);
+    const auto grid = grids("KBGM").at(0);
     fs::remove(grid.path);
     EXPECT_EQ(mender_.mend(grid, MendDepth::all)->condition, GridCondition::sound);
-    EXPECT_TRUE(grids().empty()) << "that is for missing() to decide";
+    EXPECT_TRUE(grids("KBGM").empty()) << "that is for missing() to decide";
 }
 
 TEST_F(MendCache, WhatIsOfALaterVersionIsLeftAlone) {
     take_in(1);
-    const auto grid = grids().at(0);
+    const auto grid = grids("KBGM").at(0);
     auto bytes = *read_file(grid.path);
     bytes[12] = std::byte{9};  // the version
     std::ofstream(grid.path, std::ios::binary | std::ios::trunc)
@@ -185,7 +170,7 @@ TEST_F(MendCache, OnlyTheNewestOfAWipedCacheAreFilled) {
 
 TEST_F(MendCache, WhatWasEvictedIsNotFilledInAgainAndAGapIs) {
     take_in(3);
-    const auto all = grids();
+    const auto all = grids("KBGM");
     fs::remove(all[0].path);
     EXPECT_TRUE(mender_.missing(hours{6})->empty()) << "older than the oldest that stands";
     fs::remove(all[2].path);

@@ -225,19 +225,19 @@ TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {
         take(load_volume(name));
     const auto all = frames();
     ASSERT_EQ(all.size(), 2U);
-    EXPECT_TRUE(keeper_.missing_frames(std::chrono::hours{6})->empty());
+    EXPECT_TRUE(missing_frames(store_, keeper_.domains(), std::chrono::hours{6})->empty());
     std::filesystem::remove(all[1].path);
-    const auto one = keeper_.missing_frames(std::chrono::hours{6});
+    const auto one = missing_frames(store_, keeper_.domains(), std::chrono::hours{6});
     ASSERT_EQ(one->size(), 1U);
     EXPECT_EQ(one->at(0), (cache::GridName{"north", level2::Moment::ref, all[1].time}));
     std::filesystem::remove(all[0].path);
-    const auto both = keeper_.missing_frames(std::chrono::hours{6});
+    const auto both = missing_frames(store_, keeper_.domains(), std::chrono::hours{6});
     ASSERT_EQ(both->size(), 2U);
     EXPECT_EQ(both->at(1).time, all[0].time) << "newest first";
-    EXPECT_EQ(keeper_.missing_frames(std::chrono::minutes{1})->size(), 1U);
+    EXPECT_EQ(missing_frames(store_, keeper_.domains(), std::chrono::minutes{1})->size(), 1U);
     std::vector<std::string> problems;
     ASSERT_TRUE(keeper_.make_again(both->at(0), 1, problems));
-    EXPECT_TRUE(keeper_.missing_frames(std::chrono::hours{6})->empty())
+    EXPECT_TRUE(missing_frames(store_, keeper_.domains(), std::chrono::hours{6})->empty())
         << "older than the oldest that stands: evicted";
 }
 
@@ -249,9 +249,10 @@ TEST_F(MosaicKeeperTest, WhatCannotBeMadeAgainSaysWhy) {
             {domain, level2::Moment::ref, *parse_utc(time, UtcTime{})}, 1, problems);
         return made ? std::string{} : made.error().message;
     };
-    EXPECT_EQ(again("south", "2005-08-22T02:50:00Z"), "no domain south of REF is configured");
+    EXPECT_EQ(again("south", "2005-08-22T02:50:00Z"),
+              "the configuration has no domain south of REF");
     EXPECT_EQ(again("north", "2005-08-22T02:51:00Z"),
-              "north has frames every 300 s, and none at 2005-08-22T02:51:00Z");
+              "north has frames every 300 s, so none at 2005-08-22T02:51:00Z");
     EXPECT_EQ(again("north", "2005-08-22T04:00:00Z"),
               "no site has a volume within 15 minutes of 2005-08-22T04:00:00Z");
 }

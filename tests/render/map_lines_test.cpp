@@ -8,7 +8,7 @@
 
 #include "base/floating_point.h"
 #include "render/image/shades.h"
-#include "render/map/map_marks.h"
+#include "render/map/draw_marks.h"
 #include "stormcellar/grid/projection.h"
 #include "tests/render/synthetic_storm.h"
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "render/image/shades.h"
+#include "render/map/draw_marks.h"
 #include "render/map/map_ground.h"
 #include "stormcellar/base/station_table.h"
 #include "tests/render/small_map.h"

@@ -82,12 +82,5 @@ TEST(ReplayPieces, RecordsAreSeenBehindAHeaderOrAtTheStart) {
     EXPECT_FALSE(has_ldm_records({}));
 }
 
-TEST(ReplayPieces, GzipIsPeeledAndNothingElse) {
-    const wire::Bytes record = wire::ldm_record(wire::radial_messages(1, 2));
-    EXPECT_EQ(without_gzip(wire::gzip(record)), record);
-    EXPECT_EQ(without_gzip(record), record);
-    EXPECT_THAT(without_gzip({}), SizeIs(0));
-}
-
 }  // namespace
 }  // namespace stormcellar::synth

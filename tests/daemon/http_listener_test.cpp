@@ -1,4 +1,4 @@
-#include "daemon/config/loopback_host.h"
+#include "daemon/status/http_listener.h"
 
 #include <string_view>
 

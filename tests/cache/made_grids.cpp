@@ -1,17 +1,19 @@
-#include "tests/cache/sized_grid.h"
+#include "tests/cache/made_grids.h"
 
 #include <array>
+#include <limits>
 
 namespace stormcellar::testing {
 namespace {
 
-grid::Grid dense(int stored) {
+// About KBGM, with all that both kinds of grids say of themselves; no cell is seen.
+grid::Grid blank_grid(int nx, int ny, int levels) {
     grid::Grid made;
     made.spec.center_latitude_deg = 42.2;
     made.spec.center_longitude_deg = -75.98;
-    made.spec.nx = grid::brick_edge * most_bricks;
-    made.spec.ny = grid::brick_edge;
-    for (int level = 1; level <= grid::brick_edge; ++level)
+    made.spec.nx = nx;
+    made.spec.ny = ny;
+    for (int level = 1; level <= levels; ++level)
         made.spec.levels_m.push_back(500.0 * level);
     made.sites = {{"KBGM", 42.19969, -75.98472, 519.1}};
     made.provenance.source_files = {"KBGM20050822_024414.gz"};
@@ -21,6 +23,13 @@ grid::Grid dense(int stored) {
     made.provenance.averaging = "dBZ";
     made.provenance.software_version = "test";
     made.values.assign(made.spec.cell_count(), 0.0F);
+    made.status.assign(made.spec.cell_count(), grid::CellStatus::not_seen);
+    return made;
+}
+
+grid::Grid dense(int stored) {
+    grid::Grid made =
+        blank_grid(grid::brick_edge * most_bricks, grid::brick_edge, grid::brick_edge);
     made.status.assign(made.spec.cell_count(), grid::CellStatus::no_echo);
     constexpr std::array<int, most_bricks> order = {0, 2, 4, 6, 1, 3, 5, 7};
     for (int i = 0; i < stored; ++i) {
@@ -53,6 +62,48 @@ const Made& made(int stored) {
 }
 
 }  // namespace
+
+grid::Grid small_grid() {
+    using grid::CellStatus;
+    grid::Grid made = blank_grid(40, 24, 18);
+    made.time = *parse_utc("2005-08-22T02:44:14.123Z", UtcTime{});
+    made.start_time = made.time;
+    made.end_time = made.time + std::chrono::minutes{5};
+    made.provenance.effects = "frame: WGS84 table";
+    made.provenance.predicted_error = "position 714 m";
+    made.provenance.vcp = 21;
+    made.provenance.partial = true;
+    made.provenance.notes = {"a note"};
+    made.provenance.radar_troubles = {"KBGM: standby, alarm 452", "KOKX: on auxiliary power"};
+    made.provenance.provisional = true;
+    made.provenance.revision = 3;
+    made.provenance.parts = {{"KBGM", made.time, 0x123456789ABCDEF0, {0, 16, 40, 8}},
+                             {"KOKX", made.time + std::chrono::minutes{5}, 7, {16, 0, 24, 24}}};
+    made.provenance.recipe = 0xFEDCBA9876543210;
+    made.provenance.sweeps = {{0.5, made.start_time, 12.25, 18.5},
+                              {1.5, made.start_time + std::chrono::seconds{25}, 300, 0}};
+    made.provenance.audit = {
+        {0.48F, 0, 60e3F, 1000, 950, 400, 1.25F, -0.0625F},
+        {0.48F, 240e3F, std::numeric_limits<float>::infinity(), 7, 0, 0, 0, 0},
+    };
+    for (int iy = 0; iy < made.spec.ny; ++iy) {
+        for (int ix = 0; ix < made.spec.nx; ++ix) {
+            for (int iz = 0; iz < made.spec.nz(); ++iz) {
+                const std::size_t at = made.spec.index(ix, iy, iz);
+                const bool stored_brick = ix < 16 && iy < 16 && iz < 16;
+                if (stored_brick && (ix + iy + iz) % 3 == 0) {
+                    made.status[at] = CellStatus::value;
+                    made.values[at] = static_cast<float>(ix + iy) - 3.2F;
+                } else if (stored_brick && (ix + iy + iz) % 3 == 1) {
+                    made.status[at] = CellStatus::range_folded;
+                } else if (ix < 32 && iz > 2) {
+                    made.status[at] = CellStatus::no_echo;
+                }
+            }
+        }
+    }
+    return made;
+}
 
 const grid::BrickGrid& sized_grid(int stored) {
     return made(stored).bricks;

@@ -1,9 +1,10 @@
+#include "render/map/draw_marks.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/degree.h"
 #include "render/image/shades.h"
-#include "render/map/map_marks.h"
 
 namespace stormcellar::render {
 namespace {

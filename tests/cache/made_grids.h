@@ -1,12 +1,19 @@
-// tests/cache/sized_grid.h -- small grids of several sizes on disk, made once.
+// tests/cache/made_grids.h -- small grids for files and stores.
 #pragma once
 
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid.h"
 
 namespace stormcellar::testing {
 
+// A grid with every kind of brick, small enough to damage byte by byte: 40 x 24 x 18 cells, 3 x 2 x
+// 2 bricks. Values, folded, no echo and not seen cells; some bricks are uniform, some hold states
+// alone, some are stored.
+[[nodiscard]] grid::Grid small_grid();
+
+// Grids of several sizes on disk, made once.
 inline constexpr int most_bricks = 8;
 
 inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});

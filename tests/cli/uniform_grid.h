@@ -1,0 +1,31 @@
+// tests/cli/uniform_grid.h -- grids about KBGM that show one value everywhere, for commands to
+// draw.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/brick_grid.h"
+
+namespace stormcellar::testing {
+
+// `cells` rows and columns; the time as in names of files, "20050822_024400".
+inline grid::Grid uniform_grid(const std::string& compact_time, float dbz, int cells = 40) {
+    grid::Grid grid;
+    grid.spec = grid::default_spec(42.2, -75.98);
+    grid.spec.nx = grid.spec.ny = cells;
+    grid.time = parse_compact(compact_time).value();
+    grid.sites = {{"KBGM", 42.2, -75.98, 490}};
+    grid.values.assign(grid.spec.cell_count(), dbz);
+    grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
+    return grid;
+}
+
+inline Result<std::filesystem::path> commit_grid(cache::StoreWriter& store,
+                                                 const grid::Grid& grid) {
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+    return store.commit("KBGM", cache::describe(grid), bricks.view());
+}
+
+}  // namespace stormcellar::testing
