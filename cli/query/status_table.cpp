@@ -118,34 +118,35 @@ std::string wait_of(const json& pending) {
 // Returns the number of those that failed, if there are any.
 std::string retrying_of(const json& pending) {
     const auto retrying = count(pending, "retrying");
-    return retrying == 0 ? std::string{} : fmt::format(", {} retrying", retrying);
+    return retrying == 0 ? std::string{} : fmt::format(", {} to be tried again", retrying);
 }
 
 std::string lone_chunks_line(const json& status) {
     const auto files = count(status, "lone_chunks");
     if (files == 0) return {};
     return fmt::format(
-        "chunks   {} {} like one chunk of a volume; chunks are put together only if their names "
-        "have YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key\n",
+        "chunks   {} {} like one chunk of a volume; chunks are joined only if their names hold "
+        "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key\n",
         counted(files, "file"), files == 1 ? "looks" : "look");
 }
 
 std::string not_kept_of(const json& status) {
     const auto files = count(status, "not_kept");
-    return files == 0 ? std::string{} : fmt::format(", {} not kept by the cache's limits", files);
+    return files == 0 ? std::string{}
+                      : fmt::format(", {} not kept because of the cache's limits", files);
 }
 
 std::string counts_lines(const json& status) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
-        "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's events, {}\n",
+        "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's event queue, {}\n",
         count(pending, "waiting"), wait_of(pending), count(pending, "running"),
         count(pending, "growing"), retrying_of(pending),
         counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
     for (const json& file : at(pending, "waiting_files")) {
         lines += fmt::format(
-            "waits    {}: its volume has no end yet; it is gridded as it is in {:.0f} s, unless "
-            "more comes\n",
+            "waits    {}: its volume has not ended; it is gridded with what it has in {:.0f} s, "
+            "unless more comes\n",
             text(file, "file"), number(file, "left_s").value_or(0));
     }
     lines += fmt::format(
@@ -208,7 +209,7 @@ std::vector<const json*> sorted_stations(const json& status) {
 }
 
 std::string stations_table(const std::vector<const json*>& stations, UtcTime now) {
-    if (stations.empty()) return "no station yet\n";
+    if (stations.empty()) return "no station has data yet\n";
     std::vector<Row> rows = {{"station", "volume", "cached", "data", "p50", "p95", "max",
                               "sweep p50", "sweep p95", "sweep max", "antenna p50", "antenna p95",
                               "gridded", "partial", "rejected", "missing"}};
@@ -254,7 +255,7 @@ std::string rejected_lines(const json& status) {
     const json& files = at(status, "rejected_files");
     if (!files.is_array() || files.empty()) return "";
     const std::size_t shown = std::min(files.size(), most_rejected_shown);
-    std::string lines = fmt::format("last rejected:\n");
+    std::string lines = fmt::format("rejected last:\n");
     for (std::size_t i = files.size() - shown; i < files.size(); ++i) {
         lines += fmt::format("  {}  {}: {} ({})\n", text(files[i], "at"), text(files[i], "file"),
                              text(files[i], "by"), text(files[i], "reason"));
@@ -315,7 +316,8 @@ std::string status_table(const json& status, UtcTime now) {
     page += cache_line(status) + counts_lines(status) + loops_line(status) + "\n";
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)
-        page += fmt::format("and {} of stations that are not listed\n", counted(more, "file"));
+        page += fmt::format("and {} of further stations, which the daemon does not list\n",
+                            counted(more, "file"));
     return page + missing_lines(stations) + rejected_lines(status) + loops_table(status, now);
 }
 

@@ -110,7 +110,8 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "stormcellard 1.2 (process 17): running, started 2022-03-17T00:00:00Z, 20 min ago\n"
         "drop     /d: 3 directories\n"
         "cache    /c: 120 grids, 500 MB of 1.00 GB (50 %), 2 pinned; 7 evicted (7.00 kB)\n"
-        "queue    4 waiting, 2 running, 1 growing; 1 overflow of the kernel's events, 5 scans\n"
+        "queue    4 waiting, 2 running, 1 growing; 1 overflow of the kernel's event queue, 5 "
+        "scans\n"
         "files    24 gridded (2 partial), 3 rejected (2 corrupt, 1 empty), 0 with nothing to "
         "grid, 0 failures\n"
         "close to cache    p50 85 ms, p95 120 ms, max 2.5 s (9 files)\n"
@@ -126,7 +127,7 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "KTLX     11 min    10 s  5.0 s  85 ms  120 ms  2.5 s     200 ms     500 ms      2.0 s  "
         "       21 s         30 s       12        1         2       70\n"
         "missing chunks of KTLX, volume 2022-03-17T00:08:42Z: 3, 9, ...\n"
-        "last rejected:\n"
+        "rejected last:\n"
         "  2022-03-17T00:01:00Z  /d/x: corrupt (why)\n"
         "\n"
         "loop    running  last made  frames  made  restarts\n"
@@ -143,7 +144,7 @@ TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
     EXPECT_EQ(status_table(status, now).find(gone), std::string::npos);
     EXPECT_NE(status_table(status, now).find("; run by process 18: stopped\n"), std::string::npos);
     status.erase("loops_service");
-    EXPECT_EQ(status_table(status, now).find("process keeps"), std::string::npos);
+    EXPECT_EQ(status_table(status, now).find("process runs them"), std::string::npos);
     status["loops"]["elsewhere"] = true;
     EXPECT_NE(status_table(status, now).find("; no process runs them\n"), std::string::npos);
 }
