@@ -30,7 +30,6 @@
 #include "bench/request.h"
 #include "bench/table.h"
 #include "bunzip/bunzip.h"
-#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/floating_point.h"
 #include "base/parallel.h"
 #include "grid/place/site_extent.h"
 #include "grid/sweep/sweep_stack.h"

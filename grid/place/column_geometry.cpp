@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/floating_point.h"
 #include "grid/frame/sphere_frame.h"
 #include "grid/place/frame_table.h"
 #include "grid/place/site_extent.h"
