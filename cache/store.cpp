@@ -115,7 +115,7 @@ Result<fs::path> StoreReader::path_of(const std::string& domain, level2::Moment 
     }
     if (!is_possible(time)) {
         return fail(ErrorCode::bad_argument,
-                    "a grid of {}: its time is beyond the years 1970 to 9999", domain);
+                    "a grid of {}: its time is outside the years 1970 to 9999", domain);
     }
     return directory() / relative_path(GridName{domain, moment, time});
 }

@@ -68,7 +68,8 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
     }
     if (id == application_id && version > schema_version) {
         return fail(ErrorCode::unsupported,
-                    "{}: was made by a later version of this software (schema {}, known up to {})",
+                    "{}: was made by a later version of this software (schema {}; this version "
+                    "knows up to {})",
                     path.native(), version, schema_version);
     }
     if (!ours || id != application_id || version != schema_version) {
@@ -123,7 +124,7 @@ auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{}
             }
         }
     }
-    return fail(ErrorCode::internal, "{}: could not be opened", path.native());
+    return fail(ErrorCode::internal, "{}: cannot be opened", path.native());
 }
 
 }  // namespace

@@ -125,27 +125,28 @@ std::string lone_chunks_line(const json& status) {
     const auto files = count(status, "lone_chunks");
     if (files == 0) return {};
     return fmt::format(
-        "chunks   {} {} like one chunk of a volume; to be put together, chunks need names with "
+        "chunks   {} {} like one chunk of a volume; chunks are joined only if their names hold "
         "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key\n",
         counted(files, "file"), files == 1 ? "looks" : "look");
 }
 
 std::string not_kept_of(const json& status) {
     const auto files = count(status, "not_kept");
-    return files == 0 ? std::string{} : fmt::format(", {} not kept by the cache's limits", files);
+    return files == 0 ? std::string{}
+                      : fmt::format(", {} not kept because of the cache's limits", files);
 }
 
 std::string counts_lines(const json& status) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
-        "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's events, {}\n",
+        "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's event queue, {}\n",
         count(pending, "waiting"), wait_of(pending), count(pending, "running"),
         count(pending, "growing"), retrying_of(pending),
         counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
     for (const json& file : at(pending, "waiting_files")) {
         lines += fmt::format(
-            "waits    {}: its volume has no end yet; taken in as it is in {:.0f} s, unless more "
-            "comes\n",
+            "waits    {}: its volume has not ended; it is gridded with what it has in {:.0f} s, "
+            "unless more comes\n",
             text(file, "file"), number(file, "left_s").value_or(0));
     }
     lines += fmt::format(
@@ -208,7 +209,7 @@ std::vector<const json*> sorted_stations(const json& status) {
 }
 
 std::string stations_table(const std::vector<const json*>& stations, UtcTime now) {
-    if (stations.empty()) return "no station yet\n";
+    if (stations.empty()) return "no station has data yet\n";
     std::vector<Row> rows = {{"station", "volume", "cached", "data", "p50", "p95", "max",
                               "sweep p50", "sweep p95", "sweep max", "antenna p50", "antenna p95",
                               "gridded", "partial", "rejected", "missing"}};
@@ -262,20 +263,20 @@ std::string rejected_lines(const json& status) {
     return lines;
 }
 
-// "; kept by process 17: running": where it is not the daemon itself.
+// "; run by process 17: running", if another process than the daemon runs the loops.
 std::string loops_keeper(const json& status) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {
         const json& elsewhere = at(at(status, "loops"), "elsewhere");
-        return elsewhere.is_boolean() && elsewhere.get<bool>() ? "; no process keeps them" : "";
+        return elsewhere.is_boolean() && elsewhere.get<bool>() ? "; no process runs them" : "";
     }
     const json& alive = at(service, "alive");
     const bool is_alive = alive.is_boolean() && alive.get<bool>();
     if (text(service, "state") == "stopped" || is_alive) {
-        return fmt::format("; kept by process {}: {}", count(service, "pid"),
+        return fmt::format("; run by process {}: {}", count(service, "pid"),
                            text(service, "state"));
     }
-    return fmt::format("; process {}, which kept them, is gone", count(service, "pid"));
+    return fmt::format("; process {}, which ran them, is gone", count(service, "pid"));
 }
 
 std::string loops_line(const json& status) {
@@ -315,7 +316,8 @@ std::string status_table(const json& status, UtcTime now) {
     page += cache_line(status) + counts_lines(status) + loops_line(status) + "\n";
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)
-        page += fmt::format("and {} of stations beyond these\n", counted(more, "file"));
+        page += fmt::format("and {} of further stations, which the daemon does not list\n",
+                            counted(more, "file"));
     return page + missing_lines(stations) + rejected_lines(status) + loops_table(status, now);
 }
 

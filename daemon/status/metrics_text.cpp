@@ -23,13 +23,14 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.family("stormcellar_build_info", Type::gauge, "Always 1; the version is a label.");
     out.sample(std::uint64_t{1}, {{"version", software_version}});
     out.family("stormcellar_start_time_seconds", Type::gauge,
-               "When the daemon was started, seconds since 1970.");
+               "When the daemon started, in seconds since 1970.");
     out.sample(seconds_since_epoch(facts.started));
-    out.family("stormcellar_state", Type::gauge, "1 for the state that the daemon is in.");
+    out.family("stormcellar_state", Type::gauge, "1 for the current state of the daemon.");
     for (const std::string_view state : {"starting", "running", "stopping", "stopped"})
         out.sample(std::uint64_t{facts.state == state ? 1U : 0U}, {{"state", state}});
-    out.family("stormcellar_queue_files", Type::gauge,
-               "Files that wait, are being taken in, still grow, or failed and are tried again.");
+    out.family(
+        "stormcellar_queue_files", Type::gauge,
+        "Files that wait, are being ingested, still grow, or failed and will be tried again.");
     out.sample(std::uint64_t{pending.waiting}, {{"state", "waiting"}});
     out.sample(std::uint64_t{pending.running}, {{"state", "running"}});
     out.sample(std::uint64_t{pending.growing}, {{"state", "growing"}});
@@ -38,29 +39,30 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
                "Databases of stations that cannot be used now.");
     out.sample(std::uint64_t{facts.catalog.troubles.size()});
     out.family("stormcellar_longest_wait_seconds", Type::gauge,
-               "How long the file that has waited for longest has been able to run.");
+               "How long the first file of the queue has waited.");
     out.sample(facts.longest_wait_s);
     out.family("stormcellar_living_left_out_total", Type::counter,
-               "Living grids that were left out because whole volumes waited.");
+               "Living grids that were not made because whole volumes waited.");
     out.sample(facts.living_left_out);
     out.family("stormcellar_growing_given_up_total", Type::counter,
-               "Growing volumes that made room for others and are read again.");
+               "Growing volumes that were given up to make room and are read again.");
     out.sample(facts.given_up);
     out.family("stormcellar_event_overflows_total", Type::counter,
                "How often the kernel dropped directory events.");
     out.sample(facts.overflows);
-    out.family("stormcellar_unseen_entries_total", Type::counter,
-               "How often something could not be looked at for want of descriptors or memory.");
+    out.family(
+        "stormcellar_unseen_entries_total", Type::counter,
+        "How often a file or directory could not be examined for want of descriptors or memory.");
     out.sample(facts.unseen);
     out.family("stormcellar_scans_total", Type::counter, "Scans of the whole drop directory.");
     out.sample(facts.scans);
     out.family("stormcellar_watched_directories", Type::gauge,
-               "Directories of the drop directory that are watched.");
+               "Directories in the drop directory that are watched.");
     out.sample(std::uint64_t{facts.directories});
 }
 
 void write_files(MetricsWriter& out, const StatusFacts& facts) {
-    out.family("stormcellar_files_total", Type::counter, "Files looked at, by what came of them.");
+    out.family("stormcellar_files_total", Type::counter, "Files that were ingested, by result.");
     for (const IngestResult result : all_results)
         out.sample(facts.results.at(index_of(result)), {{"result", name_of(result)}});
     out.family("stormcellar_partial_volumes_total", Type::counter,
@@ -70,27 +72,28 @@ void write_files(MetricsWriter& out, const StatusFacts& facts) {
                "Single-site grids put into the cache.");
     out.sample(facts.grids);
     out.family("stormcellar_living_grids_total", Type::counter,
-               "Grids of volumes that had not ended, each time that a sweep entered one.");
+               "Living grids, one for each time that sweeps entered the grid of a growing volume.");
     out.sample(facts.living);
     out.family("stormcellar_rejected_files_total", Type::counter,
-               "Files that could not be decoded, read or gridded, by what was wrong.");
+               "Files that could not be read, decoded or gridded, by reason.");
     for (const ErrorCode code : all_error_codes)
         out.sample(facts.rejected.at(index_of(code)), {{"reason", name_of(code)}});
     out.family("stormcellar_store_failures_total", Type::counter,
-               "Attempts that failed because catalog or cache could not be written.");
+               "Attempts that failed because the catalog or the cache could not be written.");
     for (const ErrorCode code : all_error_codes)
         out.sample(facts.failed.at(index_of(code)), {{"reason", name_of(code)}});
-    out.family("stormcellar_close_to_cache_seconds", Type::summary,
-               "From the close of a file to its grids in the cache, over the last 4096 files.");
+    out.family(
+        "stormcellar_close_to_cache_seconds", Type::summary,
+        "Time from the close of a file to its grids in the cache, over the last 4096 files.");
     out.sample(facts.close_to_cache);
     out.family("stormcellar_close_to_living_seconds", Type::summary,
-               "From the close with which a sweep was complete to the grid that shows it.");
+               "Time from the close that completed a sweep to the grid that shows it.");
     out.sample(facts.close_to_living);
     out.family("stormcellar_antenna_to_cache_seconds", Type::summary,
-               "From a volume's newest radial to its grids in the cache, of live data.");
+               "Time from a volume's newest radial to its grids in the cache, for live data.");
     out.sample(facts.antenna_to_cache);
     out.family("stormcellar_not_live_volumes_total", Type::counter,
-               "Volumes over an hour old when they were gridded, as of replayed data.");
+               "Volumes over an hour old when they were gridded, such as replayed data.");
     out.sample(facts.not_live);
 }
 
@@ -101,19 +104,19 @@ void write_cache(MetricsWriter& out, const StatusFacts& facts) {
         out.family(name, type, help);
         out.sample(value);
     };
-    one("stormcellar_cache_bytes", Type::gauge, "What the cache takes on disk.", usage.bytes);
+    one("stormcellar_cache_bytes", Type::gauge, "Bytes that the cache takes on disk.", usage.bytes);
     if (usage.budget_bytes) {
-        one("stormcellar_cache_budget_bytes", Type::gauge, "What the cache may take on disk.",
+        one("stormcellar_cache_budget_bytes", Type::gauge, "Bytes that the cache may take on disk.",
             *usage.budget_bytes);
     }
     one("stormcellar_cache_grids", Type::gauge, "Grids in the cache.", usage.grids);
-    one("stormcellar_cache_pinned_grids", Type::gauge, "Of these pinned.", usage.pinned);
-    one("stormcellar_cache_evicted_grids_total", Type::counter, "Grids that went to make room.",
-        usage.evicted);
-    one("stormcellar_cache_evicted_bytes_total", Type::counter, "Bytes that went to make room.",
-        usage.evicted_bytes);
+    one("stormcellar_cache_pinned_grids", Type::gauge, "Pinned grids in the cache.", usage.pinned);
+    one("stormcellar_cache_evicted_grids_total", Type::counter,
+        "Grids that were evicted to make room.", usage.evicted);
+    one("stormcellar_cache_evicted_bytes_total", Type::counter,
+        "Bytes that were evicted to make room.", usage.evicted_bytes);
     one("stormcellar_cache_not_kept_grids_total", Type::counter,
-        "Grids that were not made or kept, being older than what the budgets keep.",
+        "Grids that were not kept because they are older than all that the limits keep.",
         usage.not_kept);
 }
 
@@ -156,8 +159,7 @@ class PerStation {
 
 void write_station_files(MetricsWriter& out, PerStation& each) {
     each.write(
-        "stormcellar_station_files_total", Type::counter,
-        "Files of the station, by what came of them.",
+        "stormcellar_station_files_total", Type::counter, "Files of the station, by result.",
         [&](const std::string& station, const StationState& state) {
             for (const IngestResult result : {IngestResult::gridded, IngestResult::no_moment,
                                               IngestResult::no_position, IngestResult::rejected}) {
@@ -178,59 +180,60 @@ UtcTime last_data(const StatusFacts& facts) {
 
 void write_stations(MetricsWriter& out, const StatusFacts& facts, UtcTime now) {
     const StationBook& book = facts.stations;
-    out.family("stormcellar_stations", Type::gauge, "Stations of which something is known.");
+    out.family("stormcellar_stations", Type::gauge, "Stations that the daemon knows something of.");
     out.sample(std::uint64_t{book.stations().size()});
     out.family("stormcellar_stations_left_out_total", Type::counter,
-               "Files and chunks of stations beyond those that are remembered.");
+               "Files and chunks of stations beyond those that the daemon remembers.");
     out.sample(book.left_out());
-    out.family("stormcellar_last_data_age_seconds", Type::gauge,
-               "Since a file or a piece of one of any station was last looked at, or since the "
-               "start where none has been.");
+    out.family(
+        "stormcellar_last_data_age_seconds", Type::gauge,
+        "Time since the daemon last looked at a file or chunk of any station, or since its start.");
     out.sample(seconds_between(last_data(facts), now));
     PerStation each(out, book);
     each.age("stormcellar_station_last_volume_age_seconds",
-             "Since the start of the newest volume that was gridded, by the radar's clock.",
+             "Time since the start of the newest gridded volume, by the radar's clock.",
              &StationState::volume_time, now);
     each.age("stormcellar_station_last_radial_age_seconds",
-             "Since the newest radial that was gridded, by the radar's clock.",
+             "Time since the newest gridded radial, by the radar's clock.",
              &StationState::newest_radial, now);
-    each.age("stormcellar_station_last_ingest_age_seconds", "Since a volume was last gridded.",
+    each.age("stormcellar_station_last_ingest_age_seconds", "Time since a volume was last gridded.",
              &StationState::ingested_at, now);
     each.age("stormcellar_station_last_data_age_seconds",
-             "Since a file or a piece of one was last looked at.", &StationState::data_at, now);
+             "Time since the daemon last looked at a file or chunk of the station.",
+             &StationState::data_at, now);
     write_station_files(out, each);
     each.count("stormcellar_station_partial_volumes_total",
                "Gridded files of the station whose volume had not ended or was damaged.",
                &StationState::partial);
     each.count("stormcellar_station_missing_chunks_total",
-               "Chunks of the station's volumes that never came.", &StationState::missing_chunks);
+               "Missing chunks of the station's volumes.", &StationState::missing_chunks);
     each.count("stormcellar_station_not_live_volumes_total",
                "Volumes of the station over an hour old when they were gridded.",
                &StationState::not_live);
-    each.timings("stormcellar_station_close_to_cache_seconds",
-                 "From the close of a file to its grids in the cache, over the last 128 files.",
-                 &StationState::close_to_cache);
-    each.count("stormcellar_station_living_grids_total",
-               "Grids of the station's volumes that had not ended, each time.",
+    each.timings(
+        "stormcellar_station_close_to_cache_seconds",
+        "Time from the close of a file to its grids in the cache, over the last 128 files.",
+        &StationState::close_to_cache);
+    each.count("stormcellar_station_living_grids_total", "Living grids of the station.",
                &StationState::living);
     each.timings("stormcellar_station_close_to_living_seconds",
-                 "From the close with which a sweep was complete to the grid that shows it.",
+                 "Time from the close that completed a sweep to the grid that shows it.",
                  &StationState::close_to_living);
     each.timings("stormcellar_station_antenna_to_cache_seconds",
-                 "From a volume's newest radial to its grids in the cache, of live data.",
+                 "Time from a volume's newest radial to its grids in the cache, for live data.",
                  &StationState::antenna_to_cache);
 }
 
 void write_sites(MetricsWriter& out, const StatusFacts& facts) {
     if (facts.sites.empty()) return;
     out.family("stormcellar_site_pair_faults", Type::gauge,
-               "Faults named when the two sites were last compared, of b against a.");
+               "Faults found when site b was last compared with site a.");
     for (const auto& [key, report] : facts.sites) {
         out.sample(std::uint64_t{report.faults.size()},
                    {{"domain", key[0]}, {"a", key[1]}, {"b", key[2]}});
     }
     out.family("stormcellar_site_pair_bias_db", Type::gauge,
-               "What b shows more than a, where it could be told.");
+               "How much more site b shows than site a, if it could be determined.");
     for (const auto& [key, report] : facts.sites) {
         if (!report.found.bias_db.untold.empty()) continue;
         out.sample(report.found.bias_db.value, {{"domain", key[0]}, {"a", key[1]}, {"b", key[2]}});
@@ -246,14 +249,15 @@ void write_loops(MetricsWriter& out, const StatusFacts& facts) {
         for (const LoopState& loop : loops)
             out.sample(value(loop), {{"loop", loop.name}});
     };
-    all("stormcellar_loop_running", Type::gauge, "1 while the loop's process runs.",
+    all("stormcellar_loop_running", Type::gauge, "1 while the process of the loop runs.",
         [](const LoopState& loop) { return std::uint64_t{loop.is_running ? 1U : 0U}; });
-    all("stormcellar_loop_restarts_total", Type::counter, "How often it was started again.",
+    all("stormcellar_loop_restarts_total", Type::counter,
+        "How often the process of the loop was started again.",
         [](const LoopState& loop) { return loop.restarts; });
     all("stormcellar_loop_made_total", Type::counter, "How often the loop was made.",
         [](const LoopState& loop) { return loop.made; });
     out.family("stormcellar_loop_last_made_seconds", Type::gauge,
-               "When the loop was last made, seconds since 1970.");
+               "When the loop was last made, in seconds since 1970.");
     for (const LoopState& loop : loops) {
         if (loop.last_made) out.sample(seconds_since_epoch(*loop.last_made), {{"loop", loop.name}});
     }

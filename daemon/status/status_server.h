@@ -65,7 +65,7 @@ class StatusServer {
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
     mutable std::mutex unanswered_mutex_;
-    std::string unanswered_ = "the status is not answered yet";  // guarded by it; empty: all are
+    std::string unanswered_ = "the status is not served yet";  // guarded by it; empty: all are
     Pulse pulse_;
     std::thread thread_;  // the last member: it uses what stands above
 };

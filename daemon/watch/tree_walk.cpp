@@ -34,7 +34,7 @@ std::string reason_of(int error_number) {
 }
 
 std::string too_deep(const std::filesystem::path& path) {
-    return fmt::format("{}: more than {} directories deep, left out", path.native(),
+    return fmt::format("{}: is more than {} directories deep, so it is not read", path.native(),
                        max_walk_depth);
 }
 
@@ -85,8 +85,8 @@ void walk_entry(int descriptor, const char* name, const std::filesystem::path& d
     }
     std::filesystem::path path = directory / name;
     if (path.native().size() >= most_path_bytes) {
-        problem.say(
-            fmt::format("holds paths of more than {} bytes, left out", most_path_bytes - 1));
+        problem.say(fmt::format("holds paths of more than {} bytes, which are not read",
+                                most_path_bytes - 1));
     } else if (S_ISREG(facts.st_mode)) {
         visitor.file(path, stamp_of(facts));
     } else if (S_ISDIR(facts.st_mode)) {

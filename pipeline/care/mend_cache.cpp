@@ -123,7 +123,7 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
     return MendedGrid{GridCondition::dropped,
                       found->error.message,
                       {},
-                      fmt::format("no {} of {} is configured any more",
+                      fmt::format("the configuration no longer has {} of {}",
                                   level2::moment_name(entry.moment), entry.domain)};
 }
 
@@ -149,7 +149,8 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     }
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
-    MendedGrid mended{GridCondition::dropped, damage.message, {}, "no raw file of it is left"};
+    MendedGrid mended{
+        GridCondition::dropped, damage.message, {}, "its raw file is gone or has changed"};
     if (!*raw) return mended;
     const auto outcome = make_from(**raw, station);
     if (!outcome && outcome.error().cause() == Cause::data) {
@@ -159,7 +160,7 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     if (!outcome) return pass_on(outcome);
     if (!holds(outcome->grids, entry.path) && !holds(outcome->partials, entry.path)) {
         mended.why_not = fmt::format(
-            "{} gives no such grid{}", (*raw)->native(),
+            "{} no longer gives this grid{}", (*raw)->native(),
             outcome->reason.empty() ? std::string{} : fmt::format(" ({})", outcome->reason));
         return mended;
     }
@@ -188,7 +189,7 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
     mended.condition = GridCondition::dropped;
-    mended.why_not = made ? "it is older than what the cache keeps" : made.error().message;
+    mended.why_not = made ? "it is older than all that the cache keeps" : made.error().message;
     if (!problems.empty()) mended.why_not += fmt::format(" (left out: {})", joined(problems));
     return mended;
 }

@@ -36,7 +36,7 @@ class TakeGone {
 
   private:
     static constexpr std::string_view deleted_text =
-        "the file that waited for its volume was deleted";
+        "the chunk that represented the volume was deleted";
     Result<IngestOutcome> finish(const ChunkPath& chunk, const ChunkVolumes::Shared& shared,
                                  ChunkVolume& volume);
 

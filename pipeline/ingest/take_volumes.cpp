@@ -25,7 +25,8 @@ bool has_moment(const level2::Volume& volume, level2::Moment moment) {
 
 // The row and the log say whose data stand among those of no known station.
 std::string of_other_station(const std::string& station, const std::string& reason) {
-    const std::string text = fmt::format("of {}, of which no data are taken in", station);
+    const std::string text =
+        fmt::format("is of {}, a station that [ingest] stations does not accept", station);
     return reason.empty() ? text : text + "; " + reason;
 }
 
@@ -39,7 +40,7 @@ bool is_lone_chunk(const level2::Decoded& decoded) {
 }
 
 constexpr std::string_view lone_chunk_text =
-    "looks like one chunk of a volume: chunks are put together where their names hold "
+    "looks like one chunk of a volume: chunks are joined only if their names hold "
     "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key";
 
 }  // namespace
@@ -49,8 +50,8 @@ Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial pa
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     if (volumes.size() > most_volumes) {
         return reject(ErrorCode::unsupported,
-                      fmt::format("holds {} volumes, and a raw file may hold {}", volumes.size(),
-                                  most_volumes));
+                      fmt::format("holds {} volumes, more than the {} that a raw file may hold",
+                                  volumes.size(), most_volumes));
     }
     describe(volumes);
     facts_.state = FileState::seen;
@@ -132,7 +133,7 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
             continue;
         }
         if (!volume.start_time()) {
-            return reject(ErrorCode::corrupt, "cannot be gridded: no time in it is plausible");
+            return reject(ErrorCode::corrupt, "cannot be gridded: it holds no plausible time");
         }
         if (const Status gridded = grid(volume); !gridded) {
             if (gridded.error().cause() != Cause::data) return pass_on(gridded);
@@ -179,11 +180,12 @@ Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     outcome_.mosaic_s += seconds_since(start);
     if (!kept) {
         if (kept.error().cause() != Cause::data) return pass_on(kept);
-        outcome_.reason = "in no mosaic: " + kept.error().message;
+        outcome_.reason = "cannot be added to a mosaic: " + kept.error().message;
         return {};
     }
     outcome_.partials.insert(outcome_.partials.end(), kept->partials.begin(), kept->partials.end());
-    if (!kept->problems.empty()) outcome_.reason = "left out: " + kept->problems.front();
+    if (!kept->problems.empty())
+        outcome_.reason = "left out of a mosaic: " + kept->problems.front();
     outcome_.frames.insert(outcome_.frames.end(), kept->frames.begin(), kept->frames.end());
     return {};
 }

@@ -27,8 +27,9 @@ Result<IngestOutcome> TakeWhole::take() {
     }
     if (stamp_.size_bytes > most) {
         return reject(
-            {ErrorCode::unsupported, fmt::format("{} bytes, and a raw file may have {}: not read",
-                                                 stamp_.size_bytes, most)});
+            {ErrorCode::unsupported,
+             fmt::format("has {} bytes, more than the {} that a raw file may have; it was not read",
+                         stamp_.size_bytes, most)});
     }
     return read();
 }
@@ -45,7 +46,7 @@ Result<IngestOutcome> TakeWhole::read() {
     outcome_.read_s = read.read_s;
     outcome_.decode_s = read.decode_s;
     const auto after = stamp_of(file_.path, context_.options.beneath);
-    if (!after || *after != stamp_) return wait("changed while it was read");
+    if (!after || *after != stamp_) return wait("the file changed while it was read");
     if (!read.was_read) return take_unread(read.was_read.error());
     facts_.content_hash = read.content_hash;
     if (file_.is_the_same) {

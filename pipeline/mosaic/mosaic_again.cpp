@@ -15,7 +15,7 @@ bool is_frame_time(UtcTime time, std::chrono::seconds interval) {
 }
 
 auto no_domain(const cache::GridName& frame) {
-    return fail(ErrorCode::not_found, "no domain {} of {} is configured", frame.domain,
+    return fail(ErrorCode::not_found, "the configuration has no domain {} of {}", frame.domain,
                 level2::moment_name(frame.moment));
 }
 
@@ -94,7 +94,7 @@ Result<FrameMade> MosaicMaker::make_again(const cache::GridName& frame, int thre
     const Domain* domain = find(frame.domain, frame.moment);
     if (domain == nullptr || store_ == nullptr) return no_domain(frame);
     if (!is_frame_time(frame.time, domain->interval)) {
-        return fail(ErrorCode::bad_argument, "{} has frames every {} s, and none at {}",
+        return fail(ErrorCode::bad_argument, "{} has frames every {} s, so none at {}",
                     domain->name, domain->interval.count(), format_utc(frame.time));
     }
     const std::scoped_lock lock(frames_of(domain->name, frame.moment));

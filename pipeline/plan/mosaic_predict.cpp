@@ -246,8 +246,8 @@ Status predict(MosaicScene& scene, const grid::PlanOptions& options, accuracy::C
     const level2::Moment moment = scene.options().partial.gridder.moment;
     if (level2::is_circular(moment)) {
         return fail(ErrorCode::bad_argument,
-                    "no plan is made for {} of several volumes: its values lie on a circle, and "
-                    "each radar has its own",
+                    "a plan cannot be made for {} of several volumes: its values lie on a circle, "
+                    "and each radar has its own",
                     level2::moment_name(moment));
     }
     if (auto done = GriddingSizes(scene, options, chain).predict_into(chain); !done) return done;

@@ -248,7 +248,7 @@ TEST_F(QueryTest, AnUnknownStationIsNothingMatchedAndAMisspeltOneIsBadUsage) {
     EXPECT_EQ(run({"catalog", "get", "--station", "KXXX", "-o", out}).status, 3);
     const auto misspelt = run({"catalog", "list", "--station", "kbgm"});
     EXPECT_EQ(misspelt.status, 2);
-    EXPECT_NE(misspelt.err.find("'kbgm' is no station"), std::string::npos);
+    EXPECT_NE(misspelt.err.find("'kbgm' is not a station"), std::string::npos);
     const auto none = run({"cache", "list", "--domain", "KXXX", "--json"});
     EXPECT_EQ(none.status, 3);
     EXPECT_EQ(json::parse(none.out), json::array());

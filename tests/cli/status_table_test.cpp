@@ -110,14 +110,15 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "stormcellard 1.2 (process 17): running, started 2022-03-17T00:00:00Z, 20 min ago\n"
         "drop     /d: 3 directories\n"
         "cache    /c: 120 grids, 500 MB of 1.00 GB (50 %), 2 pinned; 7 evicted (7.00 kB)\n"
-        "queue    4 waiting, 2 running, 1 growing; 1 overflow of the kernel's events, 5 scans\n"
+        "queue    4 waiting, 2 running, 1 growing; 1 overflow of the kernel's event queue, 5 "
+        "scans\n"
         "files    24 gridded (2 partial), 3 rejected (2 corrupt, 1 empty), 0 with nothing to "
         "grid, 0 failures\n"
         "close to cache    p50 85 ms, p95 120 ms, max 2.5 s (9 files)\n"
         "close to sweep    p50 200 ms, p95 500 ms, max 2.0 s (180 living grids)\n"
         "antenna to cache  p50 21 s, p95 30 s, max 33 s (3 volumes; 6 more were over an hour "
         "old)\n"
-        "loops    1 of 1 running, 30 made, 2 restarts; kept by process 18: running\n"
+        "loops    1 of 1 running, 30 made, 2 restarts; run by process 18: running\n"
         "\n"
         "station  volume  cached   data    p50     p95    max  sweep p50  sweep p95  sweep max  "
         "antenna p50  antenna p95  gridded  partial  rejected  missing\n"
@@ -137,15 +138,15 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
 TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
     json status = {{"loops", {{"running", 1U}, {"each", {{{"name", "a"}, {"running", true}}}}}},
                    {"loops_service", {{"state", "running"}, {"pid", 18U}, {"alive", false}}}};
-    const std::string gone = "; process 18, which kept them, is gone\n";
+    const std::string gone = "; process 18, which ran them, is gone\n";
     EXPECT_NE(status_table(status, now).find(gone), std::string::npos);
     status["loops_service"]["state"] = "stopped";
     EXPECT_EQ(status_table(status, now).find(gone), std::string::npos);
-    EXPECT_NE(status_table(status, now).find("; kept by process 18: stopped\n"), std::string::npos);
+    EXPECT_NE(status_table(status, now).find("; run by process 18: stopped\n"), std::string::npos);
     status.erase("loops_service");
     EXPECT_EQ(status_table(status, now).find("process keeps"), std::string::npos);
     status["loops"]["elsewhere"] = true;
-    EXPECT_NE(status_table(status, now).find("; no process keeps them\n"), std::string::npos);
+    EXPECT_NE(status_table(status, now).find("; no process runs them\n"), std::string::npos);
 }
 
 TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {

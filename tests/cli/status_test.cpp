@@ -103,7 +103,7 @@ TEST(Status, TheDaemonStartsWithoutItsSocket) {
     RunningDaemon daemon;
     write_file(daemon.drop() / "junk", "no radar data");
     daemon.start("[status]\nsocket = \"none/status.sock\"\n");
-    EXPECT_TRUE(daemon.wait_for_log("the status cannot be asked for: ")) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("the status cannot be served: ")) << daemon.log();
     EXPECT_TRUE(daemon.wait_for_log("not ready: ")) << daemon.log();
     EXPECT_TRUE(daemon.wait_for_log("rejected ")) << daemon.log();
     EXPECT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "starting"; }));
@@ -225,7 +225,7 @@ TEST(StatusLoops, StandBesideWhatTheDaemonAnswers) {
                    [{"name": "plains", "running": true}]}})");
     const auto table = status({"--config", ingest.root() / "stormcellard.toml"});
     EXPECT_EQ(table.status, 0);
-    EXPECT_NE(table.out.find("; kept by process 1: running\n"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("; run by process 1: running\n"), std::string::npos) << table.out;
     EXPECT_NE(table.out.find("\nplains "), std::string::npos) << table.out;
     EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
 }

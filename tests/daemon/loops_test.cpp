@@ -91,7 +91,8 @@ TEST_F(Loops, ThatOneWaitsForItsFirstGridIsSaidOnce) {
 TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
     STORMCELLAR_NEED_DATA();
     daemon_.start(one_loop, {{"PATH", "/nowhere"}});
-    ASSERT_TRUE(daemon_.wait_for_log("loop binghamton: cannot be started: no program stormcellar"))
+    ASSERT_TRUE(
+        daemon_.wait_for_log("loop binghamton: cannot be started: there is no program stormcellar"))
         << daemon_.log();
     drop("KBGM20050822_024414.gz");
     EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 1; }));
@@ -187,7 +188,7 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
             "scene.toml: a section needs its two ends");
     refused(check("", "scene = \"scene.toml\"\noutputs = [\"a.webp\"]\n", path), "--domain");
     refused(check("", "domain = \"KBGM\"\noutputs = [\"a.xyz\"]\n", path), "unknown ending '.xyz'");
-    refused(check("", loop, "/nowhere"), "no program stormcellar");
+    refused(check("", loop, "/nowhere"), "there is no program stormcellar");
 }
 
 }  // namespace

@@ -249,9 +249,10 @@ TEST_F(MosaicKeeperTest, WhatCannotBeMadeAgainSaysWhy) {
             {domain, level2::Moment::ref, *parse_utc(time, UtcTime{})}, 1, problems);
         return made ? std::string{} : made.error().message;
     };
-    EXPECT_EQ(again("south", "2005-08-22T02:50:00Z"), "no domain south of REF is configured");
+    EXPECT_EQ(again("south", "2005-08-22T02:50:00Z"),
+              "the configuration has no domain south of REF");
     EXPECT_EQ(again("north", "2005-08-22T02:51:00Z"),
-              "north has frames every 300 s, and none at 2005-08-22T02:51:00Z");
+              "north has frames every 300 s, so none at 2005-08-22T02:51:00Z");
     EXPECT_EQ(again("north", "2005-08-22T04:00:00Z"),
               "no site has a volume within 15 minutes of 2005-08-22T04:00:00Z");
 }
