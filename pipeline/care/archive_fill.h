@@ -1,19 +1,20 @@
-// pipeline/care/archive_fill.h -- raw files of an archive -> grids in a cache, as the daemon makes
-// them.
+// pipeline/care/archive_fill.h -- makes grids in a cache from the raw files of an archive, as the
+// daemon makes them.
 //
-// The volumes are read, gridded and committed by the daemon's own chain (pipeline/ingest/ingest.h),
-// some at a time; of a domain the sites' partials first and then each frame once
-// (pipeline/mosaic/mosaic_maker.h). What stands in the cache already is taken as it is: a grid
-// made of this file as it now is, on this grid; a frame made of these partials by these rules. So a
-// second call goes on where the first one was ended, however that happened, for grids appear whole.
-// A file that is gone, or holds nothing that can be gridded, is named and left out. So is one that
-// is not the file that was cataloged (stormcellar/catalog/read_cataloged.h): another that took its
-// place, or a link in its path.
+// The daemon's own chain (pipeline/ingest/ingest.h) reads, grids and commits the volumes, several
+// at a time. For a domain it makes the partials of the sites first, and then each frame once
+// (pipeline/mosaic/mosaic_maker.h). A grid that is already in the cache is used if it was made from
+// this file, as it now is, on this grid; a frame is used if it was made from these partials by
+// these rules. Since grids appear only when they are whole, a second call continues where the first
+// one ended, however that happened. A file that is gone, or holds nothing that can be gridded, is
+// reported and left out. So is a file that is not the one that was cataloged
+// (stormcellar/catalog/read_cataloged.h), because another file took its place or a link is in its
+// path.
 //
-// The store should have been opened so that nobody else writes to it (RollingStore::open()).
-// Memory: as many decoded volumes as there are workers (at most most_workers), and their grids.
-// Thread contract: an ArchiveFill is for one thread; `progress` is called from its workers, one at
-// a time. `stop` may be set by any thread.
+// Open the store so that nobody else writes to it (RollingStore::open()). Memory: as many decoded
+// volumes as there are workers (at most most_workers), and their grids. Thread contract: use an
+// ArchiveFill from one thread. Its workers call `progress`, one at a time. Any thread may set
+// `stop`.
 #pragma once
 
 #include <atomic>
@@ -47,44 +48,45 @@ struct LeftOut {
 };
 
 struct FillReport {
-    std::size_t volumes = 0;                        // asked for
-    std::size_t grids_made = 0;                     // of volumes
-    std::size_t grids_found = 0;                    // stood in the cache
+    std::size_t volumes = 0;                        // requested
+    std::size_t grids_made = 0;                     // from volumes
+    std::size_t grids_found = 0;                    // already in the cache
     std::size_t frames_made = 0, frames_found = 0;  // of a domain
     std::vector<LeftOut> left_out;                  // by path
-    std::vector<LeftOut> notes;   // gridded, but something is worth saying, as that it is in part
-    std::vector<UtcTime> frames;  // of a domain: those that stand within the range, rising
+    std::vector<LeftOut>
+        notes;  // gridded, but worth a note, for example that the volume is incomplete
+    std::vector<UtcTime> frames;  // of a domain: the frames in the cache within the range, rising
 };
 
 using FillProgress = std::function<void(std::size_t done)>;
 
 class ArchiveFill {
   public:
-    // `catalog`: where the volumes were found. `scratch`: a directory for the chain's own catalog,
-    // which is made there. All must outlive it.
+    // `catalog` is where the volumes were found. The chain makes its own catalog in the directory
+    // `scratch`. All arguments must outlive the object.
     ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 std::filesystem::path scratch, ArchiveOptions options);
 
-    // The volumes of which no grid stands, to be made by fill().
+    // The volumes that have no grid yet; fill() makes these grids.
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
         const std::vector<ArchiveVolume>& volumes) const;
-    // Those of the instants that a volume is near enough to, and how many of them have no frame.
+    // The instants that are near enough to a volume, and how many of them have no frame.
     struct DueFrames {
         std::vector<UtcTime> instants;
         std::size_t missing = 0;
     };
     [[nodiscard]] Result<DueFrames> due(const std::vector<UtcTime>& instants,
                                         const std::vector<ArchiveVolume>& volumes) const;
-    // What their grids, and with a domain `frames` frames, take on disk: a guess on the safe side,
-    // two to four times what grids with little echo take.
+    // How much disk space the grids of these volumes take and, with a domain, `frames` frames: a
+    // safe estimate, two to four times what grids with little echo take.
     [[nodiscard]] std::uint64_t bytes_of(std::size_t volumes, std::size_t frames) const;
 
-    // Grids them. Errors: those that are not of the data (the cache or the scratch directory cannot
-    // be written, the disk is full). When `stop` is set no volume begins any more.
+    // Grids the volumes. Errors are those that the data do not cause (the cache or the scratch
+    // directory cannot be written, the disk is full). When `stop` is set, no further volume begins.
     [[nodiscard]] Status fill(const std::vector<ArchiveVolume>& missing,
                               const FillProgress& progress, const std::atomic<bool>& stop,
                               FillReport& report);
-    // The frames of the domain at these instants, as far as volumes stand about them.
+    // The frames of the domain at these instants, if there are volumes near enough.
     [[nodiscard]] Status make_frames(const std::vector<UtcTime>& instants,
                                      const FillProgress& progress, const std::atomic<bool>& stop,
                                      FillReport& report);

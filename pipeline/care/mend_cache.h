@@ -1,15 +1,16 @@
-// pipeline/care/mend_cache.h -- grids that are damaged or missing are made again.
+// pipeline/care/mend_cache.h -- makes damaged and missing grids again.
 //
-// A grid that another program cut or altered, or that the disk cannot give, is dropped and made
-// again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, where that is
-// still there as the catalog has it; a frame of a mosaic from its partials, as far as they stand.
+// If another program cut or altered a grid, or the disk cannot read it, the grid is removed and
+// made again. A site's own grid and a partial of a mosaic (NAME.ICAO) are made from the raw file if
+// it is still the one that was cataloged; a frame of a mosaic is made from the partials that are
+// there.
 //
-// Which missing grids are made again: those of the newest volumes (`newest` before the station's
-// latest, stamps of more than 10 minutes in the future not counted) that are newer than the oldest
-// grid which stands in their domain, or any of these when the domain holds none. So what was
-// evicted, oldest first, is never filled in again, and a cache that was wiped is. What could not be
-// made is not tried again while the object lives.
-// Thread contract: as the catalog, the store and the ingestor; one thread.
+// A missing grid is made again if its volume is one of the newest (at most `newest` before the
+// station's latest; time stamps more than 10 minutes in the future do not count), and if it is
+// newer than the oldest grid of its domain or the domain holds none. So a grid that was evicted
+// (the oldest go first) is not made again, and a cache that was emptied is filled. What could not
+// be made is not tried again while the object lives. Thread contract: use it from one thread; the
+// catalog, the store and the ingestor keep their own contracts.
 #pragma once
 
 #include <chrono>
@@ -28,25 +29,25 @@
 
 namespace stormcellar::pipeline {
 
-// A volume of which a grid is missing: the site's own, or partials of mosaics.
+// A volume that lacks a grid: the site's own grid, or partials of mosaics.
 struct MissingGrid {
     std::string station;
     UtcTime time;
-    std::filesystem::path raw;  // the best file of this volume: a whole one, then the newest
-    std::vector<cache::GridName> names;  // what is missing
+    std::filesystem::path raw;  // the best file of this volume: a complete one, then the newest
+    std::vector<cache::GridName> names;  // the missing grids
 };
 
 enum class GridCondition {
     sound,
-    made_again,  // was damaged; stands again
+    made_again,  // was damaged, and was made again
     dropped,     // was damaged, and cannot be made again
-    left_alone,  // cannot be judged: no permission, no descriptors, of a later version
+    left_alone,  // cannot be judged: no permission, no descriptors, or from a later version
 };
 struct MendedGrid {
     GridCondition condition = GridCondition::sound;
-    std::string reason;   // what is wrong; begins with the path
+    std::string reason;   // what is wrong, with the path first
     std::string from;     // made_again: the raw file, or "the partials of KBGM, KOKX"
-    std::string why_not;  // dropped: why it is not made again
+    std::string why_not;  // dropped: why it was not made again
 };
 
 enum class MendDepth {
@@ -56,7 +57,7 @@ enum class MendDepth {
 
 class CacheMender {
   public:
-    // All must outlive it. `moment` is what the ingestor grids.
+    // All arguments must outlive it. `moment` is the moment that the ingestor grids.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 Ingestor& ingestor, level2::Moment moment);
 
@@ -64,22 +65,23 @@ class CacheMender {
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
     // Newest first. Errors: the catalog or the cache cannot be read. A station whose own database
-    // or grids cannot be read is left out; that stands among the catalog's troubles. `step` is
-    // called after each station, for whoever watches that it moves on.
+    // or grids cannot be read is left out; the troubles of the catalog name it. `step` is called
+    // after each station, so that a watchdog sees progress.
     Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
                                              const std::function<void()>& step = {});
-    // Errors: corrupt where the raw file is not the one that was cataloged; those of
+    // Errors: corrupt if the raw file is not the one that was cataloged; those of
     // Ingestor::ingest_again().
     Result<IngestOutcome> make(const MissingGrid& grid);
 
-    // Frames of mosaics, newest first; after the partials. Errors: the cache cannot be read.
+    // Frames of mosaics, newest first; call it after the partials are made. Errors: the cache
+    // cannot be read.
     Result<std::vector<cache::GridName>> missing_frames(std::chrono::milliseconds newest);
-    // What they were made from, as MendedGrid has it; none: no partials are near it, or the budgets
-    // do not keep it.
+    // Returns what the frame was made from, as in MendedGrid; none if no partials are near it, or
+    // if the limits do not keep it.
     Result<std::optional<std::string>> make(const cache::GridName& frame);
 
   private:
-    // Of one kind of grid that a station's volumes have.
+    // One kind of grid that the volumes of a station have.
     struct Series {
         std::string domain;
         level2::Moment moment;

@@ -1,9 +1,9 @@
-// pipeline/drop/archive_volumes.h -- which raw files of a catalog a time range takes.
+// pipeline/drop/archive_volumes.h -- which raw files of a catalog belong to a time range.
 //
-// Of each station the volumes that overlap the range, and where frames are made between volumes
-// also the last one before it and the first one after it, as far as they are near enough to count.
-// A volume that was sent more than once is taken once: whole before in part, then the latest.
-// Thread contract: functions; the catalog is only read.
+// For each station these are the volumes that overlap the range. If frames are made between
+// volumes, they include the last volume before the range and the first one after it, if these are
+// near enough to count. A volume that was sent more than once is used once: a complete file before
+// an incomplete one, then the latest. Thread contract: functions that only read the catalog.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ struct ArchiveVolume {
     std::filesystem::path path;
     UtcTime start, end;
     std::uint64_t size_bytes = 0;  // of its file
-    bool gone = false;             // its owner deleted the raw file, by what the catalog knows
+    bool gone = false;             // the catalog knows that the raw file was deleted
 };
 
 struct ArchiveRange {
@@ -31,14 +31,14 @@ struct ArchiveRange {
     bool with_neighbours = false;  // also the volumes next to the range
 };
 
-// No volume is longer; so far before the range volumes are looked for.
+// No volume is longer. Volumes that begin this long before the range are considered.
 inline constexpr std::chrono::minutes longest_volume{20};
-// So far outside of the range a neighbour may lie.
+// A neighbor may be at most this far outside of the range.
 inline constexpr std::chrono::minutes farthest_neighbour{25};
 
-// By station, then start. Stations that the catalog does not know have none. Where several are
-// asked for, neither has one whose database cannot be read: the catalog's troubles() name it.
-// Errors: those of the catalog.
+// By station, then by start. A station that the catalog does not know has no volumes. If several
+// stations are asked for, a station whose database cannot be read has none either; the catalog's
+// troubles() name it. Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
     const ArchiveRange& range);

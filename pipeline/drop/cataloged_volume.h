@@ -1,9 +1,9 @@
 // pipeline/drop/cataloged_volume.h -- the raw bytes of a cataloged volume, in one piece.
 //
-// They come from one file, or from the chunks of the volume where it came as one file a chunk: then
-// the row found is that of the first, and what is joined is a volume's file. Each file must be the
-// one that was cataloged, by its own row (stormcellar/catalog/read_cataloged.h).
-// Thread contract: a function without state; the catalog is only read.
+// The bytes come from one file. If the volume came as one file a chunk, the row is that of the
+// first chunk, and the joined chunks make the file of a volume. Each file must be the one that its
+// own row in the catalog describes (stormcellar/catalog/read_cataloged.h). Thread contract: a
+// function without state that only reads the catalog.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ struct CatalogedVolume {
                                      // files that were growing and so were not compared
 };
 
-// Whether a volume came as one file a chunk.
+// Returns true if the volume came as one file a chunk.
 [[nodiscard]] bool is_of_chunks(const catalog::CatalogEntry& entry);
 
-// Of chunks: in the order of their numbers, of each number one, as far as they lie there. Those
-// without a row are left out. Errors: those of read_cataloged().
+// Joins the chunks that are there in the order of their numbers, one of each number. Chunks without
+// a row are left out. Errors: those of read_cataloged().
 [[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);
 

@@ -1,7 +1,8 @@
 // pipeline/drop/chunk_path.h -- which files are the chunks of one volume.
 //
-// The files of a directory whose names differ in the chunk's number and kind alone
-// (stormcellar/level2/chunk_name.h). Thread contract: functions read the directory, no state.
+// The chunks of a volume are the files of one directory whose names differ only in the chunk's
+// number and kind (stormcellar/level2/chunk_name.h). Thread contract: functions without state that
+// read the directory.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +15,11 @@
 
 namespace stormcellar::pipeline {
 
-// A path that is named as a chunk.
+// A path whose name is that of a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string prefix;  // of the names of all chunks of its volume
-    std::string key;     // the same for all chunks of its volume, and for no others
+    std::string prefix;  // shared by the names of all chunks of its volume
+    std::string key;     // the same for all chunks of its volume, different for all others
     level2::ChunkName name;
 
     [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);

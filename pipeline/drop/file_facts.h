@@ -1,6 +1,6 @@
 // pipeline/drop/file_facts.h -- what the catalog is told about a raw file and its volumes.
 //
-// Inside the pipeline room only. Nothing here opens the file.
+// Inside the pipeline room only. These functions do not open the file.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,32 @@
 
 namespace stormcellar::pipeline {
 
-// What tells two states of a file apart.
+// Distinguishes two states of a file.
 struct FileStamp {
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;
     bool regular = false;  // symbolic links are not followed, so they are not regular
-    mode_t kind = 0;       // S_IFMT's part of the mode
-    // When it came to stand here or was changed last, whatever its writer says of its time: by the
-    // clock on the wall. A new hard link counts, too, so it tells no two states apart.
+    mode_t kind = 0;       // the file type bits of the mode (S_IFMT)
+    // When the file got its name or was last changed, by the system's clock, whatever modification
+    // time its writer set. A new hard link changes it too, so it does not distinguish two states.
     std::int64_t changed_ns = 0;
     bool operator==(const FileStamp& other) const {
         return size_bytes == other.size_bytes && modified_ns == other.modified_ns &&
                regular == other.regular && kind == other.kind;
     }
 };
-// not_found when there is no such file below `beneath` (base/beneath.h), else permission or io.
+// not_found if there is no such file below `beneath` (base/beneath.h); otherwise permission or io.
 [[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path,
                                          const std::filesystem::path& beneath = {});
 
-// When a file was written, as it counts against other files of its volume: its own time, and no
-// later than now. What claims to be of the future would be the newest for good.
+// The time at which a file was written, for comparison with other files of its volume: its own
+// modification time, but no later than now. Otherwise a file that claims to be from the future
+// would be the newest for good.
 [[nodiscard]] std::int64_t believed_ns(std::int64_t modified_ns);
 
 [[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume, bool damaged);
 
-// The gravest problem in one line, with how many there are; empty when there are none that count.
+// The gravest problem in one line, with the number of problems; empty if none counts.
 [[nodiscard]] std::string reason_of(const level2::DecodeReport& report);
 
 }  // namespace stormcellar::pipeline

@@ -1,9 +1,9 @@
 // pipeline/drop/read_whole.h -- reads and decodes a raw file that does not grow.
 //
-// An ordinary file is read as a whole and decoded by several threads. A large one is decoded
-// stretch by stretch as it is read, so that its size costs no memory: the same volume, bit for bit
-// (stormcellar/level2/growing_volume.h), but for what that refuses.
-// Inside the pipeline room only. Thread contract: a function without state.
+// An ordinary file is read as a whole and decoded by several threads. A large file is decoded
+// stretch by stretch as it is read, so that its size costs no memory. Both ways give the same
+// volume, bit for bit, except where stormcellar/level2/growing_volume.h refuses the file. Inside
+// the pipeline room only. Thread contract: a function without state.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@
 
 namespace stormcellar::pipeline {
 
-// The largest volume known has 12 MB, uncompressed 75.
+// The largest known volume has 12 MB, or 75 MB uncompressed.
 inline constexpr std::uint64_t large_file_bytes = std::uint64_t{32} << 20;
 
 struct WholeFile {
-    // Of reading; errors: those of base/beneath.h, io where fewer bytes come than `size_bytes`.
+    // The result of reading. Errors: those of base/beneath.h, and io if fewer than `size_bytes`
+    // bytes come.
     Status was_read;
     std::uint64_t content_hash = 0;
-    // Of decoding what was read; errors: those of level2::decode().
+    // The result of decoding what was read. Errors: those of level2::decode().
     Result<level2::Decoded> decoded = fail(ErrorCode::empty, "nothing was read");
     double read_s = 0, decode_s = 0;
 };

@@ -1,6 +1,6 @@
-// pipeline/drop/station_place.h -- where a station of a catalog stands.
+// pipeline/drop/station_place.h -- the position of a cataloged station.
 //
-// Thread contract: a function without state; the catalog is only read.
+// Thread contract: a function without state that only reads the catalog.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace stormcellar::pipeline {
 
-// By the station table, else by what its newest raw files say that can still be read. None where
-// neither says it.
+// From the station table, or else from the newest raw files that can still be read. None if neither
+// gives it.
 [[nodiscard]] std::optional<grid::SitePosition> place_of_station(
     const catalog::CatalogReader& catalog, const std::string& icao);
 

@@ -1,21 +1,23 @@
-// pipeline/ingest/growing_set.h -- what grows and is followed, bounded for each station and in all.
+// pipeline/ingest/growing_set.h -- growing files or volumes that are followed, bounded for each
+// station and in all.
 //
-// Each thing that is followed holds a descriptor, memory, and room on disk, whatever its file
-// claims. So what it holds is counted at every stretch that is read, and where a bound is exceeded
-// some of the things are given up:
-//   a station's own bound   among its own
-//   the bound of all        of those that no known station claims first, then of any
-//   that of beginnings      of those of which no sweep has closed yet: a radar's volume is so for a
-//                           fifteenth of its time, and a sweep that never ends for ever
-// Of memory and disk the largest and least alive gives way: what it holds, times a weight that
-// grows by one for each minute in which nothing came of it. Of the number of things the least alive
-// of the station that has most.
-// A newcomer finds no place where only things stand that are alive: they have grown within the last
-// minute, or, where they have not shown yet that they go on (a sweep has closed, and more came than
-// what stood there at the first look), within the last five seconds. To give these
-// up for it, and it for the next one, would be to read all again and again. But at the bound of all
-// a station that has fewer takes a place of the one that has most.
-// Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
+// Each member holds a descriptor, memory and room on disk, whatever its file claims. So the set
+// counts what members hold at every stretch that is read, and gives up members when a bound is
+// exceeded:
+//   the bound of a station   among the station's own members
+//   the bound of all         among members of no known station first, then among all
+//   the bound of beginnings  among members without a closed sweep: a radar's volume is in that
+//   state
+//                            for a fifteenth of its time, a sweep that never ends for ever
+// For memory and disk, the member gives way whose size times its weight is largest. The weight
+// grows by one for each minute in which the member did not grow. For the number of members, the
+// member gives way that has not grown for longest, among those of the station that has most. A
+// newcomer finds no place if all members are alive. A member is alive if it grew within the last
+// minute. A member that has not yet shown that it goes on is alive for five seconds only; it shows
+// it by a closed sweep and by more data than at the first look. If the set gave up live members for
+// a newcomer, and the newcomer for the next one, everything would be read again and again. But at
+// the bound of all, a station with fewer members takes a place of the station with most. Inside the
+// pipeline room only. Thread contract: one thread at a time; the owner locks.
 #pragma once
 
 #include <algorithm>
@@ -31,17 +33,17 @@
 namespace stormcellar::pipeline {
 
 struct GrowingLimits {
-    std::size_t count = 320;  // each has a descriptor
+    std::size_t count = 320;  // each holds a descriptor
     std::uint64_t held_bytes = std::uint64_t{192} << 20;
     std::uint64_t beginnings_held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
-    // Of one station, and of all together that no known station claims. A site's volume holds some
-    // 3 MB of one moment, and two of its volumes may grow at once.
+    // For one station, and for all members together that no known station claims. A site's volume
+    // holds some 3 MB of one moment, and two of its volumes may grow at once.
     std::size_t station_count = 16;
     std::uint64_t station_held_bytes = std::uint64_t{16} << 20;
     std::uint64_t station_shelf_bytes = std::uint64_t{512} << 20;
 
-    // Of so many moments. 160 sites hold about a megabyte of each.
+    // For this many moments. 160 sites hold about a megabyte each.
     [[nodiscard]] static GrowingLimits of(std::size_t moments) {
         GrowingLimits limits;
         limits.held_bytes = (128 + 64 * moments) << 20;
@@ -51,10 +53,10 @@ struct GrowingLimits {
     }
 };
 
-// What a thing holds, and what has come of it.
+// What a member holds, and what has come of it.
 struct Growth {
     std::uint64_t held_bytes = 0, shelf_bytes = 0;
-    bool has_sweeps = false;  // that have closed
+    bool has_sweeps = false;  // closed ones
 };
 
 template <class Key, class Object>
@@ -62,7 +64,7 @@ class GrowingSet {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds most_idle{60}, most_idle_at_first{5};
-    // What comes so soon is still of the first look.
+    // What comes within this time belongs to the first look.
     static constexpr std::chrono::seconds first_look{1};
 
     explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
@@ -72,8 +74,8 @@ class GrowingSet {
         return at == things_.end() ? nullptr : at->second.object;
     }
 
-    // False where there is no place for it. One that is added all the same is given up when it next
-    // grows.
+    // Returns false if there is no place for it. If it is added all the same, it is given up when
+    // it next grows.
     [[nodiscard]] bool has_place(const std::string& station, Clock::time_point now) {
         while (count_of(station) >= limits_.station_count) {
             if (!give_up_idle(&station, now)) return false;
@@ -89,7 +91,8 @@ class GrowingSet {
         things_.insert_or_assign(key, Thing{std::move(object), station, now, now, {}});
     }
 
-    // Counts what it holds now. False: it was given up, or another stands in its place.
+    // Counts what it holds now. Returns false if it was given up, or another object is in its
+    // place.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth, Clock::time_point now) {
         const auto at = things_.find(key);
@@ -110,13 +113,13 @@ class GrowingSet {
     [[nodiscard]] std::size_t count() const { return things_.size(); }
     [[nodiscard]] std::uint64_t held_bytes() const { return sum_of(any).held; }
     [[nodiscard]] std::uint64_t shelf_bytes() const { return sum_of(any).shelf; }
-    // Those that were given up since the last call.
+    // The members that were given up since the last call.
     [[nodiscard]] std::vector<Key> take_given_up() { return std::exchange(given_up_, {}); }
 
   private:
     struct Thing {
         std::shared_ptr<Object> object;
-        std::string station;  // empty: of none that is known
+        std::string station;  // empty: no known station
         Clock::time_point began_at, grew_at;
         Growth growth;
     };
@@ -158,8 +161,8 @@ class GrowingSet {
         return now - thing.grew_at >= (goes_on(thing) ? most_idle : most_idle_at_first);
     }
 
-    // The least alive of the station (null: of the one that has most), where nothing came of it for
-    // long enough.
+    // The member of the station (null: of the station that has most) that has not grown for
+    // longest, if that is long enough.
     bool give_up_idle(const std::string* station, Clock::time_point now) {
         std::map<std::string, std::size_t> counts;
         if (station == nullptr) {
@@ -184,7 +187,8 @@ class GrowingSet {
         return true;
     }
 
-    // The least alive of the station that has most, where that is more than one more than so many.
+    // The member that has not grown for longest of the station that has most, if that station has
+    // at least two more than this many.
     bool give_up_of_largest(std::size_t count) {
         std::map<std::string, std::size_t> counts;
         for (const auto& [key, thing] : things_)
@@ -206,7 +210,7 @@ class GrowingSet {
     }
 
     enum class What { memory, disk };
-    // Of those of which `which` is true. False where nothing holds any of it.
+    // Among members for which `which` is true. Returns false if none of them holds any of it.
     template <class Which>
     bool give_up_largest(const Which& which, What what, Clock::time_point now) {
         Place chosen = things_.end();

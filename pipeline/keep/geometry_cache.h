@@ -1,8 +1,8 @@
-// pipeline/keep/geometry_cache.h -- what volumes of one site on one grid share, made once and kept.
+// pipeline/keep/geometry_cache.h -- what the volumes of one site on one grid share, made once.
 //
-// Making it takes longer than using it. The least recently used go first.
-// Thread contract: may be used by many threads; what two threads want at once may be made twice,
-// and one of the two is kept.
+// Making it takes longer than using it. The least recently used entries are dropped first. Thread
+// contract: many threads may use it. If two threads want the same entry at once, both may make it,
+// and one result is kept.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ namespace stormcellar::pipeline {
 
 class GeometryCache {
   public:
-    // Of column geometries, which are large; of the rest some 0.1 MiB each, so many more.
+    // For column geometries, which are large. The other entries take some 0.1 MiB each, so more of
+    // them are held.
     explicit GeometryCache(std::size_t capacity)
         : geometries_(capacity),
           windows_(small_ones),
@@ -33,7 +34,7 @@ class GeometryCache {
     // grid::site_window().
     std::optional<grid::GridWindow> window(const grid::GridSpec& domain,
                                            const grid::SitePosition& site, double reach_m);
-    // For merging: of a window of the domain.
+    // For merging: the geometry of a window of the domain.
     std::shared_ptr<const grid::SiteDistance> distance(const grid::GridSpec& domain,
                                                        const grid::GridWindow& window,
                                                        const grid::SitePosition& site);
@@ -44,7 +45,7 @@ class GeometryCache {
   private:
     static constexpr std::size_t small_ones = 512;
 
-    // A site's place on a grid, whatever the site is called.
+    // The position of a site on a grid, whatever the site's name.
     struct Place {
         grid::SitePosition site;
         grid::GridSpec spec;

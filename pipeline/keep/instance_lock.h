@@ -9,18 +9,18 @@
 
 namespace stormcellar::pipeline {
 
-// Holds state/stormcellard.lock (flock; the kernel lets go of it when the process ends, however
-// that happens) with the process id in it.
+// Holds state/stormcellard.lock, with the process id in it. The kernel releases the lock (flock)
+// when the process ends, however that happens. Thread contract: one thread.
 class InstanceLock {
   public:
     static constexpr const char* file_name = "stormcellard.lock";
 
-    // busy, with the process id, when another daemon holds it; io, permission.
+    // Errors: busy, with the process id, if another daemon holds the lock; io, permission.
     static Result<InstanceLock> acquire(const std::filesystem::path& state);
 
   private:
     explicit InstanceLock(Descriptor file) : file_(std::move(file)) {}
-    Descriptor file_;  // the kernel lets go of the lock when it is closed
+    Descriptor file_;  // closing it releases the lock
 };
 
 }  // namespace stormcellar::pipeline

@@ -1,6 +1,7 @@
-// pipeline/keep/keep_rule.h -- which grids of a volume that stand in the cache give way to another.
+// pipeline/keep/keep_rule.h -- which grids of a volume in the cache another grid replaces.
 //
-// Inside the pipeline room only.
+// Inside the pipeline room only. Thread contract: functions without state; the caller sees to it
+// that one thread at a time works on a grid file.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +16,29 @@
 
 namespace stormcellar::pipeline {
 
-// How the note of a grid of a volume that still grows begins.
+// The first words of the note in a living grid.
 inline constexpr std::string_view living_note = "living: ";
 
-// Why the grid at the path must stay: it is whole and the new one is not, its file is newer, or its
-// volume has ended and that of the new one still grows. A living grid always gives way to one of a
-// volume that has ended. None when it is to be replaced, as one that is damaged, missing or was
-// made otherwise always is.
+// Why the new grid must not replace the grid at the path: that grid is of a complete volume and the
+// new one is not, its file is newer, or its volume has ended and the new grid is a living one. The
+// grid of an ended volume always replaces a living grid. Returns none if the new grid may replace
+// it; it always may if the grid is damaged, missing or of another shape.
 [[nodiscard]] std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
                                                         const cache::GridDescription& made);
 
-// A radar begins no more volumes than that within an hour: the fastest pattern takes three minutes.
+// A radar begins no more volumes than this within an hour: the fastest pattern takes three minutes.
 inline constexpr std::size_t most_volumes_an_hour = 120;
-// Where more stand within half an hour of this grid, the one that was written longest ago goes, so
-// that files which claim to be of one station push out little of the others' history. Pinned grids
-// and this one stay.
+// If the cache holds more grids within half an hour of this one, removes the grid that was written
+// longest ago, so that files which claim to be of one station push out little of the history of
+// others. Pinned grids and this one stay.
 void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time);
 
-// Takes away what stands under another time of the same volume: a volume of chunks is named by its
-// first radial until the chunk with its header comes. A volume without its header takes nothing
-// away, as its beginning may have been deleted since. The source must be named as a chunk
-// (stormcellar/level2/chunk_name.h), as that of the grid that goes; pinned grids stay. A grid that
-// cannot be read or removed stays too.
+// Removes grids of the same volume that have another time: a volume of chunks has the time of its
+// first radial until the chunk with its header comes. A volume without a header removes nothing,
+// because its beginning may have been deleted since. The source of both grids must have the name of
+// a chunk (stormcellar/level2/chunk_name.h). Pinned grids stay, and so does a grid that cannot be
+// read or removed.
 void remove_other_times(cache::StoreWriter& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file);
 

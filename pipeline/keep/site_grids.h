@@ -1,6 +1,6 @@
-// pipeline/keep/site_grids.h -- volumes of one site -> grids about it in the cache.
+// pipeline/keep/site_grids.h -- volumes of a site -> grids around the site in the cache.
 //
-// Inside the pipeline room only. Thread contract: may be used by many threads at once.
+// Inside the pipeline room only. Thread contract: many threads may use it at once.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace stormcellar::pipeline {
 
-// What the grid's provenance is to say of the raw file.
+// What the provenance of the grid says about the raw file.
 struct GridSource {
     std::string file;  // without directories
     std::int64_t modified_ns = 0;
@@ -33,15 +33,15 @@ class SiteGrids {
     SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
         : store_(store), options_(options) {}
 
-    // Whether somebody knows where the radar stands; if not the outcome says so.
+    // Returns true if the position of the radar is known; otherwise the outcome says so.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids a volume, audits it and commits the grid, unless a better one stands or the budgets do
-    // not keep it: then the outcome says so. Adds to its grids and times.
+    // Grids a volume, audits the grid and commits it, unless the cache has a better one or its
+    // limits do not keep it; then the outcome says so. Adds to the outcome's grids and times.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
-    // The same of a volume that still grows, in a hurry: not audited, and not synced, for it will
-    // be replaced in seconds and made again after a crash. Adds to the outcome's `living`.
+    // The same for a growing volume, in a hurry: the grid is neither audited nor synced, because it
+    // is replaced within seconds and made again after a crash. Adds to the outcome's `living`.
     Status keep_living(const level2::Volume& volume, const GridSource& source, int threads,
                        IngestOutcome& outcome);
 
@@ -56,22 +56,23 @@ class SiteGrids {
 
     cache::StoreWriter& store_;
     const IngestOptions& options_;
-    // A geometry of the default grid takes a few MiB.
+    // The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
-    // One commit at a time for each grid file, by the hash of its path.
+    // Allows one commit at a time for each grid file, by the hash of its path.
     std::array<std::mutex, 16> commits_;
 };
 
-// An error of gridding a volume that was decoded: whatever it is called, it lies in what the file
-// says, unless the system refused something.
+// Blames the file for an error in gridding a decoded volume, whatever its code, unless the system
+// was short of something.
 [[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
-// An error of writing into the cache: whatever it is called, it does not lie in what was decoded.
+// Blames the system for an error in writing to the cache, whatever its code.
 [[nodiscard]] tl::unexpected<Error> of_storing(Error error);
-// The cache's budgets leave no room for a grid, and somebody would have to change them: the file is
-// not tried again until a restart looks for missing grids.
+// Notes that the limits of the cache leave no room for a grid, so that somebody would have to
+// change them: the file is not tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);
-// The cache keeps no grid of this station that is so old, or none at all where nobody knows it.
+// Notes that the cache keeps no grid of this station that is so old, or no grid of an unknown
+// station.
 void note_not_kept(const std::string& station, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

@@ -1,9 +1,10 @@
-// pipeline/keep/sweep_shelf.h -- sweeps that are put aside until they are wanted again.
+// pipeline/keep/sweep_shelf.h -- shelves sweeps until they are wanted again.
 //
-// They lie, packed with LZ4, in a file without a name, which goes with the process however that
-// ends: what 160 volumes hold while they grow is more than a service should take in memory, and
-// the page cache gives it up when memory is short. A sweep comes back bit for bit.
-// Thread contract: put() by one thread at a time; get() by many, also beside put().
+// The shelf packs sweeps with LZ4 into a file without a name, which the system removes when the
+// process ends, however that happens. The sweeps of 160 growing volumes are more than a service
+// should hold in memory; the page cache gives them up when memory is short. A sweep comes back bit
+// for bit. Thread contract: one thread at a time calls put(); many threads may call get(), also
+// during put().
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,13 @@ class SweepShelf {
         std::uint64_t offset = 0, packed_bytes = 0, bytes = 0;
     };
 
-    // The directory is one on a local file system with some room. Errors: io, no_space, permission.
+    // The directory should be on a local file system with some room. Errors: io, no_space,
+    // permission.
     static Result<std::unique_ptr<SweepShelf>> make_in(const std::filesystem::path& directory);
 
     [[nodiscard]] Result<Place> put(const level2::Sweep& sweep);
     [[nodiscard]] Result<level2::Sweep> get(const Place& place) const;
-    // On disk.
+    // Bytes on disk.
     [[nodiscard]] std::uint64_t bytes() const { return end_; }
 
   private:

@@ -219,9 +219,10 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
               "s.toml:6: [ingest] quiet_seconds: nan is out of range, must be 1 to 86400");
     EXPECT_EQ(complaint(p + "[ingest]\nquiet_seconds = true\n"),
               "s.toml:6: [ingest] quiet_seconds: must be a number, is true or false");
-    EXPECT_EQ(complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
-              "s.toml:6: [ingest] moment: \"REFL\" is no moment; one of REF VEL SW ZDR PHI RHO "
-              "CFP");
+    EXPECT_EQ(
+        complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
+        "s.toml:6: [ingest] moment: \"REFL\" is not a moment: give one of REF VEL SW ZDR PHI RHO "
+        "CFP");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
               "s.toml:6: [ingest] extent_km: must be [width, height]");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),
@@ -331,7 +332,7 @@ TEST_F(ConfigFile, ScenesThatAreNotThereAreRefusedWhereTheyMustBe) {
     EXPECT_EQ(must_be("a.toml"), "");
     EXPECT_EQ(must_be("none.toml"), file().native() + ":7: [loop] scene: " + directory +
                                         "none.toml: No such file or directory");
-    EXPECT_EQ(must_be("."), file().native() + ":7: [loop] scene: " + directory + ": is no file");
+    EXPECT_EQ(must_be("."), file().native() + ":7: [loop] scene: " + directory + ": is not a file");
 }
 
 TEST_F(ConfigFile, TheStatusIsAskedForWhereItIsSaid) {
