@@ -1,9 +1,9 @@
-// daemon/care/cache_keeper.h -- has the cache kept within its budgets while the service runs.
+// daemon/care/cache_keeper.h -- keeps the cache within its limits while the service runs.
 //
-// Every 5 seconds, so that the file system's filling is met within 10, and in a thread of its own:
-// a roll may remove thousands of files. Logs what went, and what keeps the budgets from being kept
-// (at once, then again every 10 minutes while it lasts).
-// Thread contract: one thread; `wake` is called from the roll's and must only signal.
+// Checks the cache every 5 seconds, so that it reacts within 10 seconds when the file system fills.
+// A roll may remove thousands of files, so it runs in its own thread. Logs how much was evicted,
+// and what prevents keeping the limits (at once, then every 10 minutes while it lasts). Thread
+// contract: one thread. `wake` is called from the thread of the roll, and must only signal.
 #pragma once
 
 #include <chrono>
@@ -25,16 +25,16 @@ class CacheKeeper {
 
     CacheKeeper(Sink& sink, std::function<void()> wake) : sink_(sink), wake_(std::move(wake)) {}
 
-    // Takes what a roll found, when one has ended, and starts the next when it is due. What the
-    // cache holds, when that is news.
+    // Collects the result of a roll that has ended, and starts the next roll when it is due.
+    // Returns what the cache holds if that has changed.
     std::optional<cache::StoreUsage> poll(SteadyTime now, const cache::Budgets& budgets);
     void roll_soon() { next_ = {}; }  // the budgets have changed
-    // When the next roll is due. A roll that lasts longer delays it.
+    // When the next roll is due. A roll that takes longer delays it.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the roll's thread
 
   private:
-    CacheRolled roll(const cache::Budgets& budgets);  // in its own thread
+    CacheRolled roll(const cache::Budgets& budgets);  // runs in its own thread
     void log(const CacheRolled& rolled, SteadyTime now);
 
     Sink& sink_;
@@ -42,7 +42,8 @@ class CacheKeeper {
     Pulse pulse_;
     SteadyTime next_{}, next_reminder_{};
     std::optional<cache::StoreUsage> known_;
-    std::future<CacheRolled> roll_;  // the last member: waited for before the rest goes
+    std::future<CacheRolled>
+        roll_;  // the last member: its destructor waits before the others are destroyed
 };
 
 }  // namespace stormcellar::daemon

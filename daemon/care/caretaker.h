@@ -1,12 +1,12 @@
-// daemon/care/caretaker.h -- looks after what is stored, in a thread of its own.
+// daemon/care/caretaker.h -- verifies and mends what is stored, in its own thread.
 //
-// At the start: every database is examined, every grid's header is checked, and the newest grids
-// that are missing are made again. Then, while there is nothing else to do, every grid is read and
-// verified, one a second; an hour after the last one it begins again. What is damaged is mended
-// (pipeline/care/mend_cache.h) and named in the log. Between grids, sites that overlap are compared
+// At the start it examines every database, checks the header of every grid, and makes the newest
+// grids that are missing. Then, while there is nothing else to do, it reads and verifies every
+// grid, one a second; an hour after the last grid it begins again. It mends what is damaged
+// (pipeline/care/mend_cache.h) and logs that. Between grids it compares sites that overlap
 // (pipeline/mosaic/site_watch.h) as frames of mosaics become complete. Files that come go first:
-// nothing begins here while jobs wait. Thread contract: what CareLinks holds is called from the
-// thread and must be safe to call from it; the destructor waits for what has begun (one grid, one
+// nothing begins here while jobs wait. Thread contract: the caretaker's thread calls the functions
+// in CareLinks, which must allow that. The destructor waits for what has begun (one grid, or one
 // pair of sites).
 #pragma once
 
@@ -23,13 +23,14 @@
 namespace stormcellar::daemon {
 
 struct CareTimes {
-    std::chrono::milliseconds refill{std::chrono::hours{6}};  // the newest so long; 0: none
+    std::chrono::milliseconds refill{
+        std::chrono::hours{6}};  // grids this much older than the newest are made again; 0: none
     std::chrono::milliseconds between_grids{1000};
     std::chrono::milliseconds between_rounds{std::chrono::hours{1}};
     std::chrono::milliseconds between_looks{5000};  // at the frames, for sites to compare
 };
 
-// What it works on; all must outlive it.
+// What it works on; all must outlive the caretaker.
 struct CareOf {
     catalog::CatalogWriter& catalog;
     const cache::StoreReader& store;
@@ -54,14 +55,16 @@ class Caretaker {
   private:
     void run();
     void examine_databases();
-    // True when all were looked at.
+    // Returns false if the caretaker is to end before all grids were checked.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
     void refill_frames();
     void mend(const cache::StoreEntry& entry, pipeline::MendDepth depth);
-    // Compares the sites that are due, if it is time to look; false when it is to end.
+    // Compares the sites that are due, if it is time to look. Returns false if the caretaker is to
+    // end.
     bool compare_sites();
-    // Waits so long, and then until there is nothing else to do; false when it is to end.
+    // Waits at least this long, and then until there is nothing else to do. Returns false if the
+    // caretaker is to end.
     bool pause(std::chrono::milliseconds least);
     // The same, and compares sites meanwhile.
     bool rest(std::chrono::milliseconds least);
@@ -74,7 +77,7 @@ class Caretaker {
     std::condition_variable changed_;
     Pulse pulse_;
     bool stopping_ = false;  // guarded by mutex_
-    std::thread thread_;     // the last member: it uses what stands above
+    std::thread thread_;     // the last member: the thread uses the members above
 };
 
 }  // namespace stormcellar::daemon

@@ -1,9 +1,9 @@
-// daemon/care/row_keeper.h -- has the catalog's rows follow the files that go.
+// daemon/care/row_keeper.h -- updates the rows of files that are gone.
 //
-// After a scan, in a thread of its own, as it looks at every file of the catalog: what is not there
-// is marked as gone, and where rows take more room than they may the oldest of these go. Once an
-// hour rows that have been gone for long are deleted, where the configuration says so. Both take a
-// tenth of the time at most, however often there are scans. Thread contract: one thread.
+// After a scan it looks at every file of the catalog, in its own thread. It marks files that are
+// not there as gone; if rows take more room than they may, it deletes the oldest of these. Once an
+// hour it deletes rows that have been gone for as long as the configuration says. Both duties take
+// a tenth of the time at most, however often there are scans. Thread contract: one thread.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,13 @@ namespace stormcellar::daemon {
 
 class RowKeeper {
   public:
-    static constexpr int rest = 10;  // times as long as it was at work
+    static constexpr int rest = 10;  // it rests this many times as long as it worked
     static constexpr std::chrono::hours between_deletions{1};
 
     explicit RowKeeper(Sink& sink) : sink_(sink) {}
 
-    // Begins, unless it is at work or rests. Rows of files that are gone stay so long after their
-    // last registration; 0: for ever.
+    // Begins, unless it is at work or rests. Rows of files that are gone stay for this long after
+    // their last registration; 0: for ever.
     void look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_for);
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 
@@ -35,7 +35,8 @@ class RowKeeper {
     Sink& sink_;
     Pulse pulse_;
     SteadyTime began_{}, rested_{}, next_deletion_{};
-    // How long it took. The last member: waited for before the rest goes.
+    // How long the work took. The last member: its destructor waits before the others are
+    // destroyed.
     std::future<SteadyTime::duration> work_;
 };
 

@@ -1,9 +1,9 @@
-// daemon/care/state_keeper.h -- the state directory with its catalog directory and its lock: made
-// and held at the start, and made again when somebody deletes them under the running service.
+// daemon/care/state_keeper.h -- the state directory with its catalog directory and its lock: makes
+// and holds them at the start, and makes them again if somebody deletes them under the running
+// service.
 //
-// What goes into them comes back by itself once they stand: databases with the next files, the
-// status with its next publication, the socket within 15 s.
-// Thread contract: one thread.
+// Their contents come back by themselves: databases with the next files, the status when it is next
+// published, the socket within 15 s. Thread contract: one thread.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,11 @@ class StateKeeper {
   public:
     explicit StateKeeper(std::filesystem::path state) : state_(std::move(state)) {}
 
-    // Makes the directories where they are missing and takes the lock; errors of both
-    // (pipeline/keep/instance_lock.h). The first time it removes the temporary files that a killed
-    // service left.
+    // Makes missing directories and takes the lock; errors of both (pipeline/keep/instance_lock.h).
+    // The first call removes the temporary files that a killed service left.
     [[nodiscard]] Status hold();
-    // None while all is there; else what came of making it again. The lock is another one then: a
-    // service that was started on the new directory meanwhile has it (bad_argument).
+    // Returns none while everything is there; otherwise the result of making it again. That takes a
+    // new lock, which fails (busy) if another service was started on the new directory meanwhile.
     [[nodiscard]] std::optional<Status> look();
 
   private:

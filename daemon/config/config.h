@@ -25,25 +25,25 @@
 
 namespace stormcellar::daemon {
 
-// What the rows of all databases may take.
+// How much room the rows of all databases may take.
 inline constexpr std::uint64_t default_catalog_bytes = 16'000'000'000;
 
-// The file system at most 95 % full; no limit of bytes or age.
+// The default: the file system at most 95 % full, and no limit of bytes or age.
 [[nodiscard]] cache::Budgets default_budgets();
 
-// Where the status is asked for (status_server.h).
+// Where the status is served (status_server.h).
 struct StatusConfig {
     std::filesystem::path socket;  // absolute; empty: default_socket()
     int http_port = 0;             // 0: none
     bool operator==(const StatusConfig&) const = default;
 };
 
-// status.sock in the first of systemd's $RUNTIME_DIRECTORY (none: null), else in the state
-// directory.
+// status.sock in the first directory of systemd's $RUNTIME_DIRECTORY (null: not set), otherwise in
+// the state directory.
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
 
-// The three directories: absolute, symbolic links resolved; none lies within another.
+// The three directories: absolute, with symbolic links resolved; none is within another.
 struct PathsConfig {
     std::filesystem::path drop;
     std::filesystem::path state = "/var/lib/stormcellar";
@@ -58,21 +58,21 @@ struct GridConfig {
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32
     std::vector<pipeline::Domain> domains;  // mosaics to keep, beside each site's own grid
-    int threads = 1;                        // that decode, and that grid
+    int threads = 1;                        // for decoding, and for gridding
     bool operator==(const GridConfig&) const = default;
 };
 
-// How files are taken in.
+// How files are ingested.
 struct IngestConfig {
-    StationRule stations;  // of which data are taken in
+    StationRule stations;  // whose data are accepted
     std::vector<AddedStation> added_stations;
     bool living = true;  // volumes are gridded while they grow
     std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see pipeline::LivingGrids
-    std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine has
+    std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine can do
     bool operator==(const IngestConfig&) const = default;
 };
 
-// How the catalog and the cache store what was taken in.
+// How the catalog and the cache store the results.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
@@ -80,7 +80,7 @@ struct StorageConfig {
     bool operator==(const StorageConfig&) const = default;
 };
 
-// The keys that count at the start alone.
+// The keys that take effect only at the start.
 struct FixedConfig {
     PathsConfig paths;
     GridConfig grid;
@@ -91,13 +91,13 @@ struct FixedConfig {
     bool operator==(const FixedConfig&) const = default;
 };
 
-// The keys that a reload makes count.
+// The keys that a reload applies.
 struct ReloadableConfig {
     int workers = 0;  // 0: one a processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
-    std::chrono::milliseconds poll{5'000};  // the same where changes come without events
+    std::chrono::milliseconds poll{5'000};  // the same, if changes come without events
     cache::Budgets budgets = default_budgets();
     std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";
@@ -107,22 +107,22 @@ struct ReloadableConfig {
     bool operator==(const ReloadableConfig&) const = default;
 };
 
-// Every key stands in one of the two parts, and in no third one: a reload compares the first and
-// takes over the second, each as a whole.
+// Every key is in one of these two parts; there is no third. A reload compares the first part and
+// replaces the second, each as a whole.
 struct Config {
     FixedConfig fixed;
     ReloadableConfig reloadable;
     bool operator==(const Config&) const = default;
 };
 
-// What a reload cannot do: for each part of `fresh` that differs from `running` a sentence that
+// What a reload cannot apply: for each part of `fresh` that differs from `running`, a sentence that
 // names its keys. Empty exactly when the two are equal.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 
-// Relative paths are taken from the directory of the file. Unknown keys, wrong types, values out of
-// range and paths within one another are bad_argument: "FILE:LINE: [section] key: why".
-// Nothing is created and the directories need not exist, nor, unless asked for, the loops' scenes.
+// Relative paths start at the directory of the file. Unknown keys, wrong types, values out of range
+// and paths within one another are bad_argument: "FILE:LINE: [section] key: why". Creates nothing.
+// The directories need not exist; the scenes of loops must exist only if `scenes` says so.
 [[nodiscard]] Result<Config> load_config(const std::filesystem::path& file,
                                          SceneFiles scenes = SceneFiles::as_named);
 

@@ -1,8 +1,8 @@
-// daemon/config/descriptor_plan.h -- how the descriptors that the process may have are shared out.
+// daemon/config/descriptor_plan.h -- how the process shares out its descriptors.
 //
-// Databases and growing volumes hold as many as files claim. What they may hold is settled at the
-// start, so that the watcher, the cache, the sockets, the status and the workers always find some.
-// Thread contract: pure functions.
+// Databases and growing volumes hold as many descriptors as files claim. The plan limits them at
+// the start, so that the watcher, the cache, the sockets, the status and the workers always find
+// some. Thread contract: pure functions.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 namespace stormcellar::daemon {
 
 struct DescriptorPlan {
-    std::size_t databases = 0;  // open at once; three descriptors each
-    // Files that grow, volumes of chunks, and sites' last volumes: so many of each, one descriptor
-    // each.
+    std::size_t databases = 0;  // open at once; each takes three descriptors
+    // Growing files, volumes of chunks, and last volumes of sites: this many of each, one
+    // descriptor each.
     std::size_t growing = 0;
-    // What is left for everything else, at least.
+    // At least this many are left for everything else.
     std::size_t reserved = 0;
 
-    // Of so many in all. With 1,024 or more, nothing that the feed of all sites needs is cut short.
+    // The plan for this many descriptors in all. 1,024 or more suffice for the feed of all sites.
     [[nodiscard]] static DescriptorPlan of(std::uint64_t limit);
-    // Of the limit that the process has now.
+    // The plan for the limit that the process has now.
     [[nodiscard]] static DescriptorPlan of_this_process();
 };
 

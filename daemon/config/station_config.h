@@ -1,4 +1,4 @@
-// daemon/config/station_config.h -- which stations stormcellard.toml takes data of: [ingest]
+// daemon/config/station_config.h -- which stations' data stormcellard.toml accepts: [ingest]
 // stations and the [[station]] tables. daemon/stormcellard.toml explains them. Thread contract:
 // pure functions.
 #pragma once
@@ -12,13 +12,13 @@
 
 namespace stormcellar::daemon {
 
-// "known", "any" or a list of stations; left out: known. What makes no sense is complained of.
+// "known", "any" or a list of stations; if left out: known. Complains of anything else.
 [[nodiscard]] StationRule read_station_rule(TomlTable& ingest);
 
-// As the configuration names it: "known", "any" or "listed".
+// The rule as the configuration names it: "known", "any" or "listed".
 [[nodiscard]] std::string_view name_of(StationRule::Kind kind);
 
-// All [[station]] tables; what makes no sense is complained of and left out.
+// Reads all [[station]] tables; complains of invalid ones and leaves them out.
 [[nodiscard]] std::vector<AddedStation> read_added_stations(TomlTable& root);
 
 }  // namespace stormcellar::daemon

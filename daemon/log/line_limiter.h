@@ -1,11 +1,11 @@
-// daemon/log/line_limiter.h -- how many log lines of a kind there may be, so that a hostile or
+// daemon/log/line_limiter.h -- how many log lines of a kind are allowed, so that a hostile or
 // broken feed cannot fill the disk with them.
 //
-// A kind is an event of one subject (a station, a loop); beside that all subjects of an event share
-// a limit. What is over is counted, and summed up when the minute is over.
-// Memory is bounded whatever is logged: beyond `most_subjects` only the limit of all holds, so that
-// names that files invent take no lines from others' subjects.
-// Thread contract: plain data; one thread, or a lock around it. The caller says what time it is.
+// A kind is an event of one subject (a station, a loop). In addition all subjects of an event share
+// a limit. Lines beyond a limit are counted, and their number is reported when the minute is over.
+// Memory is bounded whatever is logged: beyond `most_subjects` only the limit for all holds, so
+// that names invented by files take no lines from other subjects. Thread contract: plain data; use
+// it from one thread, or under a lock. The caller passes the time.
 #pragma once
 
 #include <array>
@@ -29,11 +29,11 @@ enum class Severity { debug, info, warning, error };
 class RateLimit {
   public:
     RateLimit(int most, std::chrono::seconds period) : most_(most), period_(period) {}
-    // True when the line may be logged.
+    // Returns true if the line may be logged.
     bool allow(SteadyTime now);
-    // How many lines were held back, once their period is over; then it counts from zero again.
+    // How many lines were held back, once their period is over; counting then starts again at zero.
     std::optional<std::uint64_t> take_held_back(SteadyTime now);
-    // Whether it would be missed by nobody: its period is over, and it holds nothing back.
+    // Returns true if the object can be dropped: its period is over, and it holds nothing back.
     [[nodiscard]] bool is_idle(SteadyTime now) const {
         return held_back_ == 0 && now - began_ >= period_;
     }
@@ -51,32 +51,31 @@ class LineLimiter {
     static constexpr std::chrono::seconds period{60};
     static constexpr std::size_t most_subjects = 512;  // of all events
     struct Most {
-        int of_one, of_all;  // lines a period: of one subject, of all subjects
+        int of_one, of_all;  // lines a period: for one subject, for all subjects
     };
-    // Of a feed that is as it should be no line is ever held back: 160 sites send some 40 volumes a
-    // minute.
+    // A healthy feed never loses a line: 160 sites send some 40 volumes a minute.
     [[nodiscard]] static Most most_of(Event event) {
         return event == Event::gridded ? Most{60, 600} : Most{20, 120};
     }
 
-    // True when the line may be logged.
+    // Returns true if the line may be logged.
     bool allow(Event event, std::string_view subject, Severity severity, SteadyTime now);
 
     struct HeldBack {
         Event event;
-        std::string subject;  // empty: of several, or of none
-        Severity severity;    // the gravest
+        std::string subject;  // empty: several subjects, or none
+        Severity severity;    // the gravest of the lines
         std::uint64_t lines;
     };
     // What was held back in minutes that are over.
     std::vector<HeldBack> take_held_back(SteadyTime now);
-    // How many are remembered.
+    // How many kinds are remembered.
     [[nodiscard]] std::size_t subjects() const { return each_.size(); }
 
   private:
     struct Kind {
         RateLimit limit;
-        Severity gravest = Severity::debug;  // of what was held back
+        Severity gravest = Severity::debug;  // of the lines that were held back
     };
     static void take(Kind& kind, Event event, const std::string& subject, SteadyTime now,
                      std::vector<HeldBack>& held);

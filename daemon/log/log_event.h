@@ -1,8 +1,7 @@
 // daemon/log/log_event.h -- the kinds of log lines.
 //
-// Their names are an interface: the journal has them as STORMCELLAR_EVENT, and
-// docs/reference/log.md explains each one (tests/repository/log_lines_test.cpp).
-// Thread contract: pure functions.
+// The names are an interface: the journal has them as STORMCELLAR_EVENT, and docs/reference/log.md
+// explains each one (tests/repository/log_lines_test.cpp). Thread contract: pure functions.
 #pragma once
 
 #include <array>

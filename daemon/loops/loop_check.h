@@ -1,9 +1,9 @@
-// daemon/loops/loop_check.h -- whether `stormcellar loop` takes what a [[loop]] gives it, its scene
-// included.
+// daemon/loops/loop_check.h -- checks whether `stormcellar loop` accepts a [[loop]] table and its
+// scene.
 //
-// Asks the program itself, since the daemon reads no scenes and links no renderer. Nothing is
-// drawn or written, and neither cache nor directories of outputs have to be there.
-// Thread contract: the main thread (daemon/process/child.h).
+// Asks the program itself, because the daemon reads no scenes and links no renderer. It draws and
+// writes nothing, and neither the cache nor the directories of outputs need to exist. Thread
+// contract: the main thread (daemon/process/child.h).
 #pragma once
 
 #include <filesystem>
@@ -16,16 +16,16 @@
 
 namespace stormcellar::daemon {
 
-// The first loop that is not right: bad_argument, "[[loop]] NAME: why"; io for one of which nothing
-// is heard within a minute. not_found where there are loops and no program. `program` empty:
-// stormcellar, beside this program or on PATH.
+// Fails for the first loop that is wrong: bad_argument, "[[loop]] NAME: why"; io if the program
+// does not answer within a minute; not_found if there are loops but no program. If `program` is
+// empty, it is stormcellar, beside this program or on PATH.
 [[nodiscard]] Status check_loops(const std::vector<LoopConfig>& loops,
                                  const std::filesystem::path& cache,
                                  std::filesystem::path program = {});
 
-// What may be meant, but has no picture as things are: an output's directory that is not there, a
-// domain that is neither a known station nor one of `domains`. "[[loop]] NAME: what", printable. Of
-// what the loop's own table says; what its scene says is not looked at.
+// What may be intended but gives no picture as things are: the directory of an output does not
+// exist, or a domain is neither a known station nor one of `domains`. Each text is "[[loop]] NAME:
+// what", printable. Only the loop's own table is checked, not its scene.
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
                                                     const std::vector<pipeline::Domain>& domains);
 

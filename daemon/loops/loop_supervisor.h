@@ -1,12 +1,12 @@
-// daemon/loops/loop_supervisor.h -- keeps animations fresh by running `stormcellar loop --follow`
-// for each.
+// daemon/loops/loop_supervisor.h -- keeps animations up to date by running `stormcellar loop
+// --follow` for each.
 //
-// A loop is another program, so that whatever is wrong with a picture never stops ingest. One that
-// ends by itself is logged with its status and its last line on stderr and started again, 1 s later
-// at first, doubling to 60 s; after a minute in which it ran, from 1 s again. Ends with the daemon,
-// however that ends.
-// All of it happens in one thread, which there is only when there are loops.
-// Thread contract: one thread; `wake` is called from the keeper's own and must only signal.
+// A loop runs as another program, so that nothing that goes wrong with a picture stops ingest. If a
+// program ends by itself, the supervisor logs its status and its last line on stderr, and starts it
+// again: 1 s later at first, doubling to 60 s, and from 1 s again after it ran for a minute. The
+// programs end with the daemon, however that ends. All of this happens in one thread, which exists
+// only if there are loops. Thread contract: one thread. `wake` is called from the supervisor's own
+// thread, and must only signal.
 #pragma once
 
 #include <atomic>
@@ -29,21 +29,23 @@ namespace stormcellar::daemon {
 
 class LoopSupervisor {
   public:
-    // `program` is run; empty: stormcellar, beside this program or on PATH.
+    // Runs `program`; if it is empty, stormcellar, beside this program or on PATH.
     LoopSupervisor(std::filesystem::path cache, std::function<void()> wake,
                    std::filesystem::path program = {});
     LoopSupervisor(const LoopSupervisor&) = delete;
     LoopSupervisor& operator=(const LoopSupervisor&) = delete;
     ~LoopSupervisor();
 
-    // From now on these. One goes on undisturbed when neither it nor its scene file has changed.
+    // Sets the loops to run. A loop continues undisturbed if neither it nor its scene file has
+    // changed.
     void set(std::vector<LoopConfig> loops);
-    // Tells all to end, and does not wait; the destructor or wait() does, a few seconds at most.
+    // Asks all programs to end, without waiting; the destructor or wait() waits, a few seconds at
+    // most.
     void stop();
     void wait();
-    // Of its thread; rests where there is none.
+    // The pulse of its thread; it rests if there is no thread.
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }
-    // What has changed since the last call; none when nothing has.
+    // What has changed since the last call; none if nothing has.
     std::optional<std::vector<LoopState>> news();
 
   private:
@@ -81,12 +83,12 @@ class LoopSupervisor {
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
     Pulse pulse_;
-    std::list<Slot> slots_;  // of the thread
+    std::list<Slot> slots_;  // used only by the thread
     std::mutex mutex_;
-    std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, as the next two
+    std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, like the next two
     std::vector<LoopState> states_;
     bool is_news_ = false;
-    std::thread thread_;  // the last member: it uses what stands above
+    std::thread thread_;  // the last member: the thread uses the members above
 };
 
 }  // namespace stormcellar::daemon

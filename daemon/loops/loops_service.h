@@ -1,14 +1,15 @@
-// daemon/loops/loops_service.h -- the [[loop]] tables alone: `stormcellard --loops-only`.
+// daemon/loops/loops_service.h -- runs only the [[loop]] tables: `stormcellard --loops-only`.
 //
-// For a service of its own, at a lower priority and with limits of its own, beside a stormcellard
-// that was started with --no-loops. It reads no drop directory, catalog or grid itself; it keeps
-// the loops (daemon/loops/loop_supervisor.h) and says how they are:
+// It is a service of its own, with a lower priority and its own limits, beside a stormcellard that
+// was started with --no-loops. It reads no drop directory, catalog or grid itself; it runs the
+// loops (daemon/loops/loop_supervisor.h) and publishes their state:
 //   STATE/loops/status.json    {"state","pid","version","started","updated","loops"}, the fields as
 //                              in daemon/status/status.h; at most once a second, and at the stop
-//   STATE/loops/stormcellard.lock   held while it runs: one keeper of loops a state directory
-// SIGHUP reads the configuration again: only the [[loop]] tables and the log's level count.
-// The watchdog is fed while no turn of the thread that keeps the loops lasts too long.
-// Thread contract: run() once; request_stop() from any thread.
+//   STATE/loops/stormcellard.lock   held while it runs: one process runs the loops of a state
+//   directory
+// SIGHUP reads the configuration again: only the [[loop]] tables and the log level take effect. The
+// watchdog is fed while no turn of the thread that runs the loops lasts too long. Thread contract:
+// call run() once; any thread may call request_stop().
 #pragma once
 
 #include <atomic>
@@ -27,19 +28,19 @@ namespace stormcellar::daemon {
 
 class LoopsService {
   public:
-    // All must outlive it. No signals: only request_stop() ends it.
+    // All must outlive the object. Without signals only request_stop() ends it.
     struct Parts {
         Notifier& notifier;
         FileSystem& file_system;
         const Signals* signals = nullptr;
     };
-    // `config_file` is what SIGHUP reads again.
+    // SIGHUP reads `config_file` again.
     LoopsService(Config config, std::filesystem::path config_file, Parts parts);
 
     void run();
     void request_stop();
 
-    // Where it writes: the directory must exist.
+    // The directory that it writes to; it must exist.
     [[nodiscard]] static std::filesystem::path directory(const Config& config);
 
   private:
@@ -60,7 +61,7 @@ class LoopsService {
     SteadyTime next_publish_{};
     std::atomic<bool> stop_requested_ = false;
     WakeUp wake_up_;
-    LoopSupervisor keeper_;  // the last member: its thread uses what stands above
+    LoopSupervisor keeper_;  // the last member: its thread uses the members above
 };
 
 }  // namespace stormcellar::daemon

@@ -1,5 +1,5 @@
-// daemon/loops/others_loops.h -- loops that another process keeps (daemon/loops/loops_service.h),
-// for the metrics.
+// daemon/loops/others_loops.h -- loops that another process runs (daemon/loops/loops_service.h),
+// for the metrics. Thread contract: functions without state.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace stormcellar::daemon {
 
-// The loops of loops_json()'s document; of one that cannot be understood, none. No loop runs where
-// its `state` is not "running".
+// The loops in a document of loops_json(); none if the document cannot be understood. No loop runs
+// if its `state` is not "running".
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
-// Each configured loop as STATE/loops/status.json has it; one that is not in it does not run, nor
-// does any where the file is not there or the process that wrote it is gone.
+// The state of each configured loop from STATE/loops/status.json. A loop that is not in the file
+// does not run; no loop runs if the file is missing or the process that wrote it is gone.
 [[nodiscard]] std::vector<LoopState> others_loops(const std::filesystem::path& state,
                                                   const std::vector<LoopConfig>& configured);
 

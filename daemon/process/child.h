@@ -1,10 +1,11 @@
-// daemon/process/child.h -- a program that runs beside the daemon and is listened to.
+// daemon/process/child.h -- a program that runs beside the daemon, and whose output the daemon
+// reads.
 //
-// It has no input, default signals, a process group of its own (Ctrl-C in a terminal is the
-// daemon's), a lower priority and is the first to go when memory is short; of the daemon's files it
-// has none. What it prints comes line by line.
-// Thread contract: one thread, which must live as long as the child where that asks to be ended
-// with its parent (PR_SET_PDEATHSIG goes by the thread).
+// The child has no input, default signals, its own process group (Ctrl-C in a terminal is meant for
+// the daemon) and a lower priority; it is the first to be killed when memory is short, and has none
+// of the daemon's files. Its output comes line by line. Thread contract: one thread. It must live
+// as long as the child if the child is to end with its parent, because PR_SET_PDEATHSIG refers to
+// the thread.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +19,11 @@
 
 namespace stormcellar::daemon {
 
-// Where a program of this name is: beside this one, else on PATH; empty: nowhere.
+// The path of the program of this name: beside this program, or else on PATH; empty if there is
+// none.
 [[nodiscard]] std::filesystem::path find_program(std::string_view name);
 
-// The reading end of a pipe, by lines. Never blocks.
+// The reading end of a pipe, line by line. Never blocks.
 class LineReader {
   public:
     static constexpr std::size_t longest_line = 4096;  // the rest of a longer one is dropped
@@ -34,9 +36,10 @@ class LineReader {
     LineReader& operator=(const LineReader&) = delete;
     ~LineReader();
 
-    // To poll; -1 once the other end is closed.
+    // The descriptor to poll; -1 once the other end is closed.
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // The lines that have come; at the end also what had no end of line. At most 64 KiB a call.
+    // The lines that have come; at the end also a last line without a newline. At most 64 KiB a
+    // call.
     std::vector<std::string> read();
 
   private:
@@ -49,7 +52,7 @@ class LineReader {
 
 class Child {
   public:
-    // not_found, permission, io: why it could not be started.
+    // Errors: not_found, permission or io: why the program cannot be started.
     static Result<Child> start(const std::filesystem::path& program,
                                const std::vector<std::string>& arguments);
     Child(Child&& other) noexcept;
@@ -59,10 +62,10 @@ class Child {
     ~Child();  // kills it
 
     [[nodiscard]] pid_t id() const { return id_; }
-    // Readable when it has ended.
+    // Readable when the child has ended.
     [[nodiscard]] int descriptor() const { return descriptor_; }
     void signal(int number) const;
-    // "status 1", "signal 9"; empty while it runs.
+    // "status 1", "signal 9"; empty while the child runs.
     [[nodiscard]] std::string ended();
 
     LineReader out, err;
@@ -71,7 +74,7 @@ class Child {
     Child(pid_t id, int descriptor) : id_(id), descriptor_(descriptor) {}
     void release();
 
-    pid_t id_ = 0;  // 0: there is none, or it was waited for
+    pid_t id_ = 0;  // 0: there is no child, or it was waited for
     int descriptor_ = -1;
     std::string ended_;
 };

@@ -1,6 +1,5 @@
-// daemon/process/notify.h -- what the service manager is told (sd_notify(3)), and its watchdog.
-// Without a service manager all of it does nothing.
-// Thread contract: one thread.
+// daemon/process/notify.h -- tells the service manager how the service is (sd_notify(3)), and feeds
+// its watchdog. Without a service manager all of it does nothing. Thread contract: one thread.
 #pragma once
 
 #include <chrono>
@@ -21,7 +20,7 @@ class Notifier {
 
     // Lines of VARIABLE=value.
     virtual void send(const std::string& state) = 0;
-    // How long the manager waits for WATCHDOG=1 before it restarts us; none: it does not.
+    // How long the manager waits for WATCHDOG=1 before it restarts the service; none: it does not.
     [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
 };
 
@@ -32,12 +31,12 @@ class SystemdNotifier final : public Notifier {
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
-// "RELOADING=1" with the monotonic time that systemd wants with it.
+// "RELOADING=1", with the monotonic time that systemd requires.
 [[nodiscard]] std::string reloading_state();
 
-// Decides when the watchdog is fed: four times a period, and only while no thread has been at one
-// step (pulse.h) for longer than a whole period, so that a stuck one is not hidden by a loop that
-// still turns. A step that lasts so long is logged, once, with or without a watchdog.
+// Decides when the watchdog is fed: four times a period, and only while no thread has spent more
+// than a whole period on one step (pulse.h). So a main loop that still turns does not hide a stuck
+// thread. A step that takes so long is logged once, with or without a watchdog.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};
@@ -45,7 +44,7 @@ class WatchdogFeed {
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
     [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Whether this step has just been found to last too long.
+    // Returns true if this step has just exceeded the limit.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:
@@ -53,10 +52,10 @@ class WatchdogFeed {
 
     std::optional<std::chrono::microseconds> period_;
     SteadyTime next_{};
-    std::optional<SteadyTime> found_hanging_;  // since when the step lasted that was named
+    std::optional<SteadyTime> found_hanging_;  // the start of the step that was last reported
 };
 
-// Feeds when it is due, and logs what hangs.
+// Feeds the watchdog when that is due, and logs what hangs.
 void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
           const std::optional<Step>& oldest);
 

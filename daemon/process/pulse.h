@@ -1,15 +1,15 @@
-// daemon/process/pulse.h -- whether threads move on, for the watchdog.
+// daemon/process/pulse.h -- whether threads make progress, for the watchdog.
 //
-// A thread that works says so at each step; one that waits for something to do rests. What counts
-// is how long the step lasts that a thread is at, so long work is no hang as long as it has steps:
+// A thread that works reports each step; a thread that waits for work rests. What counts is how
+// long the current step takes, so long work is not a hang as long as it has steps:
 //   ingest, registration   one file (worker_pool.h)
-//   missing       the looking for files that went: the names of one station, or 1,000 of them
-//   cache         the keeping of the budgets: one directory, or 2,048 files that go
+//   missing       the check for files that are gone: the names of one station, or 1,000 of them
+//   cache         the keeping of limits: one directory, or 2,048 evicted files
 //   caretaker     one database, one station's missing grids, one grid, one pair of sites
-//   status        one turn of who answers: what has come is read, what is asked is written
-//   loops         one turn of who starts and hears the loops' programs
-// The thread that does the bookkeeping (service.h) is not among them: it is the one that looks.
-// Thread contract: of Pulse any thread; of Pulses one.
+//   status        one turn of the server: it reads what has come and writes the answers
+//   loops         one turn of the thread that starts the loops' programs and reads their output
+// The thread that does the bookkeeping (service.h) is not among them, because it does the checking.
+// Thread contract: any thread uses a Pulse; one thread uses Pulses.
 #pragma once
 
 #include <atomic>
@@ -23,10 +23,10 @@ namespace stormcellar::daemon {
 
 class Pulse {
   public:
-    // At work, and a step further.
+    // Reports that the thread is at work, and has begun its next step.
     void beat(SteadyTime now = std::chrono::steady_clock::now()) { since_ = now; }
     void rest() { since_ = resting; }
-    // Since when it has been at the same step; none while it rests.
+    // Since when the current step lasts; none while the thread rests.
     [[nodiscard]] std::optional<SteadyTime> since() const {
         const SteadyTime since = since_;
         if (since == resting) return std::nullopt;
@@ -38,7 +38,7 @@ class Pulse {
     std::atomic<SteadyTime> since_{resting};
 };
 
-// At work as long as it lives.
+// The thread counts as at work while the object lives.
 class AtWork {
   public:
     explicit AtWork(Pulse& pulse) : pulse_(pulse) { pulse_.beat(); }
@@ -50,7 +50,7 @@ class AtWork {
     Pulse& pulse_;
 };
 
-// A thread, and since when it has been at the same step.
+// A thread, and since when its current step lasts.
 struct Step {
     std::string who;
     SteadyTime since;
@@ -58,9 +58,9 @@ struct Step {
 
 class Pulses {
   public:
-    // The pulse must stand as long as oldest() is called.
+    // The pulse must live as long as oldest() is called.
     void watch(std::string who, const Pulse& pulse) { all_.push_back({std::move(who), &pulse}); }
-    // The step that has lasted longest; none while all rest.
+    // The step that has lasted longest; none while all threads rest.
     [[nodiscard]] std::optional<Step> oldest() const;
 
   private:

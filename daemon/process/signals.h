@@ -1,7 +1,7 @@
-// daemon/process/signals.h -- signals as something to poll for, not as interruptions.
+// daemon/process/signals.h -- signals to poll for, instead of interruptions.
 //
-// Make one before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread and those
-// that it starts, and ignores SIGPIPE.
+// Create the object before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread
+// and those that it starts, and ignores SIGPIPE. Thread contract: one thread.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ class Signals {
     ~Signals();
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // The number of a signal that waits; none when there is none. Never blocks.
+    // The number of a pending signal; none if there is none. Never blocks.
     [[nodiscard]] std::optional<int> next() const;
 
   private:
@@ -29,8 +29,8 @@ class Signals {
     int descriptor_;
 };
 
-// Takes those that wait: `reload` is called for each SIGHUP. True when one of them asked for the
-// end, which is logged. No signals (null): there are none.
+// Handles the pending signals: calls `reload` for each SIGHUP. Returns true if one of them asked
+// the process to end, and logs that. `signals` may be null: then there are none.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
 }  // namespace stormcellar::daemon

@@ -1,9 +1,9 @@
 // daemon/queue/intake.h -- from what the watcher sees to jobs that are due.
 //
-// Owns the memory of what was seen (seen_files.h), the files that are not whole yet
-// (growing_files.h) and the schedule, and keeps the three in agreement. Nothing is lost when one of
-// them is full: the file is forgotten, and needs_scan() says when a scan shall find it again.
-// Thread contract: one thread.
+// Owns the memory of seen files (seen_files.h), the files that are not complete yet
+// (growing_files.h) and the schedule, and keeps the three consistent. Nothing is lost when one of
+// them is full: the file is forgotten, and needs_scan() asks for a scan that finds it again. Thread
+// contract: one thread.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,7 @@
 
 namespace stormcellar::daemon {
 
-// What time it is, for both questions: how long (steady) and which is newest (wall).
+// Two clocks: steady for durations, wall to tell which file is newest.
 struct Clock {
     std::function<SteadyTime()> steady;
     std::function<std::int64_t()> wall_ns;  // since the epoch
@@ -37,11 +37,11 @@ class Intake final : public WatchListener {
   public:
     Intake(const Config& config, Clock clock);
 
-    // A file that cannot be taken in is tried so often, over three minutes, unless the system is
-    // short of disk, memory or descriptors: then for as long as that lasts.
+    // How often a file that cannot be ingested is tried, over three minutes. While the system is
+    // short of disk, memory or descriptors, tries do not count.
     static constexpr int most_tries = 8;
 
-    // New times to wait and another number of workers.
+    // Sets new waiting times and another number of workers.
     void reload(const ReloadableConfig& config);
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -62,41 +62,42 @@ class Intake final : public WatchListener {
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
 
-    // What was taken in may be known no more: the next scan, which is due now, offers all again.
+    // The results of files may have been lost: the next scan, which is due now, offers all files
+    // again.
     void forget_seen();
 
     // Offers the growing files that are due.
     void poll_growing();
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
-    // One that has waited for some time without standing in the catalog.
+    // A file that has waited for some time without a row in the catalog.
     std::optional<Job> next_unregistered() { return schedule_.next_unregistered(clock_.steady()); }
     void registered(const Finished& noted);
     void job_ended(const Finished& finished);
 
-    // Around a scan of the watcher; `whole`: the drop directory could be read.
+    // Call these around a scan of the watcher. `whole`: the drop directory could be read.
     void begin_scan();
     void end_scan(bool whole);
-    // Events were lost, the drop directory vanished, there is room again for what was refused, or
-    // it is time to look again for what could not be looked at.
+    // Returns true if events were lost, the drop directory vanished, there is room again for files
+    // that were refused, or it is time to look again for what could not be examined.
     [[nodiscard]] bool needs_scan() const;
-    // When that time comes: a second later, and twice as long each time that it was in vain, up to
-    // a minute.
+    // When that time comes: a second later, and twice as long after each attempt in vain, up to a
+    // minute.
     [[nodiscard]] std::optional<SteadyTime> look_again_at() const { return look_again_at_; }
 
-    // When there is something to do: growing files to poll and, if a job can start, a job.
+    // When there is something to do: growing files to poll or, if a job can start, a job.
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
     [[nodiscard]] Pending pending() const;
     [[nodiscard]] std::vector<GrowingFiles::Wait> growing_waits(std::size_t most) const {
         return growing_.waits(clock_.steady(), most);
     }
-    // How long the job that has waited for longest has been able to run.
+    // How long the job that has waited longest has been able to run.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
-    // How often the kernel dropped events, since the last call.
+    // How often the kernel dropped events since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
-    // How often something could not be looked at, since the last call.
+    // How often something could not be examined since the last call.
     std::uint64_t take_unseen() { return std::exchange(unseen_, 0); }
-    // Of directories, and of entries that are no files (not_a_file). Each is given once, as long as
-    // scans go on finding it.
+    // Problems of directories, and of entries that are not files (not_a_file). Each is returned
+    // once, as long as scans go on finding it.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
@@ -104,11 +105,11 @@ class Intake final : public WatchListener {
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();
-    // The station that a path names, where data of it are taken in; else empty.
+    // The station that a path names, if its data are accepted; otherwise empty.
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
     void give_next_turn(const Finished& finished);
-    // What had to give its place is found again by a scan.
+    // Files that gave their places are found again by a scan.
     void note_displaced();
     void note_going_on(const std::filesystem::path& path, bool goes_on);
     void leave_to_scan(const std::filesystem::path& path);
@@ -124,20 +125,20 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
-    // Growing files of which only what is new is read, and so at once.
+    // Growing files of which only new data are read, so that they may be read at once.
     std::set<std::filesystem::path> followed_;
-    // Volumes of which sweeps have closed: files, and keys of chunks' volumes
+    // Volumes with closed sweeps: files, and the keys of volumes of chunks
     // (pipeline/drop/chunk_path.h).
     std::unordered_set<std::string> going_on_;
-    bool refused_ = false;  // something did not fit since the last scan began
+    bool refused_ = false;  // something had no room since the last scan began
     bool lost_ = false;
     std::uint64_t overflows_ = 0, unseen_ = 0;
     std::optional<SteadyTime> look_again_at_;
     int looks_in_vain_ = 0;
-    bool is_looking_again_ = false;  // the scan that runs is for that
+    bool is_looking_again_ = false;  // the purpose of the running scan
     std::vector<Error> problems_;
-    SeenFiles told_;                     // problems, by their text
-    std::int64_t newest_closed_ns_ = 0;  // as jobs have it
+    SeenFiles told_;                     // problems that were reported, by their text
+    std::int64_t newest_closed_ns_ = 0;  // as in Job
 };
 
 }  // namespace stormcellar::daemon

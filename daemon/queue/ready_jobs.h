@@ -1,19 +1,20 @@
 // daemon/queue/ready_jobs.h -- which of the jobs that may run is the next.
 //
-// LIVE is what changed while we watched, or less than ten minutes ago; BACKLOG is all else. Of the
-// live jobs there are four classes; in a round each has so many turns as stand behind it:
-//   going on   of a known station, of a volume of which sweeps have closed   8
-//   fresh      all else of a known station of which an event told            4
-//   found      all else of a known station, found by a look: a scan, a poll  1
-//   others     of no station that is known                                   1
-// The backlog of known stations, then that of others, each newest first, has its turn when nothing
-// live waits, and that of known stations one turn in seventeen else. So a flood of beginnings
-// delays no volume that goes on, one of names that nobody knows delays no known station, and none
-// of them stands still. In a class stations take turns, the one that was served longest ago (or has
-// waited longest) first, so that no station can hold up another, however much it sends. Of one
-// station what goes on is served oldest first (the end of a volume before the next volume's sweeps:
-// it is little, and would else wait as long as new chunks come), all else newest first. Pure
-// bookkeeping. Thread contract: one thread.
+// A job is LIVE if its file changed while the service watched, or less than ten minutes ago; all
+// others are BACKLOG. There are four classes of live jobs; in a round each class has as many turns
+// as the number behind it:
+//   going on   of a known station, of a volume with closed sweeps          8
+//   fresh      other jobs of a known station that an event reported        4
+//   found      other jobs of a known station that a scan or a poll found   1
+//   others     of no known station                                         1
+// The backlog of known stations, and then that of others, each newest first, runs when no live job
+// waits. While live jobs wait, the backlog of known stations has one turn in seventeen. So a flood
+// of beginnings delays no volume that goes on, a flood of unknown names delays no known station,
+// and no class stands still. Within a class stations take turns. The station comes first that was
+// served longest ago, or has waited longest, so that no station can delay another, however much it
+// sends. Within a station, jobs that go on run oldest first: the end of a volume comes before the
+// next volume's sweeps, takes little time, and would otherwise wait as long as new chunks come. All
+// other jobs run newest first. Pure bookkeeping. Thread contract: one thread.
 #pragma once
 
 #include <array>
@@ -33,19 +34,19 @@ class ReadyJobs {
   public:
     struct Key {
         Urgency urgency = Urgency::backlog;
-        bool is_begun = false;       // of a volume that goes on; live jobs alone
+        bool is_begun = false;       // of a volume that goes on; only for live jobs
         std::int64_t newest_ns = 0;  // since the epoch
-        std::uint64_t sequence = 0;  // tells all jobs apart; equal ones go by it
-        std::string station;         // whose turn it takes; empty: that of all unknown ones
-        bool is_told = true;         // an event told of it; live jobs alone
+        std::uint64_t sequence = 0;  // differs for all jobs; breaks ties
+        std::string station;  // whose turn the job takes; empty: that of all unknown stations
+        bool is_told = true;  // an event reported it; only for live jobs
     };
 
     void add(const Key& key, void* job);
-    // As one step, so that a station whose only job is merged keeps its turn.
+    // Replaces a job in one step, so that a station whose only job is merged keeps its turn.
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
-    // Of the stations of which `may_begin` is true (null: of all); null when there is none. Of the
-    // backlog only so many are looked at as most_looked_at says.
+    // The next job, among stations for which `may_begin` is true (null: all); null if there is
+    // none. It looks at no more of the backlog than most_looked_at.
     using MayBegin = std::function<bool(const std::string& station)>;
     static constexpr int most_looked_at = 64;
     void* take_next(const MayBegin& may_begin = {});
@@ -53,7 +54,7 @@ class ReadyJobs {
     [[nodiscard]] std::size_t count() const { return count_; }
 
   private:
-    // By its order: what is to come first is less.
+    // In order: the job that comes first is less.
     struct Rank {
         std::int64_t order = 0;
         std::uint64_t sequence = 0;
@@ -64,11 +65,11 @@ class ReadyJobs {
         std::uint64_t turn = 0;
         std::map<Rank, void*> jobs;
     };
-    // The live jobs of a class.
+    // The live jobs of one class.
     struct Turns {
         std::unordered_map<std::string, Station> stations;  // those with jobs
         std::map<std::uint64_t, std::string> turns;
-        int left = 0;  // in this round
+        int left = 0;  // turns in this round
     };
     enum class Class : std::size_t { going_on, fresh, found, others };
     static constexpr std::array<int, 4> turns_a_round = {8, 4, 1, 1};
@@ -94,10 +95,10 @@ class ReadyJobs {
 
     static constexpr int live_between_old = 16;
     std::size_t count_ = 0;
-    int live_since_old_ = 0;  // taken while a backlog waited
+    int live_since_old_ = 0;  // live jobs that were taken while a backlog waited
     std::uint64_t next_turn_ = 0;
     std::array<Turns, 4> live_;
-    Backlog backlog_, others_backlog_;  // of known stations, and of all else
+    Backlog backlog_, others_backlog_;  // of known stations, and of all others
 };
 
 }  // namespace stormcellar::daemon

@@ -1,8 +1,8 @@
-// daemon/queue/seen_files.h -- the files that were taken in already, so that a scan offers only
-// what is new or changed.
+// daemon/queue/seen_files.h -- the files that were ingested already, so that a scan offers only new
+// or changed files.
 //
-// 24 bytes or so a file: hashes of path and stamp, not the names. Two paths with the same 64-bit
-// hash would hide one another: among a million files the odds are 1 in 37 million.
+// It holds some 24 bytes a file: hashes of path and stamp, not the names. Two paths with the same
+// 64-bit hash would hide one another; among a million files the odds of that are 1 in 37 million.
 // Thread contract: one thread.
 #pragma once
 
@@ -23,7 +23,8 @@ class SeenFiles {
     void forget_all() { files_.clear(); }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
 
-    // Around a whole scan: what is neither found nor added between the two is forgotten.
+    // Call these around a complete scan: what is neither found nor added between the two is
+    // forgotten.
     void begin_scan() { ++scan_; }
     void found_again(const std::filesystem::path& path);
     void end_scan();

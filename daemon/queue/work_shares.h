@@ -1,14 +1,13 @@
-// daemon/queue/work_shares.h -- how many of the workers one station may have.
+// daemon/queue/work_shares.h -- how many workers one station may use.
 //
-// A file decides how long its job takes, and a job is not interrupted. So one worker is kept for
-// stations of which something good has come: within the last hour one of their files was gridded,
-// or showed a sweep. And the time that jobs of a station take is counted; its debt goes down by a
-// fifth of a second each second, and a station that owes more than two seconds is heavy. Heavy
-// stations and those of which nothing good has come have together all workers but one, and so has
-// each station alone, but one worker at least: whoever sends files that take long never holds the
-// last worker against others. A site of a real feed takes half a second every five minutes. All
-// that no known station sends counts as one station, of which nothing is good. Pure bookkeeping.
-// Thread contract: one thread.
+// A file determines how long its job takes, and a job is not interrupted. So one worker is reserved
+// for good stations: those of which a file was gridded, or showed a sweep, within the last hour.
+// The time that a station's jobs take is counted as a debt, which falls by a fifth of a second each
+// second; a station that owes more than two seconds is heavy. All heavy stations and all that are
+// not good may together use all workers except one, and so may each station alone, but always at
+// least one worker. So a sender of files that take long never holds the last worker against others.
+// A site of a real feed takes half a second every five minutes. All files of no known station count
+// as one station, which is never good. Pure bookkeeping. Thread contract: one thread.
 #pragma once
 
 #include <chrono>
@@ -25,10 +24,10 @@ class WorkShares {
     static constexpr std::chrono::hours good_for{1};
 
     void set_workers(int workers) { workers_ = workers; }
-    // Whether a job of the station (empty: of none that is known) may begin now.
+    // Returns true if a job of the station (empty: no known station) may begin now.
     [[nodiscard]] bool may_begin(const std::string& station, Time now) const;
     void begun(const std::string& station, Time now);
-    // One that has begun has ended after `took`. `is_good`: see above.
+    // Tells that a job ended after `took`. `is_good`: see above.
     void ended(const std::string& station, Time::duration took, bool is_good, Time now);
 
   private:
@@ -41,12 +40,12 @@ class WorkShares {
         return owed(account, now) > most_owed_s;
     }
 
-    // Has a worker of its own to hope for.
+    // Returns true if the station may use the reserved worker.
     [[nodiscard]] bool is_light(const std::string& station, Time now) const;
 
     int workers_ = 1;
     std::unordered_map<std::string, Account> accounts_;
-    std::unordered_map<std::string, int> running_;   // of those that have any
+    std::unordered_map<std::string, int> running_;   // of stations that have any
     std::unordered_map<std::string, Time> good_at_;  // of known stations
 };
 

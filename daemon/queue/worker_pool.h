@@ -1,9 +1,8 @@
-// daemon/queue/worker_pool.h -- threads that take files in, or write them into the catalog.
+// daemon/queue/worker_pool.h -- threads that ingest files, or write them into the catalog.
 //
-// A job is handed over only when a worker is free, so nothing queues here. A worker outlives every
-// file: what is thrown becomes an error of the job.
-// Thread contract: one thread owns the pool; `wake` is called from the workers and must only
-// signal.
+// A job is handed over only when a worker is free, so nothing queues here. A worker survives every
+// file: an exception becomes an error of the job. Thread contract: one thread owns the pool.
+// Workers call `wake`, which must only signal.
 #pragma once
 
 #include <condition_variable>
@@ -29,7 +28,7 @@ struct Finished {
 
 class WorkerPool {
   public:
-    // What a worker does with a job; called by all of them.
+    // What a worker does with a job. All workers call it.
     using Work = std::function<Result<Taken>(const Job&)>;
 
     WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake);
@@ -37,19 +36,19 @@ class WorkerPool {
     WorkerPool& operator=(const WorkerPool&) = delete;
     ~WorkerPool();  // waits for the running jobs
 
-    // More threads start at once; surplus ones end after their job.
+    // Additional threads start at once; surplus threads end after their job.
     void resize(int workers);
     [[nodiscard]] bool has_free_worker() const;
-    void submit(Job job);  // only when a worker is free
-    // What has ended since the last call.
+    void submit(Job job);  // only if a worker is free
+    // The jobs that ended since the last call.
     std::vector<Finished> collect();
-    // The longest running job, by its file; none when all are idle.
+    // The longest running job, by its file; none if all workers are idle.
     struct Oldest {
         std::filesystem::path path;
         SteadyTime since;
     };
     [[nodiscard]] std::optional<Oldest> oldest() const;
-    // No job begins any more; true when the running ones ended within the time.
+    // Starts no further job; returns true if the running ones ended within the time.
     bool drain(std::chrono::milliseconds within);
 
   private:
@@ -64,11 +63,11 @@ class WorkerPool {
     Work work_;
     const char* thread_name_;
     std::function<void()> wake_;
-    mutable std::mutex mutex_;  // all below but threads_
+    mutable std::mutex mutex_;  // guards all members below except threads_
     std::condition_variable changed_;
     std::deque<Job> inbox_;
     std::vector<Finished> outbox_;
-    std::multimap<SteadyTime, std::filesystem::path> running_;  // by when each began
+    std::multimap<SteadyTime, std::filesystem::path> running_;  // by the time at which each began
     int wanted_ = 0;
     int alive_ = 0;
     bool stopping_ = false;

@@ -15,7 +15,7 @@ namespace stormcellar::daemon {
 
 class IngestSink final : public Sink {
   public:
-    // Opens state/catalog and the cache for writing, making them where they are missing.
+    // Opens state/catalog and the cache for writing, and makes them if they are missing.
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
@@ -36,7 +36,7 @@ class IngestSink final : public Sink {
     [[nodiscard]] Status can_store() override;
     std::vector<std::string> take_repairs() override;
 
-    // For the keeper of the cache, which works beside take().
+    // For the cache keeper, which works beside take().
     [[nodiscard]] catalog::CatalogWriter& catalog() { return catalog_; }
     [[nodiscard]] const cache::StoreReader& store() const { return store_; }
     [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }
@@ -50,7 +50,7 @@ class IngestSink final : public Sink {
 
     std::filesystem::path drop_;
     std::shared_ptr<StationRule> stations_;
-    std::size_t growing_;  // descriptors for volumes that grow (descriptor_plan.h)
+    std::size_t growing_;  // descriptors for growing volumes (descriptor_plan.h)
     catalog::LeftAlone left_alone_;
     std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
     catalog::CatalogWriter catalog_;

@@ -1,16 +1,17 @@
-// daemon/service/service.h -- the loop of the daemon.
+// daemon/service/service.h -- the main loop of the daemon.
 //
-// One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
-// in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start    scan the drop directory and queue what is there; say READY once drop directory, state,
-//            cache and sockets answer (readiness.h). Until then what can be taken in is
+// One thread does all the bookkeeping (events, schedule, logs, status); the workers only ingest
+// files. It polls for signals, directory events and ended jobs, and sleeps until something is due.
+//   start    scan the drop directory and queue its files; report READY once the drop directory, the
+//            state, the cache and the sockets work (readiness.h). Until then ingest what is
+//            possible
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
-//   SIGHUP   the configuration is read again; its reloadable part counts, the fixed part stays
+//   SIGHUP   read the configuration again; its reloadable part takes effect, the fixed part stays
 //            until a restart (daemon/config/config.h)
 // Loops are other programs, which end with the service (daemon/loops/loop_supervisor.h), unless a
-// service of their own keeps them. The cache is brought within its budgets every few seconds, in a
-// thread of its own. Thread contract: run() once; request_stop(), is_idle() and sites_compared()
-// from any thread.
+// service of its own runs them. Every few seconds the cache is brought within its limits, in its
+// own thread. Thread contract: call run() once; any thread may call request_stop(), is_idle() and
+// sites_compared().
 #pragma once
 
 #include <atomic>
@@ -50,36 +51,36 @@ struct ServiceParts {
     EventSource& events;
     Notifier& notifier;
     FileSystem& file_system;
-    const Signals* signals = nullptr;  // none: only request_stop() ends it
+    const Signals* signals = nullptr;  // null: only request_stop() ends the service
     Clock clock = real_clock();
-    bool runs_loops = true;        // false: another process does (daemon/loops/loops_service.h)
-    StatusBoard* board = nullptr;  // none: the status is in its file alone
-    StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
-    std::filesystem::path socket = {};  // where the status is answered, to be named in it
+    bool runs_loops = true;  // false: another process runs them (daemon/loops/loops_service.h)
+    StatusBoard* board = nullptr;       // null: the status is published only in its file
+    StateKeeper* state = nullptr;       // null: a state directory that is deleted is not made again
+    std::filesystem::path socket = {};  // where the status is served, to be named in the status
 };
 
 enum class Stopped {
     cleanly,
-    with_jobs,  // jobs did not end in time: the process must be ended without waiting for them
+    with_jobs,  // jobs did not end in time: end the process without waiting for them
 };
 
 class Service {
   public:
-    // `config_file` is what SIGHUP reads again.
+    // SIGHUP reads `config_file` again.
     Service(const Config& config, std::filesystem::path config_file, ServiceParts parts);
 
-    // Before run(): a station of the catalog and its newest volume.
+    // Call it before run(): a station of the catalog and its newest volume.
     void know_station(const std::string& station, UtcTime newest_volume);
     Stopped run();
     void request_stop();
-    // Whether no file waits, for work that may wait; from any thread.
+    // Returns true if no file waits, so that optional work may run. Any thread may call it.
     [[nodiscard]] bool is_idle() const { return idle_; }
-    // What two sites say otherwise than each other, for the log and the status; from any thread.
+    // Takes the comparison of two sites, for the log and the status. Any thread may call it.
     void sites_compared(pipeline::PairReport report);
-    // Before run(): what must also answer before READY is said.
+    // Call it before run(): another check that must succeed before READY is reported.
     void need(Readiness::Check check) { readiness_.need(std::move(check)); }
-    // Before run(): a thread beside the service's own that the watchdog is to see. Its pulse must
-    // stand until run() is over.
+    // Call it before run(): another thread that the watchdog observes. Its pulse must live until
+    // run() is over.
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
@@ -113,7 +114,7 @@ class Service {
     Watcher watcher_;
     StatusBook status_;
     StatusFile status_file_;
-    Pending published_;  // as it was last looked at
+    Pending published_;  // as of the last look
     WatchdogFeed watchdog_;
     Pulses pulses_;
     WakeUp wake_up_;
@@ -129,9 +130,9 @@ class Service {
     OthersLoops others_loops_;
     ScanTimes scan_times_;
     SteadyTime next_held_back_{}, next_memory_look_{};
-    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
+    WorkerPool pool_;  // its threads and those of the next member use the members above
     WorkerPool registrar_;
-    // The last members: their threads are waited for before the rest goes.
+    // The last members: their destructors wait for their threads before the others are destroyed.
     RowKeeper row_keeper_;
     CacheKeeper cache_keeper_;
     LoopSupervisor loop_keeper_;

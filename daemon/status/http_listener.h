@@ -1,8 +1,7 @@
-// daemon/status/http_listener.h -- one address on which pages are asked for, by libmicrohttpd.
+// daemon/status/http_listener.h -- one address that serves pages, by libmicrohttpd.
 //
-// Inside the daemon room, for status_server.h. Nothing happens but in turn(), which never waits:
-// the caller polls descriptor() for next_time() at most.
-// Thread contract: one thread.
+// Inside the daemon room, for status_server.h. All work happens in turn(), which never waits: the
+// caller polls descriptor(), no longer than until next_time(). Thread contract: one thread.
 #pragma once
 
 #include <chrono>
@@ -26,13 +25,14 @@ class HttpListener {
     struct Request {
         const char* method;
         const char* url;
-        // On a port: a Host field is none of is_loopback_host(). A request without the field names
-        // nobody: HTTP/1.0 allows that, and browsers, against whose pages this is, always send one.
+        // On a port: the Host field does not satisfy is_loopback_host(). A request without the
+        // field is allowed, as in HTTP/1.0; browsers, whose pages this guards against, always send
+        // one.
         bool names_another_host;
     };
     // The answer to a request, and its HTTP status.
     struct Answer {
-        MHD_Response* response = nullptr;  // stays the giver's; null ends the connection
+        MHD_Response* response = nullptr;  // the giver still owns it; null ends the connection
         unsigned status = 0;
     };
     using Answerer = std::function<Answer(const Request&)>;
@@ -41,7 +41,7 @@ class HttpListener {
         unsigned most_connections = 0;
     };
 
-    // io when libmicrohttpd cannot begin. The answerer must not throw.
+    // Errors: io if libmicrohttpd cannot start. The answerer must not throw.
     static Result<std::unique_ptr<HttpListener>> open(ListeningSocket socket, Limits limits,
                                                       Answerer answerer);
     HttpListener(const HttpListener&) = delete;
@@ -50,14 +50,15 @@ class HttpListener {
 
     [[nodiscard]] bool still_stands() const { return socket_.still_stands(); }
     [[nodiscard]] int descriptor() const { return epoll_; }
-    // When turn() is due though nothing has come; none: never.
+    // When turn() is due even if nothing comes; none: never.
     [[nodiscard]] std::optional<SteadyTime> next_time(SteadyTime now) const;
-    // Takes, reads, answers and ends connections, as far as that needs no waiting. Where three
-    // quarters of the most stand, the one that has stood for longest goes for each new one.
+    // Accepts, reads, answers and ends connections, as far as possible without waiting. Once three
+    // quarters of the connections are in use, each new one ends the oldest.
     void turn(SteadyTime now);
 
   private:
-    static constexpr int most_rounds = 64;  // of one turn, so that a flood does not make it endless
+    static constexpr int most_rounds =
+        64;  // in one turn, so that a flood does not make a turn endless
     struct Callbacks;
     struct Open {
         int descriptor;
@@ -71,8 +72,8 @@ class HttpListener {
     Limits limits_;
     Answerer answerer_;
     std::map<MHD_Connection*, Open> open_;
-    std::uint64_t changes_ = 0;  // connections that came or went
-    bool is_behind_ = false;     // a turn has ended before all that had come was taken
+    std::uint64_t changes_ = 0;  // connections that were opened or closed
+    bool is_behind_ = false;     // the last turn ended before it had handled all that had come
     MHD_Daemon* daemon_ = nullptr;
     int epoll_ = -1;
 };

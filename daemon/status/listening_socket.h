@@ -1,13 +1,12 @@
-// daemon/status/listening_socket.h -- where the status is asked for: a Unix socket, or a loopback
-// port.
+// daemon/status/listening_socket.h -- the socket that serves the status: a Unix socket, or a
+// loopback port.
 //
-// Never another address. A Unix socket has mode 0660, less the umask of the thread that opens it,
-// from the instant at which it stands: nothing is changed by name afterwards, which could follow a
-// link that was put in its place. What a killed daemon left at the path is taken away, but only a
-// socket on which nobody answers; anything else there is an error.
-// Errors: bad_argument (a path of more than 107 bytes), permission, not_found (no such directory),
-// busy (another program listens there), io (whatever else the system says).
-// Thread contract: one thread.
+// It never listens at another address. A Unix socket has mode 0660, less the umask of the thread
+// that opens it, from the instant at which it exists. Nothing is changed by name afterwards,
+// because that could follow a link that was put in its place. A socket that a killed daemon left at
+// the path is removed if nobody answers on it; anything else there is an error. Errors:
+// bad_argument (a path of more than 107 bytes), permission, not_found (no such directory), busy
+// (another program listens there), io (all other failures). Thread contract: one thread.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +20,7 @@ namespace stormcellar::daemon {
 
 enum class Loopback { ipv4, ipv6 };
 
-// Closed, and its path removed if it is still ours, when the object goes.
+// The destructor closes the socket, and removes its path if that is still this socket.
 class ListeningSocket {
   public:
     static Result<ListeningSocket> at_path(const std::filesystem::path& path);
@@ -34,11 +33,11 @@ class ListeningSocket {
     ~ListeningSocket();
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    // None: it is a Unix socket.
+    // None for a Unix socket.
     [[nodiscard]] std::optional<int> port() const { return port_; }
-    // Of a Unix socket: its permissions, as they came out.
+    // The permissions that a Unix socket really has.
     [[nodiscard]] mode_t mode() const { return mode_; }
-    // False when the path was removed or replaced by somebody.
+    // Returns false if somebody removed or replaced the path.
     [[nodiscard]] bool still_stands() const;
 
   private:

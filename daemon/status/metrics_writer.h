@@ -3,9 +3,9 @@
 //
 // One family after the other: "# HELP", "# TYPE", then its samples, one line each:
 //   name{label="value",...} 12.5
-// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN, as elsewhere. Numbers
-// are written so that the same double is read back; NaN, +Inf and -Inf by those names.
-// Source: prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h reads it strictly.
+// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN, as elsewhere. A number
+// is written so that reading it gives the same double; NaN, +Inf and -Inf have these names. Source:
+// prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h reads the format strictly.
 // Thread contract: one thread.
 #pragma once
 
@@ -26,12 +26,12 @@ class MetricsWriter {
     using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
     enum class Type { counter, gauge, summary };
-    // Begins a family; a name is used once, and its samples follow before the next one begins.
+    // Begins a family. A name is used once, and its samples follow before the next family begins.
     void family(std::string_view name, Type type, std::string_view help);
     void sample(double value, Labels labels = {});
     void sample(std::uint64_t value, Labels labels = {});
-    // Median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1) of the last values, where
-    // there are any; sum and count of all since the start. Of a summary's family.
+    // For the family of a summary: the median, 95th percentile and maximum (quantiles 0.5, 0.95 and
+    // 1) of the last values, if there are any; the sum and count of all values since the start.
     void sample(const Timings& timings, Labels labels = {});
 
     [[nodiscard]] std::string take() { return std::move(text_); }

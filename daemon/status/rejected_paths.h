@@ -1,9 +1,9 @@
-// daemon/status/rejected_paths.h -- which files were rejected already, and why, so that one that is
-// looked at again and again (as each time that something is appended) is counted and logged once.
+// daemon/status/rejected_paths.h -- which files were rejected already, and why. A file that is read
+// again and again, for example each time that something is appended, is counted and logged once.
 //
-// The same reason is the same kind of error and the same text but for its numbers, which may be a
-// size that grows. At most `most` paths are remembered, 40 bytes or so each: hashes, not names; of
-// more the oldest are forgotten, and their next rejection is news.
+// Two reasons are the same if they have the same kind of error and the same text except for
+// numbers, which may be a growing size. At most `most` paths are remembered, 40 bytes or so each:
+// hashes, not names. Beyond that the oldest are forgotten, and their next rejection counts again.
 // Thread contract: one thread.
 #pragma once
 
@@ -21,15 +21,16 @@ class RejectedPaths {
   public:
     explicit RejectedPaths(std::size_t most = 65'536) : most_(most) {}
 
-    // Of a file that was looked at: false when it was rejected for the same reason as the last
-    // time. What was gridded since, or went, is news when it is rejected again.
+    // Call it for each file that was read. Returns false if the file was rejected for the same
+    // reason the last time. After it was gridded, or was gone, its next rejection counts again.
     bool is_news(const std::filesystem::path& path, const pipeline::IngestOutcome& outcome);
     [[nodiscard]] std::size_t count() const { return reasons_.size(); }
 
   private:
     std::size_t most_;
-    std::unordered_map<std::uint64_t, std::uint64_t> reasons_;  // by path
-    std::deque<std::uint64_t> order_;  // of the paths, oldest first; some may be forgotten
+    std::unordered_map<std::uint64_t, std::uint64_t> reasons_;  // by the hash of the path
+    std::deque<std::uint64_t>
+        order_;  // hashes of paths, oldest first; some may be forgotten already
 };
 
 }  // namespace stormcellar::daemon

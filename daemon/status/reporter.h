@@ -1,7 +1,7 @@
 // daemon/status/reporter.h -- one log line for each event, with station and volume.
 //
-// How many there may be of a kind: daemon/log/line_limiter.h.
-// Thread contract: any thread.
+// daemon/log/line_limiter.h limits how many lines of a kind there may be. Thread contract: any
+// thread.
 #pragma once
 
 #include "daemon/log/log.h"
@@ -10,11 +10,11 @@
 
 namespace stormcellar::daemon {
 
-// The line for a job that ended, names escaped, and what it is about; also what the tests read.
+// The line for a job that ended, with escaped names, and its subject; the tests read them too.
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
-// Whether what a job failed of has a line already.
+// Whether the log has named the cause of a failed job already.
 enum class Named : bool { not_yet, before };
 
 class Reporter {
@@ -22,7 +22,7 @@ class Reporter {
     static void report(const Finished& finished, Named named = Named::not_yet);
     // A directory that cannot be watched or read.
     static void report_directory(const Error& error);
-    // What two sites of a mosaic say otherwise than each other: a warning for each fault.
+    // How two sites of a mosaic differ: a warning for each fault.
     static void report_sites(const pipeline::PairReport& report);
 };
 

@@ -1,8 +1,8 @@
-// daemon/status/status.h -- what the daemon says of itself: counters, latencies, stations.
+// daemon/status/status.h -- the state of the daemon: counters, latencies, stations.
 //
-// Written as JSON (status_json.h: state/status.json and the socket) and as Prometheus text
-// (metrics_text.h).
-// Thread contract: one thread; StatusFacts is plain data and may be copied to others.
+// It is written as JSON (status_json.h: state/status.json and the socket) and as Prometheus text
+// (metrics_text.h). Thread contract: one thread; StatusFacts is plain data and may be copied to
+// other threads.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@
 
 namespace stormcellar::daemon {
 
-// Names and reasons of all these are printable.
+// All names and reasons are printable.
 struct RecentVolume {
     std::string file, station, time;
     std::size_t grids = 0;
@@ -38,10 +38,10 @@ struct RecentVolume {
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
 };
 
-// Of a volume without an end, to which nothing comes.
+// A growing file whose volume has not ended and to which nothing comes.
 struct WaitingFile {
     std::string file;
-    double left_s = 0;  // until it is taken in as it is
+    double left_s = 0;  // until it is gridded with what it has
 };
 
 struct RejectedFile {
@@ -52,33 +52,34 @@ struct RejectedFile {
 
 struct StatusFacts {
     std::filesystem::path drop, cache, socket;  // no socket: empty
-    std::string drop_lost;                      // why it cannot be read; empty: it can
-    int http_port = 0;                          // none: 0
+    std::string drop_lost;  // why the drop directory cannot be read; empty: it can
+    int http_port = 0;      // none: 0
     UtcTime started = now_utc();
     std::string state = "starting";
     std::uint64_t ingested = 0, grids = 0, partial = 0, failures = 0;
     PerResult<std::uint64_t> results{};      // files
-    PerErrorCode<std::uint64_t> rejected{};  // of results: by what was wrong with the file
-    PerErrorCode<std::uint64_t> failed{};    // of failures: by what hindered
+    PerErrorCode<std::uint64_t> rejected{};  // of the results, by what was wrong with the file
+    PerErrorCode<std::uint64_t> failed{};    // of the failures, by their cause
     std::uint64_t overflows = 0, scans = 0;
-    std::uint64_t unseen = 0;  // what could not be looked at when an event told of it
+    std::uint64_t unseen = 0;  // what could not be examined when an event reported it
     std::size_t directories = 0;
     double longest_wait_s = 0;               // of the files that wait
     std::vector<WaitingFile> waiting_files;  // of the growing ones, the soonest first
-    std::uint64_t lone_chunks = 0;  // files that look like one chunk, and are not named like one
-    std::uint64_t not_kept = 0;     // files of which the cache's limits keep nothing
-    std::uint64_t living_left_out = 0;  // living grids, for want of time
-    std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
+    std::uint64_t lone_chunks =
+        0;                       // files that look like one chunk but do not have the name of one
+    std::uint64_t not_kept = 0;  // files of which the cache's limits keep nothing
+    std::uint64_t living_left_out = 0;  // living grids that were not made for want of time
+    std::uint64_t given_up = 0;         // growing volumes, for want of room; they are read again
     std::optional<cache::StoreUsage> usage;
     CatalogState catalog;
     std::vector<LoopState> loops;
-    std::vector<LoopState> others_loops;  // that another process keeps (others_loops.h)
+    std::vector<LoopState> others_loops;  // that another process runs (others_loops.h)
     Timings close_to_cache{4096};
-    std::uint64_t living = 0;                 // grids of volumes that had not ended, each time
-    Timings close_to_living{4096};            // of the chunk with which a sweep was complete
+    std::uint64_t living = 0;                 // living grids, each time that sweeps entered one
+    Timings close_to_living{4096};            // from the close that completed a sweep
     Timings antenna_to_cache{4096};           // of data that can have come live
-    std::uint64_t not_live = 0;               // volumes that it leaves out
-    std::deque<RecentVolume> volumes;         // the last 64, oldest first, as the next
+    std::uint64_t not_live = 0;               // volumes that antenna_to_cache leaves out
+    std::deque<RecentVolume> volumes;         // the last 64, oldest first, as in the next member
     std::deque<RejectedFile> rejected_files;  // each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
@@ -88,8 +89,8 @@ class StatusBook {
   public:
     StatusBook(std::filesystem::path drop, std::filesystem::path cache);
 
-    // `at`: when it ended, by the clock on the wall. False: the file was rejected before, for the
-    // same reason, and is not counted again.
+    // `at` is when the job ended, by the system's clock. Returns false if the file was rejected
+    // before for the same reason; then it is not counted again.
     bool add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
     void count_unseen(std::uint64_t count) { facts_.unseen += count; }
@@ -107,13 +108,13 @@ class StatusBook {
     void set_others_loops(std::vector<LoopState> loops) { facts_.others_loops = std::move(loops); }
     void set_catalog(CatalogState state) { facts_.catalog = std::move(state); }
     void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
-    // For chunks that are put together (station_book.h), and stations known before the start.
+    // For volumes of chunks (station_book.h), and for stations known before the start.
     [[nodiscard]] StationBook& stations() { return facts_.stations; }
 
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
-    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=. It
-    // begins with "drop directory DIR: WHY; " while that cannot be read.
+    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3", for STATUS=. While
+    // the drop directory cannot be read, it begins with "drop directory DIR: WHY; ".
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 
@@ -126,13 +127,13 @@ class StatusBook {
     RejectedPaths rejected_;
 };
 
-// The document and the STATUS= line of a process that keeps loops alone
+// The document and the STATUS= line of a process that only runs loops
 // (daemon/loops/loops_service.h): "2 of 3 loops run, made 12".
 [[nodiscard]] std::string loops_json(const std::vector<LoopState>& loops, std::string_view state,
                                      UtcTime started, UtcTime now);
 [[nodiscard]] std::string loops_line(const std::vector<LoopState>& loops);
 
-// Seconds from the last close that was seen to the end of the job; none when none was seen.
+// Seconds from the last close to the end of the job; none if no close was seen.
 [[nodiscard]] std::optional<double> latency_of(const Finished& finished);
 
 }  // namespace stormcellar::daemon

@@ -1,9 +1,8 @@
-// daemon/status/status_board.h -- the status as it was last published, for those who are not the
-// service.
+// daemon/status/status_board.h -- the status as it was last published, for threads other than the
+// service's.
 //
-// The service posts a copy, at most once a second; whoever asks renders from that copy in a thread
-// of its own, so that no number of questions costs the service anything.
-// Thread contract: any thread.
+// The service posts a copy, at most once a second. Other threads render pages from that copy, so
+// that no number of requests costs the service anything. Thread contract: any thread.
 #pragma once
 
 #include <memory>
@@ -25,7 +24,7 @@ class StatusBoard {
         const std::scoped_lock lock(mutex_);
         latest_.swap(fresh);
     }
-    // Null before the first was posted.
+    // Null before the first copy was posted.
     [[nodiscard]] std::shared_ptr<const StatusSnapshot> latest() const {
         const std::scoped_lock lock(mutex_);
         return latest_;

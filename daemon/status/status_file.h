@@ -21,8 +21,8 @@ class StatusFile {
     StatusFile(FileSystem& file_system, const std::filesystem::path& state, Notifier& notifier);
 
     void changed() { changed_ = true; }
-    // Writes when something has changed and a second has passed, or at once when forced.
-    // Gives whether it was time.
+    // Writes when something has changed and a second has passed, or at once if forced. Returns true
+    // if it was time to write.
     bool publish(const StatusBook& book, const Pending& pending, SteadyTime now, bool force);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
 
@@ -33,7 +33,7 @@ class StatusFile {
     std::filesystem::path path_, temporary_;
     Notifier& notifier_;
     bool changed_ = false;
-    bool failing_ = false;  // said once, until it works again
+    bool failing_ = false;  // logged once, until writing works again
     SteadyTime next_{};
 };
 

@@ -1,8 +1,8 @@
 // daemon/status/timings.h -- how long something took, over the last times that it was done.
 //
-// Count and sum are of all since the start, as counters of a monitoring system want them; median,
-// 95th percentile and maximum of the last `window` values, so memory is bounded.
-// Thread contract: plain data.
+// The count and the sum cover everything since the start, as monitoring systems want counters.
+// Median, 95th percentile and maximum cover the last `window` values, so memory is bounded. Thread
+// contract: plain data.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace stormcellar::daemon {
 
 struct LatencySummary {
     std::size_t count = 0;
-    double median = 0, p95 = 0, max = 0;  // seconds; of `count` 0 meaningless
+    double median = 0, p95 = 0, max = 0;  // seconds; meaningless if `count` is 0
 };
-// By nearest rank: the smallest value that at least the share of all values do not exceed.
+// By nearest rank: the smallest value that at least this share of all values do not exceed.
 [[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
 
 class Timings {

@@ -1,4 +1,5 @@
-// daemon/watch/file_stamp.h -- what tells one state of a raw file from another without reading it.
+// daemon/watch/file_stamp.h -- tells two states of a raw file apart without reading it. Thread
+// contract: functions without state.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +14,25 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
-    std::int64_t changed_ns = 0;  // the same of its rights and owner: an unreadable file was mended
+    std::int64_t changed_ns =
+        0;  // the same for permissions and owner: shows that an unreadable file was mended
 
     bool operator==(const FileStamp&) const = default;
 };
 
 [[nodiscard]] FileStamp stamp_of(const struct stat& facts);
 
-// What stands at a path. Symbolic links are never followed.
+// What is at a path. Symbolic links are never followed.
 enum class Standing { regular, directory, other, missing, unknown };
 struct FileFound {
     Standing standing = Standing::missing;
     FileStamp stamp;
     mode_t mode = 0;
 };
-// A path that may not be looked at counts as missing; one that cannot be now, as when descriptors
-// run out, is unknown.
+// A path that may not be examined counts as missing. A path that cannot be examined now, for
+// example for want of descriptors, is unknown.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
-// The same below a directory: what lies behind links is missing too (base/beneath.h).
+// The same below a directory: what is behind links is missing too (base/beneath.h).
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path,
                                 const std::filesystem::path& beneath);
 

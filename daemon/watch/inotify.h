@@ -1,6 +1,5 @@
-// daemon/watch/inotify.h -- what the kernel says about directories, behind an interface so that
-// tests can force what is hard to bring about: an overflowing queue, no watches left. Thread
-// contract: one thread.
+// daemon/watch/inotify.h -- what the kernel reports about directories, as an interface, so that
+// tests can force rare cases: an overflowing queue, no watches left. Thread contract: one thread.
 #pragma once
 
 #include <cstdint>
@@ -27,26 +26,27 @@ class EventSource {
     EventSource& operator=(const EventSource&) = delete;
     virtual ~EventSource() = default;
 
-    // Readable when events wait; -1: nothing to poll.
+    // Readable when events wait; -1: there is nothing to poll.
     [[nodiscard]] virtual int descriptor() const = 0;
-    // The number of the watch; the same one again for a directory that is watched. no_space when
-    // the system's limit of watches is reached; not_found, permission, io. "DIR/." may be reached
-    // through a link, DIR itself not.
+    // The number of the watch; the same number again for a directory that is watched already.
+    // Errors: no_space if the system's limit of watches is reached; not_found, permission, io.
+    // "DIR/." may be reached through a link, DIR itself may not.
     virtual Result<int> watch(const std::filesystem::path& directory) = 0;
     virtual void unwatch(int watch) = 0;
-    // Why changes in the directory may come without events, so that it must be polled; none where
-    // they are told of. Empty: that was said already.
+    // Why changes in the directory may come without events, so that it must be polled; none if the
+    // kernel reports them. Empty: that was said already.
     virtual std::optional<std::string> silence(const std::filesystem::path& /*directory*/) {
         return std::nullopt;
     }
-    // All that waits now, oldest first; never blocks. At most about 64 KiB of events a call.
+    // All events that wait now, oldest first; never blocks. At most about 64 KiB of events a call.
     virtual std::vector<DirectoryEvent> read() = 0;
 };
 
-// Fails when the system has no inotify instance left, naming the sysctl.
+// Fails if the system has no inotify instance left; the error names the sysctl.
 [[nodiscard]] Result<std::unique_ptr<EventSource>> open_inotify();
 
-// No events at all: every directory is silent, and polled. What is left when open_inotify() fails.
+// A source without events: every directory is silent and must be polled. For use if open_inotify()
+// fails.
 [[nodiscard]] std::unique_ptr<EventSource> no_events();
 
 }  // namespace stormcellar::daemon

@@ -1,13 +1,13 @@
-// daemon/watch/watcher.h -- says which files appear, change and go below the drop directory.
+// daemon/watch/watcher.h -- reports which files appear, change and go below the drop directory.
 //
-// inotify watches on every directory, sub-directories as they appear; a directory is read after its
-// watch is set, so what was put into it in between is found. scan() reads the whole tree: at the
-// start, after the event queue overflowed, and from time to time for ever, since events can be
-// lost (network file systems have none). What is said twice does no harm: the schedule has one
-// entry a path. Temporary names are never reported; symbolic links, FIFOs, sockets and devices only
-// as left out. Where not all can be watched (no watches left, file systems whose changes are not
-// told) it is blind, and must be scanned more often.
-// Thread contract: one thread; the listener is called from within read_events() and scan().
+// It sets inotify watches on every directory, and on subdirectories as they appear. It reads a
+// directory after setting its watch, so it finds files that came in between. scan() reads the whole
+// tree: at the start, after the event queue overflowed, and from time to time, because events can
+// be lost (network file systems have none). Reporting a file twice does no harm: the schedule has
+// one entry for each path. Temporary names are never reported; symbolic links, FIFOs, sockets and
+// devices are reported only as left out. If not everything can be watched (no watches left, or file
+// systems whose changes are not reported), the watcher is blind, and the caller must scan more
+// often. Thread contract: one thread; read_events() and scan() call the listener.
 #pragma once
 
 #include <chrono>
@@ -31,34 +31,35 @@ class WatchListener {
     WatchListener& operator=(const WatchListener&) = delete;
     virtual ~WatchListener() = default;
 
-    // Closed after writing, or renamed to this name.
+    // The file was closed after writing, or renamed to this name.
     virtual void file_closed(const std::filesystem::path& path, const FileStamp& stamp) = 0;
-    // Made here and not closed yet; or a hard link, for which no close ever comes.
+    // The file was created and not closed yet; or it is a hard link, for which no close ever comes.
     virtual void file_created(const std::filesystem::path& path, const FileStamp& stamp) = 0;
-    // Whether to tell of each write to the file, before it is closed.
+    // Whether to report each write to the file before it is closed.
     [[nodiscard]] virtual bool follows(const std::filesystem::path& /*path*/) const {
         return false;
     }
     virtual void file_grew(const std::filesystem::path& /*path*/, const FileStamp& /*stamp*/) {}
-    // Stands in a directory that was read.
+    // The file is in a directory that was read.
     virtual void file_found(const std::filesystem::path& path, const FileStamp& stamp) = 0;
-    // Deleted, or renamed away.
+    // The file was deleted, or renamed to another place.
     virtual void file_gone(const std::filesystem::path& path) = 0;
-    // The same of a directory, with all that it held.
+    // The same for a directory, with everything in it.
     virtual void directory_gone(const std::filesystem::path& /*path*/, bool /*deleted*/) {}
-    // Neither file nor directory: `kind` says what ("a FIFO"). Said again by each scan.
+    // An entry that is neither file nor directory: `kind` says what ("a FIFO"). Each scan reports
+    // it again.
     virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
     // Directories come or go faster than they can be read: this one was left to a scan, which is
     // needed.
     virtual void directory_unread() {}
-    // What an event told of, or a directory of a scan, could not be looked at now, as when
-    // descriptors run out; a scan is needed, and there is no use in one at once.
+    // What an event reported, or a directory of a scan, could not be examined now, for example for
+    // want of descriptors. A scan is needed, but not at once, because that would be in vain.
     virtual void entry_unseen() {}
     // The kernel dropped events; a scan is needed.
     virtual void events_lost() = 0;
     // The drop directory itself was deleted or moved.
     virtual void drop_vanished() = 0;
-    // A directory that cannot be read; or the first of those that cannot be watched, because the
+    // A directory that cannot be read; or the first directory that cannot be watched, because the
     // limit is reached (`error.code` no_space) or because its file system is silent (unsupported).
     virtual void directory_problem(const Error& error) = 0;
 };
@@ -68,15 +69,17 @@ class Watcher {
     // Both must outlive the watcher.
     Watcher(std::filesystem::path drop, EventSource& events, WatchListener& listener);
 
-    // Called now and then from within scan() and read_events(), while there is much to do. In a
-    // scan events are read then as well.
+    // Called now and then during scan() and read_events(), while there is much to do. During a scan
+    // events are read as well.
     void on_step(std::function<void()> step) { step_ = std::move(step); }
-    // Watches and reports everything below the drop directory; fails when it cannot be read.
+    // Watches and reports everything below the drop directory; fails if the directory cannot be
+    // read.
     [[nodiscard]] Status scan();
-    // Handles what waits at events.descriptor().
+    // Handles the events that wait at events.descriptor().
     void read_events();
     [[nodiscard]] std::size_t directory_count() const { return watch_of_.size(); }
-    // Some directories' changes come without events, as the last scan and what came since have it.
+    // Returns true if changes in some directories come without events, by the last scan and the
+    // events since.
     [[nodiscard]] bool is_blind() const { return unwatched_ > 0 || silent_ > 0; }
 
   private:
@@ -95,20 +98,21 @@ class Watcher {
     WatchListener& listener_;
     void step();
     std::function<void()> step_;
-    bool is_reading_ = false;  // events
-    // Paths as text, which takes a quarter of the memory.
+    bool is_reading_ = false;  // it is reading events
+    // Holds paths as text, which takes a quarter of the memory.
     struct Watched {
         std::string path;
-        std::uint64_t scan = 0;  // that saw it last
+        std::uint64_t scan = 0;  // the scan that last found the directory
     };
     std::unordered_map<int, Watched> path_of_;
-    std::map<std::string, int> watch_of_;  // sorted: what lies below a directory is one run
+    std::map<std::string, int>
+        watch_of_;  // sorted: everything below a directory is one contiguous run
     std::uint64_t scan_ = 0;
-    bool saw_all_ = true;  // that scan
+    bool saw_all_ = true;  // the last scan did
     using Clock = std::chrono::steady_clock;
-    double owed_s_ = 0;  // see most_owed_s, at owed_at_
+    double owed_s_ = 0;  // see most_owed_s; as of owed_at_
     Clock::time_point owed_at_{};
-    std::size_t unwatched_ = 0, silent_ = 0;  // directories, of the last scan and since
+    std::size_t unwatched_ = 0, silent_ = 0;  // directories, from the last scan and since
     bool told_unwatched_ = false, told_silent_ = false;
 };
 

@@ -1,11 +1,11 @@
 // pipeline/mosaic/frame_parts.h -- what a frame was made of, and what of it has changed since.
 //
-// A frame in the cache says which partials it was made of, each by a fingerprint of all that counts
-// for the frame: its cells (by the checksums of its bricks), columns, site and times. And by which
-// recipe: the rules of overlap and time. So when a new volume comes, it is known on which columns
-// the new frame differs, and the rest is copied (grid::update()).
-// A fingerprint is of what a grid file says of its bricks: whoever copies verifies the codes first.
-// Inside the pipeline room only. Threads: pure functions.
+// A frame in the cache names the partials that it was made of, each by a fingerprint of everything
+// that counts for the frame: its cells (by the checksums of its bricks), columns, site and times.
+// It also names its recipe: the rules of overlap and time. So when a new volume comes, it is known
+// on which columns the new frame differs, and the other columns are copied (grid::update()). A
+// fingerprint covers what a grid file says of its bricks: verify the codes before copying them.
+// Inside the pipeline room only. Thread contract: pure functions.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,17 @@ namespace stormcellar::pipeline {
 [[nodiscard]] std::uint64_t fingerprint_of(const PartialView& partial);
 [[nodiscard]] std::uint64_t recipe_of(const FrameOptions& options);
 
-// Where each of them lies, and its fingerprint.
-// bad_argument: a partial that is no window of the domain.
+// The position of each partial's window, and its fingerprint.
+// Errors: bad_argument for a partial that is not a window of the domain.
 [[nodiscard]] Result<std::vector<grid::FramePart>> parts_of(
     const grid::GridSpec& domain, std::span<const PartialView* const> partials);
 
-// The windows of all sites whose partials came, went or were replaced between two frames, both by
-// ICAO, then time.
+// The windows of all sites whose partials were added, removed or replaced between two frames. Both
+// lists are sorted by ICAO, then time.
 [[nodiscard]] std::vector<grid::GridWindow> changed_windows(std::span<const grid::FramePart> before,
                                                             std::span<const grid::FramePart> now);
 
-// Whether two windows share a column of bricks.
+// Returns true if two windows share a column of bricks.
 [[nodiscard]] bool share_bricks(const grid::GridWindow& a, const grid::GridWindow& b);
 
 }  // namespace stormcellar::pipeline

@@ -1,10 +1,10 @@
-// pipeline/mosaic/instant_cache.h -- sites' grids for instants that were made before, in memory.
+// pipeline/mosaic/instant_cache.h -- caches sites' grids for instants in memory.
 //
 // A frame is made again for each volume of any of its sites, and making a site's grid for the
-// instant costs more than all merging. The grids of the sites whose volumes stayed the same are had
-// from here. The least recently used go first, within a budget of bytes.
-// Thread contract: may be used by many threads; a grid that two threads want at once may be made
-// twice, and one of the two is kept.
+// instant costs more than all merging. This cache has the grids of sites whose volumes stayed the
+// same. It drops the least recently used first, within a budget of bytes. Thread contract: many
+// threads may use it. If two threads want the same grid at once, both may make it, and one result
+// is cached.
 #pragma once
 
 #include <compare>
@@ -22,7 +22,7 @@ namespace stormcellar::pipeline {
 
 class InstantCache {
   public:
-    // All that the cells depend on (pipeline/mosaic/frame_parts.h).
+    // Everything that the cells depend on (pipeline/mosaic/frame_parts.h).
     struct Key {
         std::uint64_t before = 0, after = 0;  // fingerprints of the two partials
         std::uint64_t recipe = 0;

@@ -1,9 +1,8 @@
-// pipeline/mosaic/mapped_partials.h -- the partials of a domain about a time, as their files have
-// them.
+// pipeline/mosaic/mapped_partials.h -- the partials of a domain around a time, mapped from their
+// files.
 //
-// Inside the pipeline room only. Each holds a descriptor and a map; at most those of 35 minutes
-// about the times asked for are opened.
-// Thread contract: one thread.
+// Inside the pipeline room only. Each partial holds a descriptor and a map; only partials within 35
+// minutes of the times that are asked for are opened. Thread contract: one thread.
 #pragma once
 
 #include <string>
@@ -24,18 +23,19 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 
 class MappedPartials {
   public:
-    // Those that count for an instant between `from` and `to`. What cannot be opened is named in
-    // `problems`; partials of a configuration that has changed since are left out.
-    // Errors: the cache cannot be read.
+    // The partials that count for an instant between `from` and `to`. Files that cannot be opened
+    // are named in `problems`; partials of an earlier configuration are left out. Errors: the cache
+    // cannot be read.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
                                        level2::Moment moment, UtcTime from, UtcTime to,
                                        std::vector<std::string>& problems);
 
-    // Valid until one is dropped.
+    // Valid until a partial is dropped.
     [[nodiscard]] std::vector<PartialView> views() const;
-    // What was read was what the files held.
+    // Verifies that what was read is what the files held.
     [[nodiscard]] Status check_whole() const;
-    // Verifies all and drops those that are damaged, each named in `problems`. False: none was.
+    // Verifies all partials, and drops damaged ones, naming each in `problems`. Returns false if
+    // none was damaged.
     bool drop_damaged(std::vector<std::string>& problems);
 
   private:

@@ -1,14 +1,15 @@
-// pipeline/mosaic/mosaic_frame.h -- what several sites saw, as one grid for an instant.
+// pipeline/mosaic/mosaic_frame.h -- merges what several sites saw into one grid for an instant.
 //
-// Each volume is gridded once, on its site's window of the domain's grid: its partial (kept in the
-// cache by the daemon, in memory by the command line). A frame takes of each site the partials
-// before and after the instant, makes one of them for the instant
-// (grid/mosaic/time_interpolation.h), and merges those of all sites (stormcellar/grid/mosaic.h).
-// The same partials and options give the same bytes, wherever they come from. Where a frame for the
-// same instant was made before, of partials of which some are the same, only the bricks that the
-// others touch are merged, and the rest is copied: the same bytes for less. A frame is provisional
-// while a site has nothing after the instant: a later volume will change it. Threads: pure
-// functions but for the caches of geometries, which many threads may share.
+// Each volume is gridded once, on its site's window of the domain's grid. This is its partial,
+// which the daemon stores in the cache and the command line in memory. A frame takes for each site
+// the partials before and after the instant, makes a grid for the instant from them
+// (grid/mosaic/time_interpolation.h), and merges the grids of all sites
+// (stormcellar/grid/mosaic.h). The same partials and options give the same bytes, wherever they
+// come from. If an earlier frame for the same instant has some of the same partials, only the
+// bricks that the other partials touch are merged, and the rest is copied: the same bytes for less
+// work. A frame is provisional while a site has nothing after the instant: a later volume will
+// change it. Thread contract: pure functions, except for the caches of geometries, which many
+// threads may share.
 #pragma once
 
 #include <map>
@@ -43,19 +44,20 @@ struct MadePartial {
     cache::GridDescription description;
     grid::BrickGrid bricks;
 };
-// None where the site does not reach the domain. The caller fills in the source files.
-// Errors: those of make_grid().
+// None if the site does not reach the domain. The caller fills in the source files. Errors: those
+// of make_grid().
 [[nodiscard]] Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
                                                               const grid::SitePosition& site,
                                                               const grid::GridSpec& domain,
                                                               const PartialOptions& options,
                                                               GeometryCache& geometries);
 
-// A partial wherever it is; what it refers to must outlive its use.
+// A partial in a file or in memory; what it refers to must outlive its use.
 struct PartialView {
     const cache::GridDescription* description = nullptr;
     grid::BrickView view;
-    // The file that the view is of: it is verified before its cells are used. None: memory.
+    // The file of the view, which is verified before its cells are used. None: the partial is in
+    // memory.
     const cache::GridFile* file = nullptr;
 
     [[nodiscard]] const grid::SitePosition& site() const { return description->sites.front(); }
@@ -64,7 +66,7 @@ struct PartialView {
     }
 };
 
-// By ICAO; none where the echo's motion is not known.
+// By ICAO; none if the motion of the echo is not known.
 using Motions = std::map<std::string, std::optional<grid::MotionField>>;
 
 struct FrameOptions {
@@ -73,30 +75,30 @@ struct FrameOptions {
     bool sweep_times = true;
     // A partial farther from the instant than this is not used: its site had a gap there.
     std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
-    // Estimated before (estimate_motions()); sites that it lacks do not move. None: estimated from
-    // the partials. Must outlive the call.
+    // Motions that were estimated before (estimate_motions()); a site without an entry does not
+    // move. None: they are estimated from the partials. Must outlive the call.
     const Motions* motions = nullptr;
     int threads = 1;
 };
 
-// Of one site: indices into the partials.
+// For one site: indices into the partials.
 struct Bracket {
     std::optional<std::size_t> before, after;
 };
-// By ICAO. Sites that have neither are left out. Of partials of the same middle the last one
+// By ICAO. A site with neither partial is left out. Of partials with the same middle the last one
 // counts.
 [[nodiscard]] std::vector<Bracket> brackets_of(std::span<const PartialView> partials,
                                                UtcTime instant,
                                                std::chrono::milliseconds greatest_gap);
 
-// Of each site that has a volume before the instant and one after it; REF alone moves.
-// Errors: those of grid::estimate_motion().
+// For each site with a volume before the instant and one after it; only REF moves. Errors: those of
+// grid::estimate_motion().
 [[nodiscard]] Result<Motions> estimate_motions(std::span<const PartialView> partials,
                                                UtcTime instant, level2::Moment moment,
                                                const FrameOptions& options);
 
-// Which partials make_frame() makes the frame of, as its provenance has them, and by which rules:
-// a frame that has the same is the same to the byte. Errors: as make_frame(), but for those of
+// Which partials make_frame() would use, as its provenance lists them, and by which rules: two
+// frames with the same recipe have the same bytes. Errors: as make_frame(), except for those of
 // cells, which are not read.
 struct FrameRecipe {
     std::vector<grid::FramePart> parts;
@@ -109,27 +111,27 @@ struct FrameRecipe {
 struct MosaicFrame {
     cache::GridDescription description;
     grid::Mosaic mosaic;
-    // The windows whose bricks were merged, where the rest was copied; none: all were merged.
+    // the windows whose bricks were merged; the rest was copied. None: all were merged
     std::optional<std::vector<grid::GridWindow>> merged;
 };
 
 class InstantCache;
 
-// A frame made before; its codes must have been verified.
+// An earlier frame; its codes must have been verified.
 struct PreviousFrame {
     const cache::GridDescription* description = nullptr;
     grid::BrickView cells;
 };
 
-// What was made before and may be used again; the frame has the same bytes without.
+// Earlier results that may be used; the frame has the same bytes without them.
 struct MadeBefore {
-    // Any frame: what of it can be used is, by its parts (pipeline/mosaic/frame_parts.h).
+    // Any frame; its parts tell what of it can be used (pipeline/mosaic/frame_parts.h).
     const PreviousFrame* frame = nullptr;
     InstantCache* instants =
         nullptr;  // sites' grids for instants (pipeline/mosaic/instant_cache.h)
 };
 
-// Errors: not_found when no site has a partial near the instant; a partial's file that does not
+// Errors: not_found if no site has a partial near the instant; the file of a partial that does not
 // verify (its path begins the message); those of grid_at() and merge().
 [[nodiscard]] Result<MosaicFrame> make_frame(const grid::GridSpec& domain,
                                              std::span<const PartialView> partials, UtcTime instant,

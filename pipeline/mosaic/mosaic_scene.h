@@ -1,10 +1,11 @@
-// pipeline/mosaic/mosaic_scene.h -- volumes of several sites over one domain, made into the frame
-// of one instant in any way, whole: what the accuracy planner measures mosaics on (mosaic_plan.h).
+// pipeline/mosaic/mosaic_scene.h -- makes the frame of one instant from volumes of several sites in
+// any chain: the accuracy planner measures mosaics on it (mosaic_plan.h).
 //
-// The instant brackets some of the volumes; only those are gridded again, each way of gridding
-// once: the two that were used last are kept. The motion of echo is estimated once, from the
-// default grids, and is that of every frame: a rung errs by what it does, not by another motion.
-// Threads: use a scene from one thread; it starts up to `threads` of its own.
+// Only the volumes that bracket the instant are gridded, once for each way of gridding; the two
+// ways that were used last are cached. The motion of echo is estimated once, from the default
+// grids, and is used for every frame: the error of a rung then comes from the rung, not from
+// another motion. Thread contract: use a scene from one thread; it starts up to `threads` of its
+// own.
 #pragma once
 
 #include <list>
@@ -19,17 +20,17 @@
 
 namespace stormcellar::pipeline {
 
-// One volume of a site and what its partials say of where they come from.
+// One volume of a site, and what its partials say about their source.
 struct SceneVolume {
     const level2::Volume* volume = nullptr;
     grid::SitePosition site;
-    std::string file;  // as errors name it; its last part goes into the provenance
+    std::string file;  // the name for errors; its last part goes into the provenance
     bool partial = false;
     std::vector<std::string> notes;
 };
 
-// Each on its site's window of the domain, in their order. Errors name the file: those of
-// make_partial(); bad_argument for a site that sees nothing of the domain.
+// Makes each partial on its site's window of the domain, in the order of the volumes. Errors name
+// the file: those of make_partial(); bad_argument for a site that sees nothing of the domain.
 [[nodiscard]] Result<std::vector<MadePartial>> make_partials(std::span<const SceneVolume> volumes,
                                                              const grid::GridSpec& domain,
                                                              const PartialOptions& options,
@@ -37,50 +38,51 @@ struct SceneVolume {
 
 [[nodiscard]] std::vector<PartialView> views_of(const std::vector<MadePartial>& partials);
 
-// The instant that a mosaic of these is of: the middle between the earliest and the latest of the
-// sites' newest partials, by their middles. Where these do not all lie within `greatest_gap` of it,
-// the newest one's middle: what is far apart in time does not blend.
+// The instant of the mosaic of these volumes: the middle between the earliest and the latest of the
+// sites' newest partials, by their middles. If these are not all within `greatest_gap` of it, the
+// middle of the newest: partials that are far apart in time are not blended.
 [[nodiscard]] UtcTime instant_of_newest(
     std::span<const PartialView> partials,
     std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap);
 
 struct MosaicSceneOptions {
-    FrameOptions frame;      // time, sweeps and motions are the choice's and the scene's own
-    PartialOptions partial;  // likewise method, frame and quantisation
+    FrameOptions frame;      // time, sweeps and motions come from the choice and the scene
+    PartialOptions partial;  // method, frame and quantization do too
     // None: instant_of_newest().
     std::optional<UtcTime> instant = std::nullopt;
 };
 
 class MosaicScene {
   public:
-    // Of a volume's first radial and of its last.
+    // The time of a volume's first radial, and of its last.
     struct Times {
         UtcTime start, end;
     };
 
-    // Grids all volumes the default way. The volumes must outlive the scene.
-    // Errors: those of make_partials(), not_found when no volume is near the instant.
+    // Grids all volumes in the default way. The volumes must outlive the scene. Errors: those of
+    // make_partials(); not_found if no volume is near the instant.
     [[nodiscard]] static Result<MosaicScene> make(std::vector<SceneVolume> volumes,
                                                   const grid::GridSpec& domain,
                                                   const accuracy::Chain& chain,
                                                   const MosaicSceneOptions& options);
 
-    // The same bits whenever it is asked for.
+    // Returns the same bits every time.
     [[nodiscard]] Result<MosaicFrame> frame(const MosaicChoice& choice);
-    // Partials of the volumes in use, gridded and kept as the choice has it.
+    // Partials of the volumes in use, gridded and stored as the choice says.
     [[nodiscard]] Result<const std::vector<MadePartial>*> partials(const MosaicChoice& choice);
 
-    // What was kept of this choice's gridding, so that it is made anew.
+    // Drops what is cached for the gridding of this choice, so that it is made anew.
     void forget(const MosaicChoice& choice);
 
-    // Those that the instant brackets.
+    // The volumes that bracket the instant.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
     [[nodiscard]] const std::vector<Times>& times() const { return times_; }
-    // Of them, by place; pairs are what time is interpolated between.
+    // For these volumes, by their index: the pairs between which time is interpolated.
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
     [[nodiscard]] const Motions& motions() const { return motions_; }
-    // That estimating them took: of one thread by the processor's time, of several by the clock.
+    // How long estimating the motions took: by processor time with one thread, by the clock with
+    // more.
     [[nodiscard]] double motion_seconds() const { return motion_s_; }
     [[nodiscard]] double now_s() const;
     [[nodiscard]] const grid::GridSpec& domain() const { return domain_; }
@@ -108,7 +110,7 @@ class MosaicScene {
     std::vector<Bracket> brackets_;
     Motions motions_;
     double motion_s_ = 0;
-    std::list<Kept> kept_;  // used last first
+    std::list<Kept> kept_;  // the one used last is first
     std::shared_ptr<GeometryCache> geometries_;
 };
 

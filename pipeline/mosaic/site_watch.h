@@ -1,10 +1,10 @@
-// pipeline/mosaic/site_watch.h -- compares the overlapping sites of the mosaics in the cache, now
-// and then.
+// pipeline/mosaic/site_watch.h -- compares the overlapping sites of the mosaics in the cache from
+// time to time.
 //
-// Of the newest frame of a domain that is complete (not provisional) each pair of sites that may
-// overlap is compared, by the partials that the frame is made of
-// (pipeline/mosaic/pair_comparison.h), at most once in an hour of the frames' time. A replay of old
-// data after newer ones compares nothing. Thread contract: one thread.
+// For the newest complete (not provisional) frame of a domain it compares each pair of sites that
+// may overlap, by the partials of the frame (pipeline/mosaic/pair_comparison.h), at most once in an
+// hour of the frames' time. A replay of old data after newer data compares nothing. Thread
+// contract: one thread.
 #pragma once
 
 #include <map>
@@ -23,7 +23,7 @@ struct PairReport {
     std::string domain;
     UtcTime instant;  // of the frame
     grid::SiteComparison found;
-    std::vector<std::string> faults;  // named ones: grid::faults()
+    std::vector<std::string> faults;  // as grid::faults() names them
 };
 
 class SiteWatch {
@@ -33,9 +33,9 @@ class SiteWatch {
     // The store must outlive it.
     SiteWatch(const cache::StoreReader& store, std::vector<Domain> domains);
 
-    // Compares the next pair that is due; none: nothing is. A pair of which a partial is gone or
-    // damaged, or that cannot be compared, waits for its next turn.
-    // Errors: the cache cannot be read.
+    // Compares the next pair that is due; none if no pair is due. A pair that cannot be compared,
+    // for example because a partial is gone or damaged, waits for its next turn. Errors: the cache
+    // cannot be read.
     Result<std::optional<PairReport>> compare_next();
 
   private:
@@ -50,8 +50,8 @@ class SiteWatch {
                                                     const Pair& pair) const;
 
     const cache::StoreReader& store_;
-    std::vector<Domain> domains_;  // those that have reflectivity
-    // By domain and pair: the instant of the frame that it was compared by.
+    std::vector<Domain> domains_;  // those with reflectivity
+    // By domain and pair: the instant of the frame by which the pair was last compared.
     std::map<std::pair<std::string, Pair>, UtcTime> compared_;
 };
 
