@@ -1,11 +1,11 @@
-// cache/account.h -- what the cache holds, and what would have to go. Inside the cache room only.
+// cache/account.h -- what the cache holds, and which grids to evict. Inside the cache room only.
 //
-// Pure bookkeeping: it reads no file and asks no clock. Grids are ordered by the time that counts:
-// their own, or, where that is more than 10 minutes in the future, the time at which the file was
-// written, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
-// All grids of others (stormcellar/cache/budget.h) stand before all of known groups. Victims are
-// never pinned, being written or evicted (busy), stuck, or protected. Thread contract: one thread
-// at a time.
+// Pure bookkeeping: it reads no file and no clock. Grids are ordered by their time. If a grid's
+// time is more than 10 minutes in the future, the time at which its file was written counts
+// instead, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
+// All grids of others (stormcellar/cache/budget.h) come before those of known groups. A grid is
+// never a victim while it is pinned, being written or evicted (busy), stuck, or protected. Thread
+// contract: one thread at a time.
 #pragma once
 
 #include <chrono>
@@ -31,17 +31,17 @@ struct GridFacts {
     bool pinned = false;
 };
 
-// Which grids may have to go.
+// Which grids may be evicted.
 enum class Reach {
-    others,       // those of groups that are not known
-    unprotected,  // and those of known groups that are not protected
-    all,          // and the protected ones
+    others,       // those of unknown groups
+    unprotected,  // also those of known groups that are not protected
+    all,          // also the protected ones
 };
 
-// What is protected from one limit.
+// Which grids are protected from a limit.
 struct Protection {
-    std::chrono::milliseconds age{};     // written less than this ago; 0: whatever the age
-    std::optional<std::uint64_t> space;  // half of it at most; none: however much it is
+    std::chrono::milliseconds age{};     // written less than this ago; 0: at any age
+    std::optional<std::uint64_t> space;  // at most half of this is protected; none: no bound
 };
 
 class Account {
@@ -50,16 +50,16 @@ class Account {
 
     explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
 
-    // What time it is. Grids whose time has come are believed from now on.
+    // Sets the current time. From now on, grids whose time has come are ordered by it.
     void set_now(UtcTime now);
-    // How large the file system is, for budgets of percent; 0: not known.
+    // Sets the size of the file system, for limits in percent; 0: unknown.
     void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
-    // Who is known is asked when a group's first grid comes, and again here.
+    // Whether a group is known is determined when its first grid comes, and again here.
     void ask_who_is_known();
     void ask_who_is_known(std::string_view group);
     [[nodiscard]] bool is_known(std::string_view group) const;
 
-    // Adds the grid or replaces what is known of it; it is neither busy nor stuck then.
+    // Adds the grid or replaces what is known of it; afterwards it is neither busy nor stuck.
     void put(const GridName& name, const GridFacts& facts);
     void erase(const GridName& name);
     [[nodiscard]] const GridFacts* find(const GridName& name) const;
@@ -68,11 +68,11 @@ class Account {
     void set_busy(const GridName& name);     // no victim until put() or erase()
     void set_leaving(const GridName& name);  // busy, and its bytes will soon be free
     void set_stuck(const GridName& name);    // could not be removed: no victim until put()
-    // The names of one domain and moment within these times.
+    // The names for one domain and moment within these times.
     [[nodiscard]] std::vector<GridName> names(const std::string& domain, level2::Moment moment,
                                               UtcTime from, UtcTime to) const;
 
-    // Bytes beside those of the grids: of files being written or left over.
+    // Bytes in addition to those of the grids: files that are being written or were left over.
     void reserve(std::string_view group, std::uint64_t bytes);
     void release(std::string_view group, std::uint64_t bytes);
 
@@ -83,32 +83,33 @@ class Account {
     [[nodiscard]] std::size_t pinned_count() const { return pinned_; }
     [[nodiscard]] std::vector<std::string> groups() const;
 
-    // The newest time of a group that counts; none when it has none.
+    // The newest time of a group that counts; none if it has no grid.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
-    // Whether a grid of this name is or would be the newest of its domain and moment.
+    // Returns true if a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
-    // Whether a grid of this name, written now, would be one to keep whatever has to go for it: it
-    // is of a known group, and the newest or pinned already.
+    // Returns true if a grid of this name, written now, must be stored whatever is evicted for it:
+    // its group is known, and it is the newest grid or pinned already.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Whether a grid of this name, written now, is older than the group's age, and not protected
-    // from it.
+    // Returns true if a grid of this name, written now, is older than the group's age limit and not
+    // protected from it.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
-    // As stormcellar/cache/budget.h says it; none: no limit.
+    // The limit as stormcellar/cache/budget.h defines it; none: no limit.
     [[nodiscard]] std::optional<std::uint64_t> space_of(const Budget& budget) const;
     [[nodiscard]] std::optional<std::uint64_t> others_limit(const Budgets& budgets) const;
 
-    // Whether so many bytes more fit now.
+    // Returns true if this many more bytes fit now.
     [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
                             const Budgets& budgets) const;
-    // Which grids must go so that `bytes` of this grid fit, oldest first, beside what is leaving
-    // already; none when it cannot be. Only those are taken that stand before it, unless it is to
-    // stay.
+    // Which grids must be evicted so that `bytes` of this grid fit, oldest first, beside those that
+    // are leaving already; none if that is impossible. Only grids that come before this grid are
+    // evicted, unless it must be stored.
     [[nodiscard]] std::optional<std::vector<GridName>> room_for(
         const GridName& name, std::uint64_t bytes, const Budgets& budgets,
         Reach reach = Reach::unprotected) const;
-    // The oldest grids that hold so many bytes on disk: of all where the budget of all limits
-    // space, else of the grid's group. By the same rule, and fewer where there are no more.
+    // The oldest grids that hold this many bytes on disk: among all grids if the limit of the whole
+    // cache is a limit of space, otherwise in the grid's group. By the same rule; fewer if there
+    // are no more.
     [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
                                                const Budgets& budgets) const;
 
@@ -116,11 +117,11 @@ class Account {
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
                                                 std::size_t most, const Protection& protection = {},
                                                 Reach reach = Reach::unprotected) const;
-    // The same so that the others hold `bytes` or less together.
+    // The same, so that the others together hold `bytes` or less.
     [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
-    // Grids of others that were written longer ago than anything is protected.
+    // Grids of others that were written before the period of protection.
     [[nodiscard]] std::vector<GridName> outlived(const Budgets& budgets, std::size_t most) const;
 
   private:
@@ -135,7 +136,7 @@ class Account {
     struct ByAge {
         using is_transparent = void;
         struct Key {
-            bool known;  // false first
+            bool known;  // false sorts first
             UtcTime counted;
             const GridName* name;
         };
@@ -149,7 +150,7 @@ class Account {
                    std::tie(second.known, second.counted, *second.name);
         }
     };
-    using Order = std::set<const Item*, ByAge>;  // those that may go
+    using Order = std::set<const Item*, ByAge>;  // those that may be evicted
     struct Group {
         bool known = true;
         std::map<GridName, Entry> grids;
@@ -160,10 +161,10 @@ class Account {
 
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
     [[nodiscard]] bool believed(UtcTime time) const { return is_believed(time, now_); }
-    // The newest believed; where none is, the newest of all.
+    // The newest grid whose time is believed; if there is none, the newest of all.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;
-    // Calls for the newest of each domain and moment of the group.
+    // Calls the function for the newest grid of each domain and moment of the group.
     template <class Visit>
     void for_each_newest(const Group& group, Visit visit) const;
     [[nodiscard]] UtcTime counted_if_written_now(const GridName& name) const;
@@ -172,7 +173,8 @@ class Account {
     [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
                                                const Protection& protection) const;
     class Shield;
-    [[nodiscard]] std::uint64_t staying_of_others() const;  // used by others, without what leaves
+    [[nodiscard]] std::uint64_t staying_of_others()
+        const;  // used by others, without what is leaving
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);
     Group& group_to_fill(std::string_view name);

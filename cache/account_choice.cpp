@@ -1,5 +1,5 @@
 // The part of the account that chooses: which grids are the newest and protected, what fits, and
-// which grids would have to go.
+// which grids to evict.
 #include <algorithm>
 
 #include "cache/account.h"
@@ -23,7 +23,7 @@ const Account::Item* Account::newest_of(const Group& group, const std::string& d
     return nullptr;
 }
 
-// From one domain and moment to the next: few, however many grids there are.
+// Goes from one domain and moment to the next: there are few, however many grids there are.
 template <class Visit>
 void Account::for_each_newest(const Group& group, Visit visit) const {
     for (auto item = group.grids.begin(); item != group.grids.end();) {
@@ -50,7 +50,7 @@ bool Account::is_newest(const GridName& name) const {
     const Item* const item = newest_of(*group, name.domain, name.moment);
     if (item == nullptr) return true;
     const UtcTime newest = item->first.time;
-    // One that is believed is newer than any that is not.
+    // A grid whose time is believed is newer than any other.
     if (believed(name.time) != believed(newest)) return believed(name.time);
     return name.time >= newest;
 }
@@ -69,8 +69,8 @@ bool Account::is_protected(const Item& item, std::chrono::milliseconds age) cons
     return item.second.known && is_younger(item, age) && is_newest(item.first);
 }
 
-// The smallest keep their protection, so that as many as can be have it. A pinned grid stays
-// without it.
+// The smallest keep their protection, so that as many as possible are protected. A pinned grid
+// needs none.
 std::set<const Account::Item*> Account::lapsed(const Group* group,
                                                const Protection& protection) const {
     std::vector<const Item*> items;
@@ -96,8 +96,8 @@ std::set<const Account::Item*> Account::lapsed(const Group* group,
     return {first, items.end()};
 }
 
-// Which grids are protected from one limit, of a group or of all. Whose protection lapses is only
-// found out when the first protected grid stands in the way, which is rare in a cache that rolls.
+// Which grids are protected from one limit, of a group or of all. It is determined only when the
+// first protected grid could be a victim, which is rare in a cache that evicts regularly.
 class Account::Shield {
   public:
     Shield(const Account& account, const Group* group, const Protection& protection)
@@ -157,7 +157,7 @@ bool Account::fits(std::string_view group, std::uint64_t bytes, const Budgets& b
            (is_known(group) || within(used_by_others(), others_limit(budgets)));
 }
 
-// A grid of others only takes the place of other's grids.
+// A grid of others only takes the place of grids of others.
 Account::Order::const_iterator Account::end_for(const Order& order, const GridName& name) const {
     if (is_to_stay(name)) return order.end();
     const bool known = is_known(group_of(name.domain));
@@ -172,7 +172,7 @@ std::optional<std::vector<GridName>> Account::room_for(const GridName& name, std
     std::set<const Item*> chosen;
     std::vector<GridName> victims;
     std::uint64_t freed = 0;
-    // Takes from `order` until `used` and `bytes` are within the limit.
+    // Takes victims from `order` until `used` and `bytes` are within the limit.
     const auto choose = [&](const Order& order, std::uint64_t used,
                             const std::optional<std::uint64_t>& limit, Shield shield) {
         if (!limit) return true;
@@ -276,7 +276,7 @@ std::vector<GridName> Account::expired(std::string_view group, const Budgets& bu
     return victims;
 }
 
-// A file from the future is none that could have been written since.
+// A file from the future cannot have been written since.
 std::vector<GridName> Account::outlived(const Budgets& budgets, std::size_t most) const {
     std::vector<GridName> victims;
     const auto age = budgets.protected_for;

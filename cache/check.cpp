@@ -58,8 +58,8 @@ bool is_stored_form(const BrickEntry& entry, const grid::Quantization& quantizat
            entry.max_code <= quantization.largest_code();
 }
 
-// Two bits a cell: both set would be a value, which such a brick has not. All are looked at, which
-// runs in vectors.
+// There are two bits for each cell: both set would mean a value, which such a brick does not have.
+// The loop examines all cells, so that it runs in vectors.
 bool claims_a_value(std::span<const std::byte> states) {
     constexpr std::byte low_bits{0x55};
     std::byte both{};

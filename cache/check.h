@@ -1,7 +1,8 @@
 // cache/check.h -- what must be true of a grid file beyond its checksum.
 //
-// Inside the cache room only. The writer refuses to write what the reader would refuse to read, by
-// the same functions. Errors are corrupt, with a message that names no file.
+// Inside the cache room only. The writer uses the same functions, so it never writes what the
+// reader would refuse. Errors are corrupt, with a message that names no file. Thread contract: pure
+// functions.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +15,20 @@
 
 namespace stormcellar::cache {
 
-// Sizes and numbers of the header: the spec, moment, times (years 1970 to 9999), sites (finite)
-// and quantisation (1 or 2 bytes, finite, a positive step); at most format::max_bricks bricks.
+// Checks sizes and numbers of the header: the spec, moment, times (years 1970 to 9999), sites
+// (finite) and quantization (1 or 2 bytes, finite, a positive step); at most format::max_bricks
+// bricks.
 [[nodiscard]] Status check_description(const GridDescription& description,
                                        const grid::Quantization& quantization);
 
-// Every entry is one of the three kinds in its only form: unused fields zero, counts, codes and
-// packed sizes in range, status blocks used once each and in order; and no status block claims a
-// value.
+// Checks that every entry is one of the three kinds in its only form: unused fields are zero;
+// counts, codes and packed sizes are in range; status blocks are used once each and in order; no
+// status block claims a value.
 [[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
                                   std::span<const std::byte> states,
                                   const grid::Quantization& quantization, Packing packing);
 
-// What all stored bricks take together, packed.
+// How many bytes all stored bricks take together when packed.
 [[nodiscard]] std::uint64_t packed_size(std::span<const grid::BrickEntry> bricks);
 
 [[nodiscard]] std::uint64_t brick_count(const grid::GridSpec& spec);

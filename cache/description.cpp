@@ -52,7 +52,7 @@ void append(std::vector<std::byte>& bytes, const T* first, std::size_t count) {
 
 void append_record(std::vector<std::byte>& bytes, RecordKind kind,
                    std::span<const std::byte> contents) {
-    // A length beyond 32 bits is cut here, and refused by the writer, which sees the true size.
+    // A length beyond 32 bits is cut here; the writer, which sees the true size, refuses it.
     const RecordHead head{static_cast<std::uint16_t>(kind), 0,
                           static_cast<std::uint32_t>(contents.size())};
     append(bytes, &head, 1);
@@ -72,7 +72,7 @@ void append_site(std::vector<std::byte>& bytes, const grid::SitePosition& site) 
     append_record(bytes, RecordKind::site, contents);
 }
 
-// As a record holds it.
+// In the form of a record.
 struct StoredSweep {
     double elevation_deg = 0;
     std::int64_t start_ms = 0;
@@ -87,7 +87,7 @@ void append_sweep(std::vector<std::byte>& bytes, const grid::SweepTime& sweep) {
     append_record(bytes, RecordKind::sweep, std::as_bytes(std::span(&stored, 1)));
 }
 
-// As a record holds it; the ICAO follows.
+// In the form of a record; the ICAO follows.
 struct StoredPart {
     std::int64_t time_ms = 0;
     std::uint64_t fingerprint = 0;
@@ -135,7 +135,7 @@ bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     return true;
 }
 
-// Of columns that a grid can have.
+// Only of columns that a grid can have.
 bool is_window(const StoredPart& part) {
     constexpr std::int32_t most = grid::GridSpec::greatest_side;
     const auto lies_within = [](std::int32_t first, std::int32_t count) {
@@ -182,7 +182,7 @@ bool read_audit(std::span<const std::byte> bytes, std::vector<grid::AuditRow>& r
     return std::all_of(rows.begin(), rows.end(), grid::is_possible);
 }
 
-// False when the contents have a size or numbers that their kind cannot have.
+// Returns false if the contents have a size or numbers that their kind cannot have.
 bool read_record(RecordKind kind, std::span<const std::byte> contents,
                  GridDescription& description) {
     grid::Provenance& provenance = description.provenance;

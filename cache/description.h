@@ -1,7 +1,8 @@
 // cache/description.h -- the description section: names and notes as a list of tagged records.
 //
-// Inside the cache room only. Strings are bytes as they came (a file name need not be UTF-8).
-// Records of an unknown kind are skipped, so a later version may add some.
+// Inside the cache room only. Strings are bytes as they came (a file name need not be UTF-8). A
+// reader skips records of an unknown kind, so a later version may add some. Thread contract: pure
+// functions.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@ namespace stormcellar::cache {
 // The parts of a description that are not in the header: sites, provenance and standard parallels.
 [[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
 
-// Fills these. corrupt when a record runs past the end or has an impossible size
-// or, of an audit, impossible numbers.
+// Fills these members. Errors: corrupt if a record runs past the end, has an impossible size or,
+// for an audit, impossible numbers.
 [[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
                                         GridDescription& description);
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The directory's own record of the type answers; a system call is made only where it has none.
+// The directory itself usually tells the type; a system call is made only if it does not.
 bool is_of_type(const fs::directory_entry& entry, fs::file_type type) {
     std::error_code ignored;
     if (entry.is_symlink(ignored)) return false;

@@ -1,7 +1,8 @@
-// cache/directories.h -- what stands in the directories of a cache. Inside the cache room only.
+// cache/directories.h -- what the directories of a cache hold. Inside the cache room only.
 //
-// Symbolic links are not followed; what has not a grid's name at a grid's place is not ours and is
-// left out, as is what vanishes while it is looked at. A directory that is not there holds nothing.
+// Symbolic links are not followed. A file in a grid's place without a grid's name is not ours and
+// is left out; so is a file that vanishes while it is examined. A missing directory holds nothing.
+// Thread contract: functions without state; they only read, except remove_temporaries().
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,7 @@ struct FoundGrid {
     UtcTime written;  // when the file was last changed
     bool pinned = false;
 };
-// None when no regular file stands there.
+// None if there is no regular file.
 [[nodiscard]] std::optional<FoundGrid> look_at_grid(const std::filesystem::path& path,
                                                     UtcTime time);
 
@@ -59,8 +60,8 @@ struct DayContents {
                                            UtcTime from = UtcTime{},
                                            UtcTime to = last_possible_time);
 
-// Removes every file whose name says that it is being written: what a killed writer left. Only for
-// who knows that nobody writes.
+// Removes every file whose name says that it is being written: a killed writer left it. Only for a
+// caller who knows that nobody writes.
 [[nodiscard]] Status sweep_temporaries(FileSystem& file_system, const std::filesystem::path& cache);
 
 }  // namespace stormcellar::cache

@@ -1,8 +1,7 @@
-// cache/evict.h -- evicting by hand, beside a daemon that writes and evicts too.
+// cache/evict.h -- evicts grids by hand, beside a daemon that writes and evicts too.
 //
-// The choice is a list, so it can be shown before anything is done. Pinned grids are never taken,
-// and a grid that is pinned after it was chosen is left where it is.
-// Thread contract: any thread, any process.
+// The choice is a list, so it can be shown before anything is done. Pinned grids are never evicted;
+// a grid that is pinned after it was chosen stays. Thread contract: any thread, any process.
 #pragma once
 
 #include <chrono>
@@ -19,19 +18,21 @@ namespace stormcellar::cache {
 
 struct EvictionOrder {
     std::string domain;  // a domain with its parts, or one part; empty: all
-    // A grid goes when any of these asks for it. By time the newest go too; bytes and older_than
-    // keep the newest of each domain that is_known_group() knows (stormcellar/cache/budget.h),
-    // whatever its age and however much they hold. By bytes the grids of others go first.
-    std::optional<UtcTime> to;           // up to this time, itself included
+    // A grid is evicted if any of these asks for it. `to` evicts the newest grids too. `bytes` and
+    // `older_than` keep the newest grid of each domain that is_known_group() knows
+    // (stormcellar/cache/budget.h), whatever its age and size. `bytes` evicts the grids of others
+    // first.
+    std::optional<UtcTime> to;           // up to and including this time
     std::optional<std::uint64_t> bytes;  // the oldest, until the rest takes no more than this
-    std::optional<std::chrono::milliseconds> older_than;  // before the newest of the same domain
+    std::optional<std::chrono::milliseconds>
+        older_than;  // older than the newest of the same domain by this
 };
 
 struct EvictionPlan {
     std::vector<StoreEntry> victims;  // oldest first
     std::size_t looked_at = 0;        // grids of the domain
     std::size_t pinned = 0;           // how many of them are pinned
-    std::uint64_t bytes_left = 0;     // on disk, of those that stay
+    std::uint64_t bytes_left = 0;     // on disk, of the grids that stay
 };
 [[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,
                                                  const EvictionOrder& order, UtcTime now);

@@ -1,6 +1,7 @@
-// cache/file_io.h -- reading a file that may change under our hands.
+// cache/file_io.h -- reads a file that may change meanwhile.
 //
-// Inside the cache room only. Messages name no file: the caller puts the path in front.
+// Inside the cache room only. Messages name no file: the caller puts the path in front. Thread
+// contract: functions without state; a Map may be read by many threads.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +18,9 @@
 
 namespace stormcellar::cache {
 
-// A read-only map of a whole file, known to the guard of cache/map_guard.h. (Of the whole, because
-// an offset must be a multiple of the machine's page, which may be larger than the format's.)
+// A read-only map of a whole file, known to the guard of cache/map_guard.h. It maps the whole file
+// because an offset must be a multiple of the machine's page, which may be larger than the
+// format's.
 class Map {
   public:
     static Result<Map> of(const Descriptor& file, std::uint64_t size);
@@ -31,7 +33,7 @@ class Map {
     Map& operator=(const Map&) = delete;
     ~Map();
     [[nodiscard]] std::span<const std::byte> bytes() const { return {start_, size_}; }
-    // Whether the guard has put zeros in the place of the map.
+    // Returns true if the guard has replaced the map by zeros.
     [[nodiscard]] bool was_cut() const { return registration_.was_cut(); }
 
   private:
@@ -45,14 +47,14 @@ class Map {
 // Opens for reading; never blocks on a FIFO.
 [[nodiscard]] Result<Descriptor> open_for_reading(const std::filesystem::path& path);
 
-// not_a_file unless it is a regular file.
+// Errors: not_a_file unless it is a regular file.
 [[nodiscard]] Result<struct stat> facts_of(const Descriptor& file);
 
-// Fills all of `bytes`; a file that ends before is truncated.
+// Fills all of `bytes`. Errors: truncated if the file ends before.
 [[nodiscard]] Status read_at(const Descriptor& file, std::uint64_t offset,
                              std::span<std::byte> bytes);
 
-// truncated when fewer bytes were found than expected, corrupt when more.
+// Errors: truncated if fewer bytes were found than expected, corrupt if more.
 [[nodiscard]] Status check_size(std::uint64_t found, std::uint64_t expected);
 
 [[nodiscard]] tl::unexpected<Error> with_path(const std::filesystem::path& path,

@@ -1,8 +1,8 @@
 // Opening a grid file: nothing in it is used before it was checked.
 //
-// All that steers the reader (header, table, states, names) is read into memory of our own and
-// checked there, so that another program that alters or cuts the file later cannot lead us astray.
-// Only codes that are not packed stay on disk and are mapped.
+// Everything that controls the reader (header, table, states, names) is read into our own memory
+// and checked there, so that another program that alters or cuts the file later cannot mislead the
+// reader. Only codes that are not packed stay on disk and are mapped.
 #include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ namespace {
 using format::FileHeader;
 using grid::BrickEntry;
 
-// The fields that say how to read the others. Beyond here sizes can be computed without overflow.
+// Checks the fields that say how to read the others. After this, sizes can be computed without
+// overflow.
 Status check_identity(const FileHeader& header) {
     if (header.magic != format::magic) {
         return fail(ErrorCode::corrupt, "is not a stormcellar grid file");
@@ -74,7 +75,7 @@ Result<format::Layout> checked_layout(const FileHeader& header) {
     }
     format::Layout at = format::layout_of(header.nz, header.description_size, bricks,
                                           header.states_size, header.code_bytes);
-    // Packed codes are never longer; how long they are, the table must say, too.
+    // Packed codes are never longer; the table must also say how long they are.
     if (is_packed(header) && header.codes_size <= at.codes_size) {
         at = format::packed_layout(at, header.codes_size);
     }
@@ -163,7 +164,7 @@ grid::BrickView view_of(const Metadata& metadata) {
     view.bricks_x = static_cast<int>(header.bricks_x);
     view.bricks_y = static_cast<int>(header.bricks_y);
     view.bricks_z = static_cast<int>(header.bricks_z);
-    // The table's place is a multiple of 8 in memory that operator new gave.
+    // In memory from operator new the table begins at a multiple of 8.
     view.bricks = {reinterpret_cast<const BrickEntry*>(metadata.bytes.data() + at.table_offset),
                    (at.states_offset - at.table_offset) / sizeof(BrickEntry)};
     view.states =
@@ -171,14 +172,14 @@ grid::BrickView view_of(const Metadata& metadata) {
     return view;
 }
 
-// The codes as a view shows them, and what holds them.
+// The codes as a view shows them, and the object that holds them.
 struct Codes {
     std::optional<Map> map;
     SparseMemory unpacked;
     std::span<const std::byte> view;
 };
 
-// Each stored brick in its place, with the checksum that its entry has.
+// Checks that each stored brick is in its place and has the checksum of its entry.
 Status unpack_all(std::span<const std::byte> packed, const grid::BrickView& view,
                   std::span<std::byte> places) {
     const std::size_t brick_bytes =

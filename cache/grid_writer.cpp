@@ -25,7 +25,7 @@ std::int64_t milliseconds_of(UtcTime time) {
     return time.time_since_epoch().count();
 }
 
-// What the view says of itself must hold before its spans are read.
+// Checks what the view says of itself before its spans are read.
 Status check_view(const GridDescription& description, const BrickView& view) {
     const grid::GridSpec& spec = description.spec;
     const std::uint64_t bricks = brick_count(spec);
@@ -59,9 +59,9 @@ std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
     return view.codes.subspan(brick * size, size);
 }
 
-// The table in its only form: unused fields zero, status blocks once each and in order. So the
-// same cells give the same bytes, whoever made the view. Counts and checksums are made from the
-// cells, not copied, so that a file never disagrees with its own table.
+// Makes the table in its only form: unused fields are zero, status blocks are used once each and in
+// order. So the same cells give the same bytes, whoever made the view. Counts and checksums are
+// computed from the cells, not copied, so that a file never contradicts its own table.
 Tables canonical_tables(const BrickView& view, Packing packing) {
     Tables tables;
     tables.bricks.reserve(view.bricks.size());
@@ -185,7 +185,7 @@ Status write_codes(AtomicFile& file, const BrickView& view, const format::Layout
     return {};
 }
 
-// Of the file as it stands now; what was written, when it was already taken away again.
+// The size of the file as it is now, or as it was written if it was removed already.
 std::uint64_t size_on_disk(const std::filesystem::path& path, std::uint64_t written) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0) return written;
@@ -262,7 +262,8 @@ std::uint64_t most_bytes_on_disk(const GridDescription& description, const grid:
         format::layout_of(description.spec.levels_m.size(), encode_description(description).size(),
                           view.bricks.size(),
                           of_kind(BrickKind::status_only) * format::status_block_bytes, code_bytes);
-    // Blocks of the metadata, then of each stored brick that are not those of the one before.
+    // Adds the blocks of the metadata, and then those of each stored brick that differ from the
+    // blocks before.
     std::uint64_t end_block = format::round_up(at.codes_offset, block_bytes) / block_bytes;
     std::uint64_t blocks = end_block;
     for (std::size_t i = 0; i < view.bricks.size(); ++i) {

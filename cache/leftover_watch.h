@@ -1,9 +1,8 @@
-// cache/leftover_watch.h -- knows whether a file that could not be written was left behind. Inside
+// cache/leftover_watch.h -- tells whether a file that could not be written was left behind. Inside
 // the cache room only.
 //
-// AtomicFile removes its temporary file when it fails; where the file system refuses even that, the
-// file stays and takes space, and someone must count it.
-// Thread contract: one thread, for one file.
+// AtomicFile removes its temporary file when it fails. If the file system refuses even that, the
+// file stays and takes space, which must be counted. Thread contract: one thread, for one file.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +32,7 @@ class LeftoverWatch final : public FileSystem {
     }
     Status remove(const std::filesystem::path& path) override;
 
-    // What was made and neither renamed nor removed.
+    // Files that were created and neither renamed nor removed.
     [[nodiscard]] const std::optional<std::filesystem::path>& leftover() const { return made_; }
 
   private:

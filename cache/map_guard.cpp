@@ -13,10 +13,10 @@
 namespace stormcellar::cache {
 namespace {
 
-// What SIGBUS did before; written once, before the handler can run.
+// What SIGBUS did before. Written once, before the handler can run.
 struct sigaction former_action = {};
 
-// Zeros in the place of a map that is in one of ours, for good.
+// Replaces the map by zeros, permanently.
 bool take_fault(void* address) {
     const auto place = reinterpret_cast<std::uintptr_t>(address);
     const auto range = cut_map_at(place);
@@ -26,7 +26,8 @@ bool take_fault(void* address) {
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED | MAP_NORESERVE, -1, 0) != MAP_FAILED;
 }
 
-// The fault happens again, or the signal is sent again, and does what it does without any handler.
+// The fault happens again, or the signal is sent again, and has the effect that it has without a
+// handler.
 void end_by_signal(int signal, bool sent) {
     struct sigaction standard = {};
     standard.sa_handler = SIG_DFL;

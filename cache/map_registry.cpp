@@ -7,7 +7,8 @@ namespace {
 
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free);
 
-// Blocks of places, each linked to the next when it is full. The first needs no memory.
+// Blocks of places; each is linked to the next when it is full. The first block needs no
+// allocation.
 struct Block {
     std::array<MapPlace, 256> places;
     std::atomic<Block*> next{nullptr};
@@ -59,8 +60,8 @@ void MapRegistration::release() {
     place_ = nullptr;
 }
 
-// The map that is being read is in its place and stays there, so a place that changes under our
-// eyes is another one's.
+// The map that is being read is in its place and stays there, so a place that changes meanwhile
+// belongs to another map.
 std::optional<MapRange> cut_map_at(std::uintptr_t address) {
     for (Block* block = &first_block(); block != nullptr; block = block->next.load()) {
         for (MapPlace& place : block->places) {

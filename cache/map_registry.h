@@ -12,8 +12,8 @@
 
 namespace stormcellar::cache {
 
-// One place of the registry. Places are used again and never given back, so that a handler may
-// walk them at any time.
+// One place of the registry. Places are reused and never freed, so that a handler may walk them at
+// any time.
 struct MapPlace {
     std::atomic<bool> taken{false};
     std::atomic<std::uint32_t> changes{0};  // odd while begin and end do not belong together
@@ -21,10 +21,10 @@ struct MapPlace {
     std::atomic<bool> cut{false};
 };
 
-// Keeps a map in the registry while it lives. The map must outlive it.
+// Keeps a map in the registry while the object lives. The map must outlive it.
 class MapRegistration {
   public:
-    MapRegistration() = default;  // of no map
+    MapRegistration() = default;  // no map
     MapRegistration(const void* start, std::size_t size);
     MapRegistration(MapRegistration&& other) noexcept
         : place_(std::exchange(other.place_, nullptr)) {}
@@ -34,7 +34,7 @@ class MapRegistration {
     ~MapRegistration() { release(); }
 
     void release();
-    // Whether a read inside the map has failed since it was registered.
+    // Returns true if a read inside the map has failed since it was registered.
     [[nodiscard]] bool was_cut() const { return place_ != nullptr && place_->cut.load(); }
 
   private:
@@ -44,7 +44,7 @@ class MapRegistration {
 struct MapRange {
     std::uintptr_t begin = 0, end = 0;
 };
-// The registered map that holds the address, marked as cut; none when no map does.
+// Finds the registered map that holds the address, and marks it as cut; none if no map does.
 [[nodiscard]] std::optional<MapRange> cut_map_at(std::uintptr_t address);
 
 }  // namespace stormcellar::cache

@@ -13,17 +13,18 @@
 
 namespace stormcellar::cache {
 
-// The codes of one brick, packed; as they are where that is no shorter, and so never longer.
+// The packed codes of one brick; the codes themselves if packing does not shorten them, so the
+// result is never longer.
 [[nodiscard]] std::vector<std::byte> pack_brick(std::span<const std::byte> codes);
 
-// Fills all of `codes`. corrupt when `packed` does not give exactly that.
+// Fills all of `codes`. Errors: corrupt if `packed` does not give exactly that many.
 [[nodiscard]] Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> codes);
 
-// Zeros in memory that is had from the system only where it is written, as the places of absent
-// bricks are not.
+// Memory that reads as zeros. The system provides it only where it is written, so the places of
+// absent bricks cost nothing.
 class SparseMemory {
   public:
-    SparseMemory() = default;  // nothing
+    SparseMemory() = default;  // empty
     static Result<SparseMemory> of(std::uint64_t size);
     SparseMemory(SparseMemory&& other) noexcept
         : start_(std::exchange(other.start_, nullptr)), size_(std::exchange(other.size_, 0)) {}

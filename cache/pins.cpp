@@ -32,8 +32,8 @@ bool is_at(const Descriptor& directory, const fs::path& path) {
            open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-// The directory's own descriptor carries the lock: no file of its own, and none to clean up. A
-// directory that was removed and made again while we waited is another one.
+// The descriptor of the directory carries the lock: there is no lock file, and nothing to clean up.
+// A directory that was removed and made again while we waited is another directory.
 Result<Descriptor> lock_day(const fs::path& day) {
     for (;;) {
         Descriptor directory(::open(day.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -1,9 +1,9 @@
-// cache/pins.h -- grids that must stay, and taking others away.
+// cache/pins.h -- pins grids, and removes grids that are not pinned.
 //
-// A pin is an empty file beside the grid, X.scg.pin, so any process may set one and it outlives
-// them all. It belongs to the name: a grid that is replaced stays pinned. Pinning and evicting hold
-// the lock of the day's directory (flock, given back by the system when its holder dies), so that a
-// grid whose pin was set is never taken: a pin either comes in time or its setter learns that the
+// A pin is an empty file beside the grid, X.scg.pin, so any process may set one, and it outlives
+// the process. It belongs to the name: a grid that is replaced stays pinned. Pinning and evicting
+// hold the lock of the day's directory (flock, which the system releases when its holder dies). So
+// a grid with a pin is never evicted: a pin either comes in time, or its setter learns that the
 // grid is gone. Thread contract: any thread, any process. Errors name the path.
 #pragma once
 
@@ -18,21 +18,20 @@ namespace stormcellar::cache {
 inline constexpr std::string_view pin_extension = ".pin";
 [[nodiscard]] bool is_pinned(const std::filesystem::path& grid);
 
-// not_found when no grid stands there. On success the pin survives a power cut. To pin a pinned
-// grid is no error.
+// Errors: not_found if there is no such grid. On success the pin survives a power cut. Pinning a
+// pinned grid is no error.
 [[nodiscard]] Status pin_grid(FileSystem& file_system, const std::filesystem::path& grid);
-// Whether there was a pin; the grid need not be there.
+// Returns true if there was a pin; the grid need not exist.
 [[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 
 enum class Evicted { gone, pinned, missing };
-// Unlinks the file of a grid that is not pinned. A reader that has it open keeps its bytes, and
-// the space is given back when the last of them closes it. The name may come back after a power cut
+// Unlinks the file of a grid that is not pinned. A reader that has the file open keeps its bytes;
+// the space becomes free when the last reader closes it. The name may return after a power cut
 // until the directory is synced.
 [[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
                                          const std::filesystem::path& grid);
 
-// Removes the directory of a day, then those of its moment and its domain, as far as they are
-// empty.
+// Removes the directory of a day, then those of its moment and its domain, if they are empty.
 void remove_empty_directories(const std::filesystem::path& day);
 
 }  // namespace stormcellar::cache

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_problems = 16;
 
-// On the directory's own descriptor, so that no file of ours stands in the cache for it.
+// Locks the directory's own descriptor, so that the cache needs no lock file.
 Result<Descriptor> lock_against_writers(const fs::path& directory) {
     Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (lock.number() < 0) return directory_failure(directory, {errno, std::system_category()});
@@ -82,7 +82,7 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     return roller;
 }
 
-// The others' grids are no reason to bring known history down to the low mark.
+// The grids of others are no reason to evict known history down to the low mark.
 void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
     const auto is_full = [&](std::uint64_t used, const Budget& budget) {
         return budget.bytes && used + bytes > *budget.bytes;
@@ -144,8 +144,8 @@ void Roller::settle(const GridName& name, std::uint64_t reserved) {
     changed_.notify_all();
 }
 
-// The victims count until their names are synced away: only then is their room free, whatever
-// happens to the power.
+// Victims count until their names are synced away: only then is their room free even after a power
+// cut.
 void Roller::evict(Lock& lock, const std::vector<GridName>& victims) {
     for (const GridName& name : victims) {
         account_.set_leaving(name);
@@ -190,7 +190,8 @@ void Roller::evict(Lock& lock, const std::vector<GridName>& victims) {
     changed_.notify_all();
 }
 
-// Each turn takes its victims out of the account's order, gone or not, so this ends.
+// Each turn removes its victims from the account's order, whether their files went or not, so the
+// loop ends.
 void Roller::evict_all(Lock& lock, const std::function<std::vector<GridName>()>& choose) {
     for (auto victims = choose(); !victims.empty(); victims = choose())
         evict(lock, victims);

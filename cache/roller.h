@@ -1,13 +1,13 @@
-// cache/roller.h -- keeps a cache within its budgets while it is written to. Inside the cache room
-// only; stormcellar/cache/store.h is the door.
+// cache/roller.h -- keeps a cache within its limits while it is written to. Inside the cache room
+// only; stormcellar/cache/store.h is its public interface.
 //
-// Holds the account of what stands in the cache, made from the names at the start and corrected
-// from them at each roll(): files that others removed, added or pinned are noticed there.
-// A commit reserves what its file may take at most before the first byte is written, and where that
-// does not fit, evicts first; the unlinked names are synced away before their room is used again.
-// Files are removed one by one and each removal is whole, so a crash leaves grids or none.
-// Thread contract: any thread. No lock is held while files are removed or written, and who waits
-// for another's commit or eviction holds nothing.
+// It holds the account of what the cache holds. The account is made from the file names at the
+// start and corrected from them at each roll(), which so notices files that others removed, added
+// or pinned. Before it writes the first byte, a commit reserves the most that its file may take. If
+// that does not fit, it evicts grids first, and syncs the unlinked names before it uses their room
+// again. Files are removed one by one and each removal is whole, so a crash leaves complete grids
+// or none. Thread contract: any thread. No lock is held while files are removed or written, and a
+// thread that waits for another's commit or eviction holds nothing.
 #pragma once
 
 #include <condition_variable>
@@ -34,8 +34,8 @@ namespace stormcellar::cache {
 
 class Roller;
 
-// Room for one file that is being written. When it goes, the account takes what then stands at the
-// grid's place, new, old or nothing.
+// Room for one file that is being written. The destructor updates the account with what is then in
+// the grid's place: the new file, the old one, or nothing.
 class Reservation {
   public:
     Reservation(Roller& roller, GridName name, std::uint64_t bytes)
@@ -57,23 +57,23 @@ class Reservation {
 
 class Roller {
   public:
-    // Sweeps what a killed writer left and brings the cache within its budgets. busy when another
-    // process has opened it so.
+    // Removes what a killed writer left, and brings the cache within its limits. Errors: busy if
+    // another process has opened it in this way.
     static Result<std::unique_ptr<Roller>> open(FileSystem& file_system,
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);
 
-    // None: the budgets would not keep the grid, so it need not be written. over_budget: it is
-    // the newest of a known domain or pinned, and what stands cannot go or is not enough. One
-    // commit of a name at a time: the others wait.
+    // None: the limits would not keep the grid, so it need not be written. Errors: over_budget if
+    // the grid is the newest of a known domain or pinned, and the other grids cannot be evicted or
+    // are not enough. Commits of the same name wait for each other.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
-    // A full disk refused this grid: evicts the oldest grids that hold so many bytes. False when
-    // the budgets do not provide for that or nothing may go.
+    // Call it when a full disk refused this grid: evicts the oldest grids that hold this many
+    // bytes. Returns false if the limits do not provide for that, or no grid may be evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
-    // Whether a grid is left out where the disk is full: it is of others, and nobody is to wait for
-    // room for those. Counted as not kept.
+    // Returns true if a grid is not stored because the disk is full: it is a grid of others, and
+    // nobody waits for room for those. It is counted as not kept.
     bool leaves_out(const GridName& name);
-    // A temporary file that could not be removed: counted, and removed at a later roll.
+    // A temporary file that could not be removed: it is counted, and removed at a later roll.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
 
     using OnStep = std::function<void()>;
@@ -116,17 +116,18 @@ class Roller {
     FileSystem& file_system_;
     const std::filesystem::path directory_;
     const Surroundings surroundings_;
-    const Descriptor lock_;  // on the directory itself, against a second writer
+    const Descriptor lock_;  // on the directory itself, to exclude a second writer
     std::uint64_t block_bytes_ = 4096;
 
     std::mutex rolling_;        // one roll at a time
     int rolls_ = 0;             // guarded by rolling_
-    mutable std::mutex mutex_;  // all below
+    mutable std::mutex mutex_;  // guards all members below
     std::condition_variable changed_;
     Budgets budgets_;
     Account account_;
-    std::set<GridName> in_flight_;   // being written or evicted
-    std::set<std::string> reached_;  // groups that were full since the last roll; empty name: all
+    std::set<GridName> in_flight_;  // being written or evicted
+    std::set<std::string>
+        reached_;  // groups that reached a limit since the last roll; empty name: all
     std::map<Day, DayState> days_;
     std::vector<Leftover> leftovers_;
     std::uint64_t evicted_ = 0, evicted_bytes_ = 0, not_kept_ = 0;

@@ -1,4 +1,4 @@
-// The part of the roller that looks at the whole cache every few seconds: what others changed in
+// The part of the roller that examines the whole cache every few seconds: what others changed in
 // it, what has grown too old, and how full the file system is.
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// So many files are removed before others may look at the account again. Oldest first goes through
-// the directories of all domains in turn, and each is synced once a batch: at 64 a batch nearly
-// every file cost a sync.
+// How many files are removed before other threads may use the account again. The oldest grids are
+// in the directories of all domains in turn, and each directory is synced once a batch: with 64 a
+// batch, nearly every file cost a sync.
 constexpr std::size_t batch = 2048;
-// Every directory is read again after so many rolls, even one that seems unchanged.
+// Every directory is read again after this many rolls, even if it seems unchanged.
 constexpr int rolls_between_full_readings = 60;
-// A directory that changed just now may change again without its time showing it.
+// A directory that changed just now may change again while its time stays the same.
 constexpr std::int64_t settling_ns = 2'000'000'000;
 
 std::int64_t nanoseconds_now() {
@@ -62,7 +62,8 @@ Status Roller::reread(bool all, const OnStep& step) {
     return {};
 }
 
-// Under the lock, so that no grid of ours comes or goes between the reading and the account.
+// Called under the lock, so that none of our grids comes or goes between reading and updating the
+// account.
 Status Roller::reread_day(const Day& day, bool even_unchanged) {
     const Lock lock(mutex_);
     struct stat facts {};
@@ -79,7 +80,7 @@ Status Roller::reread_day(const Day& day, bool even_unchanged) {
     return {};
 }
 
-// What is being written or evicted is left to who does it.
+// Grids that are being written or evicted are left to the thread that does it.
 void Roller::adopt(const Day& day, const DayContents& contents) {
     account_.set_now(surroundings_.now());
     if (const auto span = span_of(day)) {
@@ -125,7 +126,8 @@ void Roller::remove_leftovers() {
     });
 }
 
-// What others hold beyond their share, and what of them nothing has replaced for long.
+// Grids that others hold beyond their share, and those of them that were not replaced for a long
+// time.
 void Roller::limit_others(Lock& lock, const OnStep& step) {
     const auto evict_each = [&](auto choose) {
         evict_all(lock, [&] {
@@ -139,8 +141,8 @@ void Roller::limit_others(Lock& lock, const OnStep& step) {
     evict_each([&] { return account_.others_down_to(budgets_.low_mark(*limit), batch); });
 }
 
-// One budget: of a group, or of all when the name is empty. `filling` is what it would be if all
-// that was evicted since it was read is free by now.
+// Keeps one limit: of a group, or of all if the name is empty. `filling` is what the file system
+// would hold if everything that was evicted since it was read is free by now.
 void Roller::keep_budget(Lock& lock, const std::string& group,
                          const std::optional<Filling>& filling, RollReport& report,
                          const OnStep& step) {
@@ -172,7 +174,7 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
                 return account_.down_to(group, *target, batch, protection, reach);
             });
         };
-        // Where others' grids are all that is over, no known history goes.
+        // If only grids of others exceed the limit, no known history is evicted.
         bring_down(Reach::others);
         if (reached || held() > *limit) bring_down(Reach::unprotected);
     }

@@ -16,11 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Another process may remove an empty directory between its making and the file in it, and the room
-// that was made on a full disk may be taken by others.
+// Another process may remove an empty directory between its creation and that of the file in it,
+// and others may take the room that was made on a full disk.
 constexpr int most_tries = 4;
 
-// The directory stands afterwards, and so it does after a power cut.
+// Afterwards the directory exists, also after a power cut.
 Status make_cache_directory(FileSystem& file_system, const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directories(directory, error);
@@ -87,8 +87,8 @@ Result<RollingStore> RollingStore::open(FileSystem& file_system, fs::path direct
     return RollingStore(file_system, std::move(directory), std::move(*roller));
 }
 
-// A directory's name is durable once its parent was synced. The first use of a directory that
-// stands already syncs too: its maker may have been killed before it could.
+// The name of a directory is durable once its parent was synced. The first use of an existing
+// directory syncs too, because its creator may have been killed before it could.
 Status StoreWriter::make_directory(const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directory(directory, error);
@@ -211,8 +211,8 @@ Result<std::vector<StoreEntry>> StoreReader::list(const std::string& domain, lev
     if (!is_domain_name(domain)) return entries;
     const auto days = days_in(directory() / domain / std::string(level2::moment_name(moment)));
     if (!days) return pass_on(days);
-    // Days are compared by their names, so a query reads the directories that it needs. Bounds
-    // beyond the times of any grid are brought to them first.
+    // Days are compared by their names, so a query reads only the directories that it needs. Bounds
+    // outside the times of all grids are clamped first.
     const UtcTime lower = from.value_or(UtcTime{});
     const UtcTime upper = to.value_or(last_possible_time);
     const std::string first_day = day_name(std::clamp(lower, UtcTime{}, last_possible_time));

@@ -1,6 +1,6 @@
 // cache/unsynced_files.h -- a file system that does not wait for the disk.
 //
-// Inside the cache room only. Thread contract: that of the file system behind it.
+// Inside the cache room only. Thread contract: that of the file system that it wraps.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// Checking a grid file that is open: is it still what it was when it was written?
+// Verifies an open grid file: is it still what was written?
 //
-// Reads through the descriptor, never through the map: a file that was cut meanwhile is then an
-// error and not a signal.
+// It reads through the descriptor, never through the map, so that a file that was cut meanwhile is
+// an error and not a signal.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -37,8 +37,8 @@ Status GridFile::verify() const {
     return {};
 }
 
-// A file that was cut and has its old size again has been changed all the same, and what the map
-// showed since then are zeros.
+// A file that was cut and has its old size again has changed all the same, and the map shows zeros
+// since then.
 Status GridFile::Mapping::check_map() const {
     if (Status same = check_unchanged_size(); !same) return same;
     if (!map || !map->was_cut()) return {};
@@ -51,8 +51,8 @@ Status GridFile::Mapping::check_unchanged_size() const {
     return check_size(static_cast<std::uint64_t>(facts->st_size), at.file_size);
 }
 
-// The metadata on disk may have changed since it was read: that is damage too, though it cannot
-// lead this reader astray any more.
+// The metadata on disk may have changed since it was read. That is damage too, although it cannot
+// mislead this reader anymore.
 Status GridFile::Mapping::check_metadata() const {
     std::vector<std::byte> bytes(metadata.size());
     if (Status read = read_at(file, 0, bytes); !read) return read;
@@ -131,7 +131,8 @@ Status GridFile::Mapping::check_holes() const {
 Status GridFile::Mapping::check_zeros(std::uint64_t begin, std::uint64_t end) const {
     std::array<std::byte, format::page_size> page{};
     while (begin < end) {
-        // Holes are skipped without being read; where the file system cannot tell, all is data.
+        // Holes are skipped without being read; if the file system cannot report them, everything
+        // is data.
         const off_t data = ::lseek(file.number(), static_cast<off_t>(begin), SEEK_DATA);
         if (data < 0 && errno == ENXIO) return {};
         if (data >= 0 && static_cast<std::uint64_t>(data) >= end) return {};

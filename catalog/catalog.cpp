@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_left_alone_named = 5;
 
-// Of a station that a user asks for. Lower case is no other station's answer.
+// For a station that a user asks for. A name in lower case does not give another station's answer.
 Status check_asked_for(std::string_view station) {
     if (station.empty() || is_icao(station)) return {};
     return fail(ErrorCode::bad_argument,
                 "'{}' is not a station: give four capital letters or digits, as in KTLX", station);
 }
 
-// When something was last written to a database.
+// The time of the last write to a database.
 fs::file_time_type written_last(const fs::path& database) {
     fs::file_time_type newest = fs::file_time_type::min();
     for (const char* ending : {"", "-wal"}) {
@@ -70,7 +70,7 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
     if (created) {
-        // state/catalog, as a rule with its parent: SQLite syncs the directory, not its name.
+        // Syncs state/catalog, and usually its parent: SQLite syncs the directory, not its name.
         const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
         for (const fs::path& above : {parent, parent.parent_path()}) {
             if (Status synced = real_file_system().sync_directory(above); !synced) {
@@ -102,8 +102,8 @@ Result<CatalogReader> CatalogReader::open(fs::path directory) {
 }
 
 // Called after the path was written into the database of that name. A database that is known to
-// have a row of it must let that be deleted; one that may have a row, and cannot be asked, is its
-// own station's trouble.
+// have a row of the path must delete it. A database that may have one, and cannot be asked, is a
+// trouble of its own station.
 Status CatalogWriter::forget_elsewhere(const fs::path& path, const std::string& name) {
     const auto home = impl().homes.exchange(path, name);
     if (home && (home->empty() || *home == name)) return {};
@@ -135,13 +135,14 @@ Status CatalogWriter::note_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!noted) {
-        // A file whose name does not say its station may be of any: it does not wait for this one.
+        // A file whose name does not tell its station may belong to any: it does not wait for this
+        // one.
         const bool is_other_trouble =
             name == unknown_station && noted.error().code != ErrorCode::no_space;
         return is_other_trouble ? Status{} : pass_on(noted);
     }
     if (*noted == Registered::left_out || impl().homes.set_if_free(facts.path, name)) return {};
-    // Somebody who has read it has put it where it belongs meanwhile.
+    // Meanwhile somebody has read the file and put its row where it belongs.
     const auto forgotten = impl().with(name, false, [&](StationDatabase& database) {
         database.forget(facts.path);
         return true;
@@ -157,7 +158,7 @@ Result<Registered> CatalogWriter::register_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!registered) return registered;
-    // What stood there before may have been of another station, or of none that was known.
+    // The earlier row may have been of another station, or of none that was known.
     if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
     if (*registered == Registered::left_out) impl().homes.forget(facts.path);
     return registered;
@@ -189,7 +190,7 @@ Result<int> CatalogWriter::mark_gone(const fs::path& path) {
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
-        // To look is cheaper than to begin to write.
+        // Looking is cheaper than beginning to write.
         const auto mark = [&](StationDatabase& database) {
             return database.is_settled(path, 0, 0) ? database.mark_gone({path}) : 0;
         };
@@ -211,7 +212,7 @@ Result<std::optional<bool>> CatalogReader::find_settled(const fs::path& path,
     const auto home = impl().homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
     const std::string guess = home.value_or(std::string{impl().home_of(path.native())});
-    // A name that says nothing is no reason to ask for the database of files without a station.
+    // A name that tells nothing is no reason to ask the database of files without a station.
     const bool is_its_own = home || guess != unknown_station;
     auto guessed = is_its_own ? impl().with(guess, false, ask) : impl().with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;
@@ -294,7 +295,7 @@ Status CatalogWriter::examine(std::string_view station) {
         return station_of(each) == station;
     });
     if (name == names->end()) return {};
-    // What a crash left unfinished, only one who writes can finish.
+    // Only a writer can finish what a crash left unfinished.
     const auto opened = impl().with(*name, false, [](StationDatabase&) { return true; });
     if (!opened) return pass_on(opened);
     const fs::path path = impl().path_of(*name);
@@ -325,7 +326,7 @@ Result<std::vector<StationSummary>> CatalogReader::stations() const {
     return summaries;
 }
 
-// Runs a query of a user on the database of that station.
+// Runs a user's query on the database of that station.
 template <class Work>
 auto CatalogReader::ask(std::string_view station, Work work) const {
     using Answer = decltype(impl().with(std::string{}, false, work));

@@ -11,18 +11,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The rows of one database that are looked through for strays while a new file waits: some
-// milliseconds. Larger ones are looked through with mark_missing().
+// How many rows of one database are searched for strays while a new file waits: this takes some
+// milliseconds. mark_missing() searches larger databases.
 constexpr std::int64_t most_looked_through = 10'000;
 
-// So long a database that was in trouble is not tried on behalf of other stations.
+// For this long, a database that was in trouble is not tried on behalf of other stations.
 constexpr std::chrono::seconds between_tries{10};
 
-// A try that took longer is not made again within that time on behalf of its own station, either.
+// If a try took longer than this, it is not repeated within that time on behalf of its own station,
+// either.
 constexpr std::chrono::seconds longest_try{1};
 
-// So many databases are closed when descriptors run out: room for one, and for what else the
-// process wants to open just then.
+// How many databases are closed when descriptors run out: enough for one database, and for what
+// else the process wants to open just then.
 constexpr std::size_t closed_when_out = 8;
 
 std::string summary_of(const std::vector<std::string>& damage) {
@@ -59,7 +60,8 @@ bool CatalogReader::Impl::knows(std::string_view station) const {
 
 Status CatalogReader::Impl::open(Slot& place, const std::string& name, bool create) {
     const fs::path path = path_of(name);
-    // It is looked at also where it was closed to make room: rows that are lost with a file that
+    // A database that was closed to make room is checked too: rows that are lost because somebody
+    // deleted its file must be made again.
     // somebody deleted must be made again.
     if (place.file != FileIdentity{} && place.file != FileIdentity::of(path)) {
         databases.close(place);  // what we write there would be seen by nobody
@@ -121,7 +123,7 @@ bool CatalogReader::Impl::mend(Slot& place, const std::string& name) {
 
 void CatalogReader::Impl::note_outcome(const std::string& name, const Error* error,
                                        std::chrono::steady_clock::time_point began) {
-    // A full disk is no station's trouble, and a database that is not there is none.
+    // A full disk is not the trouble of one station, and a missing database is no trouble.
     const bool is_trouble =
         error != nullptr && error->code != ErrorCode::not_found && !is_shortage(error->code);
     if (!is_trouble && !has_troubles_) return;
@@ -177,8 +179,8 @@ Result<std::vector<std::string>> CatalogReader::Impl::names() {
     return found;
 }
 
-// A path that seemed to be of no known station may seem to be of one that was admitted since.
-// With listed_mutex_.
+// A path that seemed to belong to no known station may belong to one that was accepted since.
+// The caller holds listed_mutex_.
 void CatalogReader::Impl::look_for_admitted_stations() {
     if (!options.stations || options.stations->kind() != StationRule::Kind::any) return;
     const std::size_t admitted = options.stations->further().size();
@@ -249,7 +251,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     if (recent_trouble(name)) return true;
     const std::scoped_lock lock(place->mutex);
     const auto began = std::chrono::steady_clock::now();
-    // Damage is mended where the database is asked, or its own station's files come.
+    // Damage is mended when somebody asks the database, or when files of its own station come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
         if (place->strays != Strays::unknown) return true;  // somebody else did meanwhile
         place->strays =
@@ -260,7 +262,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     if (!looked && looked.error().code != ErrorCode::corrupt) {
         note_outcome(name, &looked.error(), began);
     }
-    // What was found just now may be this very path.
+    // This very path may have been found just now.
     return place->strays != Strays::none;
 }
 

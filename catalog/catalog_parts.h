@@ -1,8 +1,8 @@
-// catalog/catalog_parts.h -- what a catalog consists of: its databases, opened when they are asked
-// for, and mended when they are found damaged.
+// catalog/catalog_parts.h -- the parts of a catalog: its databases, opened when they are needed,
+// and mended when they are found damaged.
 //
-// Inside the catalog room only. Thread contract: that of CatalogReader; each database is for one
-// thread at a time.
+// Inside the catalog room only. Thread contract: that of CatalogReader; one thread at a time uses a
+// database.
 #pragma once
 
 #include <atomic>
@@ -28,10 +28,10 @@ namespace stormcellar::catalog {
 
 inline constexpr std::string_view database_ending = ".sqlite";
 
-// Of a database's name; empty: of files whose station is not known.
+// The station of a database's name; empty: files of no known station.
 [[nodiscard]] std::string station_of(const std::string& name);
 
-// The names of the databases in a directory, sorted, whatever their stations.
+// The names of all databases in a directory, sorted, whatever their stations.
 [[nodiscard]] Result<std::vector<std::string>> database_names(
     const std::filesystem::path& directory);
 
@@ -55,9 +55,9 @@ struct CatalogReader::Impl {
         return directory / (name + std::string{database_ending});
     }
 
-    // Whether a station may have a database of its own.
+    // Returns true if the station may have a database of its own.
     [[nodiscard]] bool knows(std::string_view station) const;
-    // The database that a station's rows stand in. Nothing unchecked becomes a file name.
+    // The database that holds a station's rows. No unchecked text becomes a file name.
     [[nodiscard]] std::string name_for(std::string_view station) const {
         return std::string{knows(station) ? station : unknown_station};
     }
@@ -65,9 +65,9 @@ struct CatalogReader::Impl {
         return guessed_home(path, options.stations.get());
     }
 
-    // Runs `work` on the database of that name, opened when need be, and mended when it is damaged.
-    // Missing databases are created when writing and `create` is set; else not_found. What fails is
-    // a trouble of that station until a later call succeeds.
+    // Runs `work` on the database of that name, which is opened if necessary, and mended if it is
+    // damaged. A missing database is created if this is a writer and `create` is set; otherwise the
+    // error is not_found. A failure is a trouble of that station until a later call succeeds.
     template <class Work>
     auto with(const std::string& name, bool create, Work work)
         -> Result<decltype(work(std::declval<StationDatabase&>()))> {
@@ -84,7 +84,7 @@ struct CatalogReader::Impl {
     }
 
     // The same on behalf of another station: a database that was in trouble seconds ago is not
-    // tried again, as that may take as long as a disk takes to give up.
+    // tried again, because a try may take as long as a disk takes to give up.
     template <class Work>
     auto with_neighbor(const std::string& name, Work work)
         -> Result<decltype(work(std::declval<StationDatabase&>()))> {
@@ -103,7 +103,8 @@ struct CatalogReader::Impl {
             if (is_snapshot) databases.close(place);
             return done;
         } catch (const SQLite::Exception& error) {
-            // Where a file cannot be opened for writing, SQLite opens it for reading, and stays so.
+            // If SQLite cannot open a file for writing, it opens it for reading, and that never
+            // changes.
             const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
             if (is_snapshot || is_stuck) databases.close(place);
             if (code_of(error) == ErrorCode::io && is_out_of_descriptors())
@@ -113,7 +114,7 @@ struct CatalogReader::Impl {
     }
 
     Status open(Slot& place, const std::string& name, bool create);
-    // Whether another attempt has a chance: the damage is set aside, or was none that lasts.
+    // Returns true if another attempt has a chance: the damage was set aside, or was temporary.
     bool mend(Slot& place, const std::string& name);
 
     void note_repair(Repair repair) {
@@ -125,34 +126,36 @@ struct CatalogReader::Impl {
     // The names of the databases in the directory whose stations are known, sorted.
     [[nodiscard]] Result<std::vector<std::string>> names();
 
-    // The names of those that may have a row of the path. A row in another database than
-    // home_of() says is a stray: of a file that is named like one station and holds another's,
-    // or none's. A writer, who sees all that is written, knows the paths of those (PathFilter), so
-    // that a new file is not looked for in every station's database.
+    // The names of the databases that may have a row of the path. A row in another database than
+    // home_of() says is a stray: its file is named like one station and holds data of another, or
+    // of none. A writer sees all rows that are written and knows the paths of strays (PathFilter),
+    // so it need not look for a new file in every station's database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
-    // Where nobody could so far, as there are too many rows for a file to wait for it.
+    // Examines databases that have too many rows for a file to wait for it.
     void look_for_strays(StationDatabase& database, const std::string& name);
     // Called before the row is written, with the slot's mutex held.
     void expect_row(const std::filesystem::path& path, const std::string& name);
 
   private:
     [[nodiscard]] Result<std::unique_ptr<StationDatabase>> open_database(const std::string& name);
-    // Whether a database may have a row of a path that is not at home there. `is_likely`: the path
-    // is one of those of strays.
+    // Returns true if a database may have a row of a path whose home is elsewhere. `is_likely`: the
+    // path is among those of strays.
     [[nodiscard]] bool may_have_stray(const std::string& name, bool is_likely);
-    // Adds the paths of its strays to strays_. None: it has more rows, at which nobody looked.
+    // Adds the paths of its strays to strays_. None: the database has too many rows, which were not
+    // examined.
     [[nodiscard]] std::optional<Strays> find_strays(StationDatabase& database,
                                                     const std::string& name,
                                                     std::int64_t most_rows);
     void look_for_admitted_stations();
-    // Notes a trouble, or with no error that it is over.
+    // Notes a trouble or, without an error, that it is over.
     void note_outcome(const std::string& name, const Error* error,
                       std::chrono::steady_clock::time_point began);
     // The trouble of a database that was tried seconds ago.
     [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
-    // The same where the try took long, as of a database that somebody has locked: its own files
-    // do not try again at once, either, for who waits here is missing for the other stations.
+    // The same if the try took long, for example because somebody has locked the database: then its
+    // own files do not try again at once either, because a thread that waits here is missing for
+    // the other stations.
     [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;
 
     struct Standing {
@@ -164,13 +167,14 @@ struct CatalogReader::Impl {
     mutable std::mutex troubles_mutex_;  // guards troubles_
     std::map<std::string, Standing, std::less<>> troubles_;
 
-    // The paths of strays in all databases of which that is known; null: of a reader.
+    // The paths of all known strays in all databases; null for a reader.
     const std::unique_ptr<PathFilter> strays_;
 
-    // What names() gave, until a database is opened or found to have gone. Of a writer.
+    // For a writer: the result of names(), until a database is opened or found to be gone.
     std::mutex listed_mutex_;
     std::optional<std::vector<std::string>> listed_;
-    std::size_t admitted_ = 0;  // stations by the rule `any`, when names were listed last
+    std::size_t admitted_ =
+        0;  // stations that the rule `any` had accepted when names were last listed
     std::atomic<bool> is_listing_old_ = false;
 };
 

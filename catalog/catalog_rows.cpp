@@ -1,5 +1,5 @@
-// What a writer does to all rows now and then: marks those of files that went, and deletes old
-// ones. One station's database that cannot be used does not keep it from the others (troubles()).
+// What a writer does to all rows from time to time: it marks the rows of files that are gone, and
+// deletes old ones. A database that cannot be used does not prevent it for the others (troubles()).
 #include <algorithm>
 #include <map>
 #include <span>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t files_a_step = 1000;
 constexpr std::int64_t rows_a_step = 1000;
 
-// A member of an archive is there as long as the archive is.
+// A member of an archive exists as long as the archive does.
 bool is_missing(const fs::path& directory, const fs::path& path) {
     const auto stands = [&](const fs::path& one) {
         const auto found = look_beneath(directory, one);
@@ -54,7 +54,7 @@ Result<int> CatalogWriter::mark_missing(const fs::path& directory,
     return marked;
 }
 
-// Of these files of one station.
+// Of these files, those of one station.
 Result<int> CatalogWriter::mark_missing_of(const std::string& name, const fs::path& directory,
                                            const std::vector<fs::path>& paths) {
     std::vector<fs::path> gone;
@@ -95,7 +95,7 @@ Result<Rolled> CatalogWriter::roll(const std::function<void()>& step) {
     if (!names) return pass_on(names);
     Rolled rolled;
     std::map<std::string, std::uint64_t> used;
-    // Deletes one batch; gives false where there was nothing to delete.
+    // Deletes one batch; returns false if there was nothing to delete.
     const auto shrink = [&](const std::string& name) {
         std::int64_t deleted = 0;
         const auto now = impl().with(name, false, [&](StationDatabase& database) {
@@ -121,8 +121,8 @@ Result<Rolled> CatalogWriter::roll(const std::function<void()>& step) {
         while (used[name] >= most && shrink(name)) {
         }
     }
-    // Rows that stand never go, so nobody's fill the place of another station's history: it keeps a
-    // fair share.
+    // Rows of existing files are never deleted. So that they cannot fill the room of another
+    // station's history, that history keeps a fair share.
     const std::uint64_t share = impl().options.most_bytes / std::max<std::size_t>(1, names->size());
     while (rolled.used_bytes > impl().options.most_bytes && !used.empty()) {
         const auto largest =

@@ -119,7 +119,7 @@ Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view s
 
 namespace {
 
-// Its rows, where it is a sound database of ours.
+// The number of its rows, if it is a sound database of ours.
 Result<ClearedDatabase> count_rows(const fs::path& database) {
     const auto check = check_station(database);
     if (!check) return pass_on(check);

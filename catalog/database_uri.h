@@ -7,7 +7,8 @@
 
 namespace stormcellar::catalog {
 
-// So that no character of the path has a meaning; `query` is "" or begins with '?'.
+// Escapes the path so that none of its characters has a meaning; `query` is "" or begins with '?'.
+// Thread contract: a pure function.
 [[nodiscard]] std::string uri_of(const std::filesystem::path& path, std::string_view query);
 
 }  // namespace stormcellar::catalog

@@ -5,7 +5,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// In the order of FileState. These words stand in the databases: never change one.
+// In the order of FileState. The databases hold these words: never change one.
 constexpr std::array<std::string_view, 5> names = {"seen", "complete", "partial", "rejected",
                                                    "gone"};
 

@@ -70,8 +70,8 @@ std::size_t OpenDatabases::close_idle(std::size_t count) {
     return closed;
 }
 
-// A checkpoint takes milliseconds, so the mutex of all is not held meanwhile. Who wants this
-// database then waits for its slot's mutex and opens it again.
+// A checkpoint takes milliseconds, so the mutex of all databases is not held meanwhile. A thread
+// that wants this database then waits for its slot's mutex and opens it again.
 bool OpenDatabases::close_one_idle() {
     Slot* victim = nullptr;
     std::unique_lock<std::mutex> hold;
@@ -82,7 +82,7 @@ bool OpenDatabases::close_one_idle() {
         }
         if (victim == nullptr) return false;
         ++victim->leases_;
-        // It is free, as nobody has it without a lease.
+        // It is free, because nobody uses it without a lease.
         hold = std::unique_lock(victim->mutex, std::try_to_lock);
         if (!hold.owns_lock()) {
             --victim->leases_;

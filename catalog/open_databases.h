@@ -1,17 +1,16 @@
-// catalog/open_databases.h -- the databases of a catalog that are open: a bounded set, of which the
-// least recently used is closed first.
+// catalog/open_databases.h -- the open databases of a catalog: a bounded set, of which the least
+// recently used one is closed first.
 //
-// An open database takes three descriptors (itself, its WAL and the WAL's index). Whoever works on
-// one holds a lease and its slot's mutex; only a database that nobody has leased is closed to make
-// room, so none is ever closed under somebody's hands. Where all are leased, the bound is exceeded
-// by as many as threads work at once.
-// What a slot remembers of a closed database costs some 200 bytes; a slot that remembers nothing is
-// dropped with its last lease, so that asking for names leaves nothing behind.
-// Cost: a lease takes 0.1 microseconds. To close a database that was written to is a checkpoint of
-// its WAL, which is synced: 0.4 ms; to open it again takes 0.5 ms (medians of 200, 2026-11-25, a
-// shared cloud machine of two cores; tests/catalog/open_databases_test.cpp prints them).
-// Inside the catalog room only. Thread contract: any thread; what a slot holds is guarded by its
-// mutex.
+// An open database takes three descriptors (itself, its WAL and the WAL's index). A thread that
+// works on a database holds a lease and the mutex of its slot. Only a database without a lease is
+// closed to make room, so none is closed while a thread uses it. If all are leased, the bound is
+// exceeded by as many as threads work at once. What a slot remembers of a closed database takes
+// some 200 bytes. A slot that remembers nothing is dropped with its last lease, so that asking for
+// names leaves nothing behind. Cost: a lease takes 0.1 microseconds. Closing a database that was
+// written to makes a checkpoint of its WAL, which is synced: 0.4 ms; opening it again takes 0.5 ms
+// (medians of 200, 2026-11-25, a shared cloud machine of two cores;
+// tests/catalog/open_databases_test.cpp prints them). Inside the catalog room only. Thread
+// contract: any thread; the mutex of a slot guards its contents.
 #pragma once
 
 #include <atomic>
@@ -31,7 +30,7 @@
 
 namespace stormcellar::catalog {
 
-// Tells whether a path still names the file that it named.
+// Tells whether a path still names the same file.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;
@@ -40,35 +39,35 @@ struct FileIdentity {
     static FileIdentity of(const std::filesystem::path& path);
 };
 
-// Whether a database has a row of a path whose guessed_home() is another.
+// Whether a database has rows of paths whose guessed_home() is another database.
 enum class Strays : std::uint8_t {
     unknown,
     none,
     some,
-    too_many_rows,  // to look through them while a file waits; mark_missing() does
+    too_many_rows,  // for a file to wait until they are examined; mark_missing() does that
 };
 
 // The place of one database.
 struct Slot {
-    std::mutex mutex;  // guards what follows
+    std::mutex mutex;  // guards the members below
     std::unique_ptr<StationDatabase> database;
-    FileIdentity file;                             // that was opened last; none: not yet
-    std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
+    FileIdentity file;  // the file that was opened last; none: not opened yet
+    std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without it
 
   private:
     friend class OpenDatabases;
-    // Guarded by the mutex of OpenDatabases.
+    // The mutex of OpenDatabases guards these.
     std::string name_;
     std::size_t leases_ = 0;
     bool is_counted_ = false;
-    std::list<Slot*>::iterator place_;  // among the open ones, while it is counted
+    std::list<Slot*>::iterator place_;  // in the list of open ones, while it is counted
 };
 
 class OpenDatabases {
   public:
     explicit OpenDatabases(std::size_t most_open) : most_open_(most_open) {}
 
-    // A slot that stays, and whose database stays open if it is, as long as this object lives.
+    // A lease: the slot stays, and its database stays open if it is open, while this object lives.
     class Lease {
       public:
         Lease(OpenDatabases& all, Slot& slot) : all_(all), slot_(slot) {}
@@ -82,15 +81,16 @@ class OpenDatabases {
         OpenDatabases& all_;
         Slot& slot_;
     };
-    // The most recently used one from now on.
+    // Marks the slot as the most recently used.
     [[nodiscard]] Lease lease(const std::string& name);
 
-    // To be called before the slot's database is opened, with a lease and the slot's mutex: closes
-    // the least recently used ones as far as the bound wants it.
+    // Call it before opening the slot's database, with a lease and the slot's mutex: closes the
+    // least recently used databases to stay within the bound.
     void make_room(Slot& slot);
-    // Closes the slot's database, or takes make_room() back; with a lease and the slot's mutex.
+    // Closes the slot's database, or undoes make_room(). Call it with a lease and the slot's mutex.
     void close(Slot& slot);
-    // Closes so many that nobody has leased, least recently used first; gives how many were closed.
+    // Closes up to this many databases without a lease, least recently used first; returns how
+    // many.
     std::size_t close_idle(std::size_t count);
 
     [[nodiscard]] std::size_t open_count() const;
@@ -99,18 +99,18 @@ class OpenDatabases {
   private:
     void give_back(Slot& slot);
     bool close_one_idle();
-    // With mutex_.
+    // The caller holds mutex_.
     void drop_if_empty(Slot& slot);
 
     const std::size_t most_open_;
-    mutable std::mutex mutex_;  // guards what follows, not what slots hold
+    mutable std::mutex mutex_;  // guards the members below, not the contents of slots
     std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots_;
     std::list<Slot*> open_;  // most recently used first
 };
 
-// Whether this process can open no further database at the moment.
+// Returns true if the process cannot open another database at the moment.
 [[nodiscard]] bool is_out_of_descriptors();
-// What a database gives then: nobody's fault, and to be tried again.
+// The error of a database in that case: it is nobody's fault, and trying again may help.
 [[nodiscard]] tl::unexpected<Error> no_descriptor(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -1,8 +1,8 @@
 // catalog/path_filter.h -- which paths were added, in a fixed amount of memory.
 //
-// A Bloom filter of 2 MiB: a path that was added is always found; of others, one in 500 is found
-// as well when a million were added, one in 7 at four million. Nothing is taken out again.
-// Inside the catalog room only. Thread contract: any thread.
+// A Bloom filter of 2 MiB. A path that was added is always found. Of other paths, one in 500 is
+// found as well when a million were added, one in 7 at four million. Nothing can be removed. Inside
+// the catalog room only. Thread contract: any thread.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ class PathFilter {
   private:
     static constexpr std::size_t word_bits = 64, all_bits = std::size_t{1} << 24U;
 
-    // Two halves of a hash give all four, by Kirsch and Mitzenmacher (2006).
+    // The two halves of one hash give all four hashes (Kirsch and Mitzenmacher, 2006).
     static std::array<std::size_t, 4> bits_of(std::string_view path) {
         const std::uint64_t hash = xxh3_64(std::as_bytes(std::span{path}));
         const std::uint64_t step = hash >> 32U | 1U;

@@ -1,9 +1,8 @@
-// catalog/path_homes.h -- which database a path's row is likely to stand in, and which alone may
-// have it, of the paths that were looked at last.
+// catalog/path_homes.h -- for recently used paths, the only database that may have the path's row.
 //
-// Each is asked for several times, and should be looked for once. Two paths with the
-// same 64-bit hash would be one: among 65,536 the odds are 1 in 9 billion. Used by the catalog
-// alone. Thread contract: any thread.
+// Each path is asked for several times, and should be searched for once. Two paths with the same
+// 64-bit hash would count as one: among 65,536 paths the odds of that are 1 in 9 billion. Only the
+// catalog uses it. Thread contract: any thread.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +21,20 @@
 
 namespace stormcellar::catalog {
 
-// The database of files whose station is not known.
+// The database of files of no known station.
 inline constexpr std::string_view unknown_station = "_unknown";
 
-// The station that a path seems to belong to: by its name, its directory's (KTLX/FILE) or the one's
-// above (KTLX/123/CHUNK); else unknown_station. Where a rule is given, a name that it does not know
-// says nothing, so that names of files alone make nothing.
-// The view is of the path's own bytes or of unknown_station.
+// The station that a path seems to belong to: by its name, or the name of its directory (KTLX/FILE)
+// or of the directory above (KTLX/123/CHUNK); otherwise unknown_station. If a rule is given, a name
+// that it does not know does not count, so that file names alone create nothing. The view refers to
+// the bytes of the path or to unknown_station.
 [[nodiscard]] std::string_view guessed_home(std::string_view path,
                                             const StationRule* rule = nullptr);
 
 class PathHomes {
   public:
-    // No database but this one has the path, once the caller has seen to what was known before,
-    // which it gets. To be called after it was written there.
+    // Notes, after the row was written there, that only this database has the path. Returns the
+    // home that was known before, from which the caller removes the row.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
         const std::scoped_lock lock(mutex_);
@@ -45,7 +44,7 @@ class PathHomes {
         add(key_of(path), name);
         return before;
     }
-    // The same where no other one is known to have it; else false.
+    // The same if no other home is known; otherwise returns false.
     [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
         const std::scoped_lock lock(mutex_);
         const std::string* known = find(key_of(path));
@@ -58,12 +57,13 @@ class PathHomes {
         young_.erase(key_of(path));
         old_.erase(key_of(path));
     }
-    // None had the path when all were asked. What somebody wrote meanwhile counts.
+    // Notes that no database had the path when all were asked. A home that was written meanwhile
+    // stays.
     void set_none(const std::filesystem::path& path) {
         const std::scoped_lock lock(mutex_);
         if (find(key_of(path)) == nullptr) add(key_of(path), {});
     }
-    // Empty: none has it. Nothing: unknown.
+    // Empty: no database has it. None: unknown.
     [[nodiscard]] std::optional<std::string> of(const std::filesystem::path& path) const {
         const std::scoped_lock lock(mutex_);
         const std::string* name = find(key_of(path));

@@ -8,7 +8,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// What the catalog has for a file name; the newest when several directories have it.
+// The catalog's entry for a file name; the newest if several directories have such a file.
 Result<CatalogEntry> entry_of(const CatalogReader& catalog, const std::string& station,
                               const std::string& name) {
     auto entries = catalog.list(station, Query{});
@@ -45,7 +45,7 @@ Result<RadarSet> RadarSet::open(const std::filesystem::path& catalog_directory,
     auto opened = CatalogReader::open(catalog_directory);
     if (!opened) return pass_on(opened);
     if (station.empty()) return fail(ErrorCode::bad_argument, "the station has no name");
-    // Its own database is the only one that has to be sound.
+    // Only this station's own database has to be sound.
     if (const auto newest = opened->latest(station); !newest) return pass_on(newest);
     return RadarSet(std::make_shared<const CatalogReader>(std::move(*opened)), station);
 }

@@ -81,7 +81,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     }
     if (!opened) return pass_on(opened);
     const Descriptor file{*opened};
-    // Before it is read: what stands there now may be far larger.
+    // Check the size before reading: the present file may be far larger.
     struct stat facts {};
     if (::fstat(file.number(), &facts) != 0) {
         return fail(ErrorCode::io, "{}: its size cannot be read", entry.path.native());
@@ -89,7 +89,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
         return pass_on(sized);
     }
-    // A second name of a file that only the reader may read is no link that is followed, and only a
+    // A hard link to a file that only the reader may read is not a link that is followed, so only a
     // hash tells it apart.
     if (!has_final_hash(entry) && facts.st_nlink > 1) {
         return fail(ErrorCode::corrupt,

@@ -35,7 +35,7 @@ std::set<std::string> schema_wanted() {
     return schema_of(memory);
 }
 
-// What SQLite itself says of pages, indices and constraints.
+// What SQLite itself reports of pages, indices and constraints.
 void check_integrity(SQLite::Database& database, std::vector<std::string>& damage) {
     SQLite::Statement rows(database, fmt::format("PRAGMA integrity_check({})", most_lines));
     while (rows.executeStep()) {
@@ -82,7 +82,7 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
-// The first name that is free. Without the ending .sqlite it is no database of the catalog.
+// The first free name. Without the ending .sqlite the file is no database of the catalog.
 fs::path name_aside(const fs::path& path) {
     const std::string stem = path.native() + ".damaged-" + format_compact(now_utc());
     fs::path name = stem;
@@ -91,7 +91,8 @@ fs::path name_aside(const fs::path& path) {
     return name;
 }
 
-// The new database until it takes its place. It is whole once the damaged one is not there.
+// The name of the new database until it replaces the damaged one. Once the damaged one is gone, the
+// new one is complete.
 fs::path mending_of(const fs::path& path) {
     return path.native() + ".mending";
 }
@@ -116,7 +117,7 @@ Result<Examination> examine_database(const fs::path& path) {
 
 namespace {
 
-// A database with the rows of files that are gone, under the name of mending_of().
+// Makes a database with the rows of files that are gone, under the name of mending_of().
 Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
     const fs::path mending = mending_of(path);
     for (const char* ending : {"", "-wal", "-shm"}) {  // of a repair that was cut short
@@ -149,7 +150,7 @@ Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
 Status adopt_mended_database(const fs::path& path) {
     const fs::path mending = mending_of(path);
     if (is_there(path) || !is_there(mending)) return {};
-    // The damaged one's WAL must not be taken for the new one's.
+    // The WAL of the damaged database must not be used for the new one.
     FileSystem& disk = real_file_system();
     const fs::path aside = name_aside(path);
     for (const char* ending : {"-wal", "-shm"}) {
@@ -161,7 +162,8 @@ Status adopt_mended_database(const fs::path& path) {
     return disk.sync_directory(path.parent_path());
 }
 
-// At any instant the damaged database or the whole new one can be had: the new one is made first.
+// At any instant either the damaged database or the complete new one exists, because the new one is
+// made first.
 Result<Repair> repair_database(const fs::path& path, const std::string& station,
                                const std::string& damage) {
     Repair repair;

@@ -12,7 +12,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// A page of file rows holds some 30; so many numbers in a row without one end the search.
+// A page of file rows holds some 30; this many consecutive numbers without a row end the search.
 constexpr std::int64_t longest_gap = 20'000;
 
 constexpr const char* file_columns =
@@ -24,7 +24,7 @@ struct Row {
     SalvagedFile file;
 };
 
-// None for a row whose contents cannot be ours: damage need not make a row unreadable.
+// None for a row whose contents cannot be ours: damage may leave a row readable.
 std::optional<Row> row_of(SQLite::Statement& rows) {
     Row row;
     FileFacts& facts = row.file.facts;
@@ -77,7 +77,7 @@ class Reader {
         if (auto row = row_of(rows)) rows_.insert(std::move(*row));
     }
 
-    // As far as it goes.
+    // Reads as far as possible.
     void scan(const std::string& order) {
         try {
             SQLite::Statement rows(database_, file_columns + order);
@@ -88,7 +88,7 @@ class Reader {
         }
     }
 
-    // Each number between two rows; without an end, until nothing was found for long.
+    // Tries each number between two rows; without an upper end, until nothing was found for long.
     void probe(std::int64_t low, std::optional<std::int64_t> end) {
         std::int64_t found_at = low;
         for (std::int64_t id = low + 1; end ? id < *end : id <= found_at + longest_gap; ++id) {

@@ -1,9 +1,9 @@
-// catalog/salvage.h -- what can still be read of a damaged database; used by repair.h alone.
+// catalog/salvage.h -- reads what can still be read of a damaged database; only repair.h uses it.
 //
-// Reads whatever SQLite can reach: rows before the damage, behind it, and, between the two, one by
-// one. What stood on a damaged page is lost; how many file rows that were is counted by the gaps in
-// their numbers (rows that had moved to another station leave gaps, too, so it is at most that).
-// Thread contract: functions without state; nothing may write the database meanwhile.
+// It reads whatever SQLite can reach: rows before the damage, rows behind it, and one by one the
+// rows between. Rows on a damaged page are lost. Gaps in the numbers of rows tell how many file
+// rows that were at most (rows that had moved to another station leave gaps, too). Thread contract:
+// functions without state; nobody may write the database meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@ struct SalvagedVolume {
     int generation = 0;
 };
 
-// A row of the table `file` that makes sense, as it stood there.
+// A plausible row of the table `file`.
 struct SalvagedFile {
-    FileFacts facts;  // volumes apart
+    FileFacts facts;  // without volumes
     UtcTime registered_time;
-    std::vector<SalvagedVolume> volumes;  // file order; without those that could not be read
+    std::vector<SalvagedVolume> volumes;  // in file order; without those that could not be read
 };
 
 struct Salvage {
     std::vector<SalvagedFile> files;  // in the order in which they were registered
-    std::int64_t unread_files = 0;    // at most so many rows were lost
+    std::int64_t unread_files = 0;    // at most this many rows were lost
 };
 
-// Never fails: of a file that is no database at all, nothing is read.
+// Never fails: from a file that is not a database, it reads nothing.
 [[nodiscard]] Salvage salvage(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -3,13 +3,13 @@
 
 namespace stormcellar::catalog {
 
-// Kept in SQLite's user_version. A database with a higher number was made by later software.
+// SQLite's user_version holds it. A later version of the software has a higher number.
 inline constexpr int schema_version = 1;
 
-// "SCat": kept in SQLite's application_id, so that another program's database is recognised.
+// "SCat" in SQLite's application_id, so that the database of another program is recognized.
 inline constexpr int application_id = 0x53436174;
 
-// From nothing to version 1. Paths are blobs: a file name may hold any byte but NUL.
+// Creates version 1. Paths are blobs: a file name may hold any byte except NUL.
 inline constexpr const char* create_version_1 = R"sql(
 CREATE TABLE file (
     id            INTEGER PRIMARY KEY,

@@ -15,7 +15,7 @@ void bind_path(SQLite::Statement& statement, int index, const fs::path& path) {
     statement.bind(index, bytes.data(), static_cast<int>(bytes.size()));
 }
 
-// Until the statement is stepped on.
+// Valid until the statement's next step.
 std::string_view bytes_of(const SQLite::Column& blob) {
     const auto* const bytes = static_cast<const char*>(blob.getBlob());
     return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(blob.getBytes())};
@@ -113,8 +113,8 @@ void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_
     part->exec();
 }
 
-// What was settled survives a power cut: the file may be gone when we look again. A sync takes
-// milliseconds, though, and a file that grows is registered with every chunk.
+// A settled result survives a power cut, because the file may be gone at the next look. But a sync
+// takes milliseconds, and a growing file is registered with every chunk.
 void StationDatabase::set_durable(bool durable) {
     if (durable == is_durable_) return;
     database_.exec(durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
@@ -140,7 +140,7 @@ std::vector<fs::path> StationDatabase::register_files(const std::vector<FileFact
     return left_out;
 }
 
-// Inside a transaction.
+// Call it inside a transaction.
 std::optional<std::int64_t> StationDatabase::find_file(const FileFacts& facts, bool& is_same) {
     LentStatement known = prepared(
         "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
@@ -173,7 +173,7 @@ std::int64_t StationDatabase::write_file(const FileFacts& facts) {
     return file->getColumn(0).getInt64();
 }
 
-// Its parts, and the volumes that are in no other file.
+// Deletes its parts, and the volumes that are in no other file.
 void StationDatabase::drop_volumes(std::int64_t file_id) {
     std::vector<std::int64_t> volumes;
     {
@@ -195,7 +195,7 @@ void StationDatabase::drop_volumes(std::int64_t file_id) {
     }
 }
 
-// Inside a transaction.
+// Call it inside a transaction.
 Registered StationDatabase::register_row(const FileFacts& facts) {
     bool is_same = false;
     const std::optional<std::int64_t> known = find_file(facts, is_same);
@@ -203,7 +203,8 @@ Registered StationDatabase::register_row(const FileFacts& facts) {
     if (!known && !make_room()) return Registered::left_out;
     const std::int64_t file_id = write_file(facts);
     if (facts.state == FileState::gone) may_have_gone_ = true;
-    // The file's volumes are described anew: a growing file must not become its own re-send.
+    // The file's volumes are described anew: a growing file must not count as a repetition of
+    // itself.
     if (known) drop_volumes(file_id);
     int ordinal = 0;
     const std::size_t kept = std::min(facts.volumes.size(), most_volumes_a_file);
@@ -391,7 +392,7 @@ std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
 std::optional<CatalogEntry> StationDatabase::first(bool latest) {
     const std::string order = latest ? "ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC "
                                      : "ORDER BY v.start_ms, v.generation, f.path ";
-    // What claims to be of the future is the latest only where there is nothing else.
+    // A volume that claims to be from the future is the latest only if there is no other.
     for (const UtcTime until : {now_utc() + tolerated_future, UtcTime::max()}) {
         SQLite::Statement rows(database_, std::string{entry_columns} + entry_join +
                                               "WHERE v.start_ms <= ? " + order + "LIMIT 1");

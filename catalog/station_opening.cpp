@@ -1,4 +1,4 @@
-// How a station's database is opened, made and recognised; what stands in it: station_database.cpp.
+// How a station's database is opened, made and recognized; station_database.cpp has its contents.
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -19,18 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How long a statement waits for another process's write before it gives up.
+// How long a statement waits for another process's write before it fails.
 constexpr int busy_timeout_ms = 10'000;
-// Of the write-ahead log, from where it is brought into the database, and what is left of its file
-// then. A registration writes some five pages.
+// The size of the write-ahead log at which it is copied into the database, and the size to which
+// its file is cut then. A registration writes some five pages.
 constexpr int most_log_pages = 128;
 constexpr int most_log_bytes = 512 << 10;
-// Of pages that a connection keeps in memory; SQLite's usual 2 MB for each of 200 stations would be
-// more than all else. The kernel's cache has the rest.
+// How many pages a connection holds in memory. SQLite's usual 2 MB for each of 200 stations would
+// exceed everything else; the kernel's cache holds the rest.
 constexpr int most_cached_kib = 128;
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
-    // SQLite says of a file without permission only that it cannot be opened.
+    // For a file without permission, SQLite only reports that it cannot be opened.
     const bool is_unopened = error.getErrorCode() == SQLITE_CANTOPEN;
     if (is_unopened && ::access(path.c_str(), R_OK) != 0 && errno == EACCES) {
         return fail(ErrorCode::permission, "{}: {}", path.native(),
@@ -39,7 +39,7 @@ tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception
     return fail(code_of(error), "{}: {}", path.native(), error.what());
 }
 
-// SQLite would wait at a FIFO for somebody who writes to it.
+// SQLite would wait at a FIFO until somebody writes to it.
 Status check_regular(const fs::path& path) {
     for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
         const fs::path file = path.native() + ending;
@@ -50,9 +50,10 @@ Status check_regular(const fs::path& path) {
     return {};
 }
 
-// Whether the database is ours and of a version that we know; empty ones are ours to fill.
+// Checks that the database is ours and of a version that we know; an empty database is ours to
+// fill.
 Status check_identity(SQLite::Database& database, const fs::path& path) {
-    // One snapshot: another process may be making the tables just now.
+    // Read one snapshot: another process may be making the tables just now.
     const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
@@ -79,7 +80,7 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
     return {};
 }
 
-// SQLite does not wait for others here, as it does everywhere else.
+// Here, unlike everywhere else, SQLite does not wait for others.
 void enter_wal(SQLite::Database& database) {
     const auto limit =
         std::chrono::steady_clock::now() + std::chrono::milliseconds(busy_timeout_ms);
@@ -96,7 +97,8 @@ void enter_wal(SQLite::Database& database) {
 }
 
 void migrate(SQLite::Database& database) {
-    // To begin to write is to wait for whoever writes, which a database that stands need not.
+    // Beginning to write means waiting for other writers, which an existing database does not
+    // require.
     if (database.execAndGet("PRAGMA user_version").getInt() >= schema_version) return;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     if (database.execAndGet("PRAGMA user_version").getInt() < 1) {
@@ -107,8 +109,8 @@ void migrate(SQLite::Database& database) {
     transaction.commit();
 }
 
-// A reader that may not write cannot make the WAL's index. While a writer has the database open the
-// index exists; when there is no WAL nobody writes, and the file alone is the truth.
+// A reader without permission to write cannot make the WAL's index. While a writer has the database
+// open, the index exists; if there is no WAL, nobody writes, and the file alone is up to date.
 template <class Open>
 auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
     if (Status regular = check_regular(path); !regular) return pass_on(regular);
@@ -163,7 +165,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
         enter_wal(database);
         database.exec("PRAGMA synchronous = FULL");
-        // Each station that is open has a log of its own, so none may grow to SQLite's usual 4 MB.
+        // Each open station has its own log, so none may grow to SQLite's usual 4 MB.
         database.exec(fmt::format("PRAGMA wal_autocheckpoint = {}", most_log_pages));
         database.exec(fmt::format("PRAGMA journal_size_limit = {}", most_log_bytes));
         database.exec(fmt::format("PRAGMA cache_size = -{}", most_cached_kib));

@@ -1,4 +1,4 @@
-// What rows of files that are gone give way to: time, and rows of other files.
+// Deletes rows of files that are gone: after some time, or to make room for rows of other files.
 #include <vector>
 
 #include "catalog/station_database.h"
@@ -6,7 +6,7 @@
 namespace stormcellar::catalog {
 namespace {
 
-// Rows that are deleted at once to make room, so that looking for them is rare.
+// How many rows are deleted at once to make room, so that searching for them is rare.
 constexpr std::int64_t rows_a_batch = 1000;
 constexpr int most_batches = 8;
 
@@ -54,7 +54,7 @@ std::uint64_t StationDatabase::used_bytes() {
 bool StationDatabase::make_room() {
     if (most_bytes_ == CatalogOptions::no_limit || used_bytes() < most_bytes_) return true;
     for (int batch = 0; batch < most_batches && may_have_gone_; ++batch) {
-        // Others mark rows as gone through this object, too, so none stays none until then.
+        // Others mark rows as gone through this object too, so the answer "none" holds until then.
         may_have_gone_ = delete_oldest_gone(rows_a_batch) == rows_a_batch;
         if (used_bytes() < most_bytes_) return true;
     }

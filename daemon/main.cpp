@@ -50,7 +50,7 @@ struct Arguments {
     bool version = false;
 };
 
-// bad_argument: what makes no sense.
+// Errors: bad_argument for arguments that are invalid.
 Result<Arguments> parse(int argc, char** argv) {
     Arguments arguments;
     for (int i = 1; i < argc; ++i) {
@@ -83,8 +83,9 @@ Result<Arguments> parse(int argc, char** argv) {
     return arguments;
 }
 
-// Volumes that grow and databases of all stations are some 1,000 descriptors, which is where the
-// soft limit stands that old programs need. What cannot be had comes out where it is missing.
+// Growing volumes and the databases of all stations need some 1,000 descriptors, which is the soft
+// limit that old programs require. If the limit cannot be raised, errors appear where a descriptor
+// is missing.
 void raise_descriptor_limit() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -104,7 +105,8 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// The part of a path that stands where a directory should, or would be made; empty: none does.
+// The part of a path that is not a directory, but is where a directory should be or would be made;
+// empty if there is none.
 std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     std::error_code error;
     while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
@@ -112,7 +114,7 @@ std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     return std::filesystem::is_directory(directory, error) ? "" : directory;
 }
 
-// What is no mistake of the file's, but may not be meant.
+// Prints what is no mistake in the file but may be unintended.
 void print_notes(const Config& config) {
     const PathsConfig& paths = config.fixed.paths;
     const auto note = [](const std::string& what) {
@@ -217,7 +219,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
         case Stopped::cleanly:
             return EXIT_SUCCESS;
         case Stopped::with_jobs:
-            // What the jobs have written appears whole or not at all, so this loses nothing.
+            // The results of jobs appear whole or not at all, so this loses nothing.
             std::_Exit(exit_failed);
     }
     return exit_failed;

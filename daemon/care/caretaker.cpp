@@ -24,7 +24,7 @@ void log_problem(std::string_view what, const Error& error) {
                 printable(error.message));
 }
 
-// A database that cannot be used at all is named by the service.
+// The service logs a database that cannot be used at all.
 bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),
@@ -99,7 +99,7 @@ void Caretaker::run() {
     pulse_.rest();
 }
 
-// What was mended is logged by the service, which then scans for the files.
+// The service logs what was mended, and then scans for the files.
 void Caretaker::examine_databases() {
     const auto stations = of_.catalog.station_names();
     if (!stations) return log_problem("cannot examine the catalog", stations.error());
@@ -183,7 +183,7 @@ void Caretaker::refill() {
     refill_frames();
 }
 
-// After the partials, of which they are made.
+// Call it after the partials are made, because frames are made from them.
 void Caretaker::refill_frames() {
     const auto missing = of_.mender.missing_frames(times_.refill);
     if (!missing) return log_problem("cannot look for missing frames", missing.error());

@@ -29,7 +29,7 @@ Status StateKeeper::hold() {
     auto lock = pipeline::InstanceLock::acquire(state_);
     if (!lock) return pass_on(lock);
     if (!lock_) {
-        // Nothing depends on what a killed service left: what cannot be removed may stay.
+        // Nothing depends on what a killed service left, so files that cannot be removed may stay.
         for (const std::filesystem::path& directory : {state_, catalog})
             (void)remove_temporaries(real_file_system(), directory);
     }

@@ -33,7 +33,7 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // "a/" has an empty last part, which would hide that "a/b" lies within.
+    // "a/" has an empty last part, which would hide that "a/b" is within it.
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }
@@ -119,7 +119,7 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// What the grid room would refuse is refused here, with the line.
+// Refuses what the grid room would refuse, and names the line.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -147,7 +147,7 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
 }
 
 int processors() {
-    // Asked for at every turn of the service, and read from a file.
+    // Read once, because every turn of the service asks for it and it comes from a file.
     static const unsigned count = std::thread::hardware_concurrency();
     return std::max(1, static_cast<int>(count));
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr timeval longest_wait{.tv_sec = 1, .tv_usec = 0};
 
-// A datagram to `path`, with the bytes or with a descriptor; 0 or what was wrong.
+// Sends a datagram to `path`, with the bytes or with a descriptor; returns 0 or the error number.
 int send_to(int socket, const std::filesystem::path& path, std::string_view bytes, int passed) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -78,7 +78,7 @@ std::string journal_entry(std::span<const JournalField> fields) {
 
 Journal::Journal(std::filesystem::path socket)
     : path_(std::move(socket)), descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    // A journal that stands still must not stand in the way of ingest.
+    // A journal that does not respond must not delay ingest.
     if (descriptor_ >= 0) {
         (void)::setsockopt(descriptor_, SOL_SOCKET, SO_SNDTIMEO, &longest_wait,
                            sizeof longest_wait);

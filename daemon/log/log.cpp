@@ -58,7 +58,7 @@ class SyslogLevel final : public spdlog::custom_flag_formatter {
     }
 };
 
-// Of the process, as its stderr is.
+// The logging of the process, as its stderr requires.
 struct Outlet {
     std::unique_ptr<Journal> journal;
     std::function<SteadyTime()> clock = [] { return std::chrono::steady_clock::now(); };

@@ -26,7 +26,7 @@ std::string without_speaker(const std::string& line) {
     return printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
 }
 
-// What it complains of first; notes are none.
+// The first complaint; notes do not count.
 void take_complaint(Child& child, std::string& complaint) {
     for (const std::string& line : child.err.read()) {
         const std::string text = without_speaker(line);
@@ -60,7 +60,7 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
 }
 
 bool is_known(const std::string& name, const std::vector<pipeline::Domain>& domains) {
-    // "north.KTLX": a part of north.
+    // The mosaic to which a partial such as "north.KTLX" belongs: north.
     const std::string_view whole = cache::group_of(name);
     return find_station(name) || std::any_of(domains.begin(), domains.end(),
                                              [&](const auto& one) { return one.name == whole; });

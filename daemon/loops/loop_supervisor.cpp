@@ -132,7 +132,7 @@ void LoopSupervisor::dismiss(Slot& slot, SteadyTime now) {
 void LoopSupervisor::start_due(SteadyTime now) {
     for (Slot& slot : slots_) {
         if (slot.child || slot.is_leaving || now < slot.not_before) continue;
-        // Not beside the one that it follows.
+        // A new process does not run beside the one that it replaces.
         const bool waits = std::any_of(slots_.begin(), slots_.end(), [&](const Slot& other) {
             return other.is_leaving && other.state.name == slot.state.name;
         });
@@ -178,7 +178,7 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
     if (!how.empty()) note_end(slot, how, now);
 }
 
-// One document a loop that was made.
+// The program prints one document for each loop that it made.
 void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
     const auto document = nlohmann::json::parse(line, nullptr, false);
     if (!document.is_object()) return;
@@ -216,7 +216,7 @@ void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
-    // What is killed has no reason of its own.
+    // A program that was killed gives no reason.
     const bool was_killed = how.starts_with("signal");
     slot.state.last_problem =
         was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);

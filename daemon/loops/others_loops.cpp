@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
-// What is not there, or of another type, leaves the value as it is.
+// A member that is missing, or of another type, leaves the value unchanged.
 template <typename Value>
 void take(const Json& object, const char* key, bool (Json::*is_wanted)() const noexcept,
           Value& value) {

@@ -39,7 +39,7 @@ tl::unexpected<Error> failed(int number, const std::string& what) {
     return fail(code, "{}: {}", what, std::generic_category().message(number));
 }
 
-// Both ends are closed in programs that are started.
+// The programs that are started get neither end.
 struct Pipe {
     std::array<int, 2> ends{-1, -1};
 
@@ -53,7 +53,7 @@ struct Pipe {
             if (end >= 0) ::close(end);
         }
     }
-    // The reading end, given away; reading never blocks.
+    // Gives away the reading end; reading never blocks.
     int take_reader() {
         ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
         return std::exchange(ends[0], -1);
@@ -166,10 +166,11 @@ Result<Child> Child::start(const fs::path& program, const std::vector<std::strin
     if (const int failure = spawn(program, arguments, out, err, id); failure != 0) {
         return failed(failure, program.native());
     }
-    // Where the service may not do these, it goes on without.
+    // If the service may not do these, it goes on without.
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(id), lower_priority);
     std::ofstream(fmt::format("/proc/{}/oom_score_adj", id)) << first_to_go;
-    // The C library's own declaration lacks its extern "C" (glibc 2.36). Closed in other programs.
+    // The C library's own declaration lacks its extern "C" (glibc 2.36). Other programs do not
+    // inherit it.
     Child child(id, static_cast<int>(::syscall(SYS_pidfd_open, id, 0)));
     if (child.descriptor_ < 0) return failed(errno, program.native());
     child.out = LineReader(out.take_reader());

@@ -12,7 +12,7 @@
 
 namespace stormcellar::daemon {
 
-// A failure to tell is no reason to stop: the manager's own timeouts act on silence.
+// A failed notification is no reason to stop: the manager's own timeouts act on silence.
 void SystemdNotifier::send(const std::string& state) {
     (void)sd_notify(0, state.c_str());
 }

@@ -17,7 +17,7 @@ WakeUp::~WakeUp() {
     ::close(descriptor_);
 }
 
-// Neither can fail in a way that matters: a full counter is set, an empty one is clear.
+// Neither call can fail in a way that matters: a full counter is set, an empty one is clear.
 void WakeUp::set() {
     const std::uint64_t one = 1;
     [[maybe_unused]] const ssize_t written = ::write(descriptor_, &one, sizeof one);

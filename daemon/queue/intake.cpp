@@ -19,13 +19,13 @@ constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
 constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
 
-// The same for all files of one volume.
+// The same key for all files of one volume.
 std::string volume_of(const std::filesystem::path& path) {
     auto chunk = pipeline::ChunkPath::of(path);
     return chunk ? std::move(chunk->key) : path.native();
 }
 
-// Something has come of it. Of whose station it is the file's name has said before.
+// Something of the file has come. Its name has told the station before.
 bool is_good(const Finished& finished) {
     if (!finished.taken) return false;
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
@@ -70,7 +70,7 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
-// What goes on with a volume that has sweeps comes before the beginnings of others.
+// Data of a volume with closed sweeps come before the beginnings of other volumes.
 void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
     if (!goes_on) {
         going_on_.erase(volume_of(path));
@@ -89,13 +89,13 @@ void Intake::note_displaced() {
     }
 }
 
-// A followed file has its row since it began.
+// A followed file has had its row since it began.
 Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     Job job;
     job.path = path;
     const bool is_followed = followed_.contains(path);
     job.urgency = urgency;
-    // The end of a volume that could not be followed is what its grid waits for.
+    // The grid of a volume that could not be followed waits for the volume's end.
     const auto chunk = pipeline::ChunkPath::of(path);
     const bool is_end = chunk && chunk->name.kind == level2::ChunkKind::end;
     job.is_begun = is_end || going_on_.contains(volume_of(path));
@@ -114,7 +114,7 @@ void Intake::offer(Job job, const FileStamp& stamp) {
     note_displaced();
 }
 
-// The order of what is closed stays as it came when the clock on the wall is set back.
+// The order of closed files stays right when the system's clock is set back.
 std::int64_t Intake::closed_now_ns() {
     const std::int64_t now_ns = clock_.wall_ns();
     newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
@@ -145,21 +145,21 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
         seen_.found_again(path);
         return;
     }
-    // Written this very moment: most likely there is more to come.
+    // The file was written this very moment: most likely there is more to come.
     const std::int64_t age_ns = clock_.wall_ns() - stamp.modified_ns;
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
     } else {
         const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
         Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
-        // A time in the future puts nothing before what is closed now.
+        // A time in the future puts no file before those that are closed now.
         job.newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
         offer(std::move(job), stamp);
     }
 }
 
-// The sink finds nothing there and marks the rows; no hurry, so it goes behind everything else. A
-// refused one is no loss: the row says so when it is next looked at.
+// The sink finds no file there and marks the rows. That is not urgent, so the job runs after all
+// others. If it is refused nothing is lost: the row is marked when the file is next looked for.
 void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
     followed_.erase(path);
@@ -169,8 +169,8 @@ void Intake::file_gone(const std::filesystem::path& path) {
     schedule_.offer(std::move(job), clock_.steady());
 }
 
-// The kernel tells of the directory alone. One that was moved away takes files along of which
-// nothing is known here but hashes: a scan marks their rows.
+// The kernel reports only the directory. A directory that was moved away takes files along of which
+// only hashes are known here: a scan marks their rows.
 void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
     std::vector<std::filesystem::path> gone;
     const auto is_below = [&](const std::filesystem::path& file) {
@@ -231,21 +231,21 @@ void Intake::poll_growing() {
     }
 }
 
-// Tried often enough, and not even its rejection could be stored: that is the trouble of a
-// database, which is met again with the next scan.
+// The file was tried often enough, and not even its rejection could be stored: its database is in
+// trouble, and the next scan offers the file again.
 void Intake::job_failed(const Finished& finished) {
     const ErrorCode code = finished.taken.error().code;
     const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);
     if (was_last) schedule_.finished(finished.job.path);
     if (was_last || !schedule_.retry(finished.job, finished.ended))
         leave_to_scan(finished.job.path);
-    // A full disk fails them all: there is no use in decoding the next one only to see that.
+    // A full disk fails all jobs: it is useless to decode the next file only to see that.
     if (code == ErrorCode::no_space) {
         schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
     }
 }
 
-// Behind everything that has come meanwhile.
+// After everything that has come meanwhile.
 void Intake::give_next_turn(const Finished& finished) {
     schedule_.finished(finished.job.path);
     Job job = job_for(finished.job.path, Urgency::backlog);
@@ -280,7 +280,7 @@ void Intake::job_ended(const Finished& finished) {
     note_displaced();
 }
 
-// What could not be written will be when the file is taken in.
+// A row that could not be written is written when the file is ingested.
 void Intake::registered(const Finished& noted) {
     if (noted.taken && std::holds_alternative<ended::Vanished>(noted.taken->ingest.ending)) {
         job_ended(noted);
@@ -307,7 +307,7 @@ void Intake::end_scan(bool whole) {
     if (!look_again_at_) looks_in_vain_ = 0;
     seen_.end_scan();
     told_.end_scan();
-    // Those of which no event came: lost, or never sent.
+    // Files of which no event came: it was lost, or never sent.
     const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
     for (const std::filesystem::path& path : followed) {
         const Standing standing = look(path).standing;

@@ -80,7 +80,7 @@ void* ReadyJobs::take_old(Backlog& backlog, const MayBegin& may_begin) {
     return nullptr;
 }
 
-// Of the classes that have turns left, the first that has a job which may begin.
+// The first class that has turns left and a job which may begin.
 void* ReadyJobs::take_of_round(const MayBegin& may_begin) {
     for (Turns& turns : live_) {
         if (turns.left == 0) continue;

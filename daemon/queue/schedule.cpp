@@ -6,7 +6,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Where all that is ready waits until others have had their share of the workers.
+// How long ready jobs wait if all must wait until others have had their share of the workers.
 constexpr std::chrono::milliseconds look_at_shares{50};
 
 }  // namespace
@@ -28,7 +28,8 @@ ReadyJobs::Key Schedule::key_of(const Entry& entry) {
             entry.sequence,    entry.job.station,  entry.job.closed_at.has_value()};
 }
 
-// A job with a time to wait for starts among the delayed, and joins the ready when it has come.
+// A job with a waiting time starts among the delayed jobs, and joins the ready ones when the time
+// has come.
 void Schedule::enqueue(Entry& entry) {
     entry.running = false;
     entry.sequence = next_sequence_++;
@@ -86,7 +87,7 @@ bool Schedule::make_room_for(const Job& job) {
     return true;
 }
 
-// Offered again while it waits.
+// The job was offered again while it waits.
 void Schedule::wait_again(Entry& entry, const Job& job) {
     const bool was_ready = entry.job.not_before == SteadyTime{};
     const ReadyJobs::Key old = key_of(entry);
@@ -130,7 +131,7 @@ Offered Schedule::offer(Job job, SteadyTime now) {
     return Offered::queued;
 }
 
-// It waits for us since then, and not since it first failed.
+// It waits since then, not since it first failed.
 void Schedule::wait_since(Entry& entry, SteadyTime time) {
     const bool was_unregistered = unregistered_.erase(entry.place) > 0;
     waiting_.erase(entry.place);

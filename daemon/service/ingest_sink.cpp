@@ -8,8 +8,8 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Whose newest grid the cache protects. Of stations that `any` admitted nobody knows that they are
-// real.
+// The groups whose newest grid the cache protects. Nobody knows whether a station that `any`
+// accepted is real.
 bool is_known_group(std::string_view group, const StationRule& stations) {
     if (cache::is_known_group(group)) return true;
     return stations.kind() == StationRule::Kind::listed && stations.knows(group);
@@ -48,7 +48,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.chunk_timeout = config.ingest.chunk_timeout;
     options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
-    // Far below what the watchdog takes for a hang.
+    // Far below what the watchdog considers a hang.
     options.archive_turn = std::chrono::seconds{20};
     options.living.has_time = [pressed = pressed_] { return !*pressed; };
     return options;

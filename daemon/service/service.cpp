@@ -20,11 +20,12 @@ constexpr std::chrono::seconds time_to_drain{20};
 constexpr std::chrono::seconds between_held_back{1};
 constexpr std::chrono::milliseconds between_memory_looks{250};
 constexpr std::chrono::seconds longest_start{60};  // from one look to the next, at most
-// A drop directory that is missing at the start is looked for so often, not once a minute.
+// How often the service looks for a drop directory that is missing at the start, instead of once a
+// minute.
 constexpr std::chrono::seconds between_first_scans{1};
 
-// Freed memory beyond this goes back to the system: what volumes leave that are decoded one after
-// the other is less, and is used again at once.
+// Freed memory beyond this goes back to the system. Volumes that are decoded one after the other
+// leave less, which is used again at once.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
@@ -101,7 +102,7 @@ void Service::start() {
     if (parts_.runs_loops) loop_keeper_.set(config_.loops);
 }
 
-// Without READY systemd would give up after TimeoutStartSec: it is told that we still wait.
+// Without READY systemd would give up after TimeoutStartSec, so the service extends the timeout.
 void Service::get_ready() {
     if (!readiness_.look(parts_.clock.steady())) return;
     if (!readiness_.is_ready()) {
@@ -164,7 +165,7 @@ void Service::wait() {
         {parts_.signals == nullptr ? -1 : parts_.signals->descriptor(), POLLIN, 0}};
     const auto left =
         std::chrono::ceil<std::chrono::milliseconds>(next_time() - parts_.clock.steady());
-    // An interrupted poll is a short sleep; a negative descriptor is left out.
+    // An interrupted poll counts as a short sleep; poll ignores a negative descriptor.
     ::poll(sources.data(), sources.size(),
            static_cast<int>(std::max<std::int64_t>(0, left.count())));
 }
@@ -182,7 +183,7 @@ void Service::reload() {
                   "reload failed: {}; the service keeps its previous configuration",
                   printable(fresh.error().message));
     }
-    // A service that is not ready yet says so when it is.
+    // A service that is not ready yet reports READY later.
     if (readiness_.is_ready()) parts_.notifier.send("READY=1");
 }
 
@@ -221,8 +222,8 @@ void Service::scan_if_due() {
     if (scan_times_.is_due(parts_.clock.steady(), intake_.needs_scan())) scan();
 }
 
-// Called between two parts of what takes long: a scan of many files takes seconds, a burst of
-// events a tenth of one.
+// Called between two parts of long work: a scan of many files takes seconds, a burst of events a
+// tenth of a second.
 void Service::keep_workers_busy() {
     collect();
     start_jobs();
@@ -279,7 +280,7 @@ void Service::look_at_catalog(SteadyTime now) {
     if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
 }
 
-// What fails because of a database in trouble is named once, with the trouble.
+// Failures that come from a database in trouble are logged once, with the trouble.
 void Service::report(const Finished& finished) {
     if (!finished.taken) {
         catalog_trouble_.look_soon();

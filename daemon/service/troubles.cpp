@@ -132,7 +132,8 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     }
 }
 
-// Loops that a service of its own keeps are in this one's metrics, as that one answers none.
+// The metrics of this service include loops that a service of its own runs, because that service
+// serves no metrics.
 bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
                        const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status) {
     if (now < next_) return false;

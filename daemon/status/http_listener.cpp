@@ -14,10 +14,10 @@
 namespace stormcellar::daemon {
 namespace {
 
-// For the request line and all headers, and the headers of the answer.
+// For the request line and all headers, and for the headers of the answer.
 constexpr std::size_t request_memory = 8192;
 
-// Each Host field is looked at: whoever sends two may mean the other one.
+// Checks each Host field, because a client that sends two may mean the other one.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
     if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
         !is_loopback_host(value == nullptr ? "" : value)) {
@@ -35,7 +35,7 @@ bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
 
 }  // namespace
 
-// What libmicrohttpd calls, always from within turn() or the destructor.
+// libmicrohttpd calls these, always during turn() or the destructor.
 struct HttpListener::Callbacks {
     static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
                              const char* method, const char* /*version*/, const char* /*data*/,
@@ -71,7 +71,7 @@ Result<std::unique_ptr<HttpListener>> HttpListener::open(ListeningSocket socket,
                                                          Answerer answerer) {
     std::unique_ptr<HttpListener> made(
         new HttpListener(std::move(socket), limits, std::move(answerer)));
-    // Its own copy, which it closes.
+    // libmicrohttpd gets its own copy, which it closes.
     const int copy = ::fcntl(made->socket_.descriptor(), F_DUPFD_CLOEXEC, 3);
     if (copy < 0) return fail(ErrorCode::io, "no descriptor is left");
     made->daemon_ = MHD_start_daemon(
@@ -103,7 +103,7 @@ std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
     return next;
 }
 
-// Whoever asks gets an answer at once; those that have stood for longest ask for nothing.
+// Every request is answered at once, so the oldest connections are idle ones.
 void HttpListener::make_room() {
     const auto stands = [](const auto& one) { return !one.second.is_cut; };
     const auto standing = std::count_if(open_.begin(), open_.end(), stands);
@@ -119,14 +119,15 @@ void HttpListener::make_room() {
 }
 
 void HttpListener::turn(SteadyTime now) {
-    // Cut here, they are closed by libmicrohttpd, which sees that they have ended.
+    // libmicrohttpd closes the connections that are shut down here, because it sees that they have
+    // ended.
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.ends > now) continue;
         ::shutdown(open.descriptor, SHUT_RDWR);
         open.is_cut = true;
     }
-    // One run takes few new connections, and none while there are as many as may be. Those that end
-    // in a run make room in the next one alone, of which no descriptor tells.
+    // One run accepts few new connections, and none while the limit is reached. Connections that
+    // end in a run make room only in the next run, and no descriptor reports that.
     is_behind_ = true;
     for (int round = 0; is_behind_ && round < most_rounds; ++round) {
         const std::uint64_t before = changes_;

@@ -15,7 +15,7 @@ namespace stormcellar::daemon {
 namespace {
 
 // As many as the kernel allows (net.core.somaxconn). They wait in the kernel and take no
-// descriptor; whoever found the queue full would try again after 1 s, then 3 s.
+// descriptor; a client that finds the queue full tries again after 1 s, then 3 s.
 constexpr int backlog = SOMAXCONN;
 constexpr mode_t socket_mode = 0660;
 constexpr mode_t permissions = 07777;
@@ -44,7 +44,7 @@ Status bind_to(int descriptor, const Address& address, const std::string& what) 
     return {};
 }
 
-// Whether a program listens there.
+// Returns true if a program listens there.
 bool is_answered(const sockaddr_un& address) {
     const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (descriptor < 0) return true;  // cannot be told

@@ -120,7 +120,7 @@ void write_cache(MetricsWriter& out, const StatusFacts& facts) {
         usage.not_kept);
 }
 
-// One family with a sample for each station that has a value.
+// Writes one family with a sample for each station that has a value.
 class PerStation {
   public:
     PerStation(MetricsWriter& out, const StationBook& book) : out_(out), book_(book) {}
@@ -169,8 +169,8 @@ void write_station_files(MetricsWriter& out, PerStation& each) {
         });
 }
 
-// Of any station. Where nothing has come, the start: a feed that is dead at the start is silent
-// too.
+// The age for all stations. If nothing has come, it counts from the start, because a feed that is
+// dead at the start is silent too.
 UtcTime last_data(const StatusFacts& facts) {
     std::optional<UtcTime> last;
     for (const auto& [station, state] : facts.stations.stations())

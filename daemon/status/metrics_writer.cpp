@@ -21,7 +21,8 @@ std::string_view word_of(MetricsWriter::Type type) {
     return "untyped";
 }
 
-// printable() leaves neither line ends nor broken UTF-8; a backslash that it wrote is one to us.
+// printable() leaves neither line ends nor broken UTF-8; a backslash that it wrote is an ordinary
+// one here.
 std::string escaped(std::string_view text) {
     std::string result;
     for (const char letter : printable(text)) {

@@ -42,7 +42,7 @@ std::string describe_gridded(const Finished& finished) {
         outcome.commit_s * 1000, because(outcome));
 }
 
-// Sweeps have entered the grid of a volume that goes on growing.
+// Returns true if sweeps have entered the grid of a volume that continues to grow.
 bool shows_living(const IngestOutcome& outcome) {
     return outcome.result() != IngestResult::gridded && !outcome.living.empty();
 }
@@ -143,7 +143,7 @@ void Reporter::report_directory(const Error& error) {
         is_blind ? "; the service polls the drop directory instead ([watch] poll_seconds)" : "");
 }
 
-// Where the air is clear nothing can be told: that is no news, hour by hour.
+// In clear air nothing can be determined: that is not worth a line every hour.
 void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t most_missing_volumes = 8;
 constexpr std::size_t most_missing_numbers = 64;
 
-// A clock that is ahead must not hide that nothing comes any more.
+// A clock that is ahead must not hide that nothing comes anymore.
 void advance(std::optional<UtcTime>& newest, std::optional<UtcTime> time, UtcTime now) {
     if (time && *time <= now + StationBook::most_ahead) newest = std::max(newest, time);
 }

@@ -75,7 +75,7 @@ void StatusBook::add(pipeline::PairReport report) {
 
 void StatusBook::add_ingested(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
-    // What the cache let go at once was not gridded for anybody.
+    // A volume of which the cache keeps nothing does not count as gridded.
     if (outcome.grids.empty() && outcome.partials.empty() && outcome.not_kept > 0) {
         ++facts_.not_kept;
         return;

@@ -111,7 +111,7 @@ Json json_of(const Timings& timings) {
             {"max", known(summary.max)}};
 }
 
-// What occurred, by its name.
+// The codes that occurred, by name.
 Json json_of(const PerErrorCode<std::uint64_t>& counts) {
     Json document = Json::object();
     for (const ErrorCode code : all_error_codes) {
@@ -264,7 +264,7 @@ std::string status_json(const StatusFacts& facts, const Pending& pending, UtcTim
     const bool elsewhere = facts.loops.empty() && !facts.others_loops.empty();
     document["loops"] = json_of(elsewhere ? facts.others_loops : facts.loops);
     if (elsewhere) document["loops"]["elsewhere"] = true;
-    // Texts were made printable; whatever else a name may bring must not end the service.
+    // Texts were made printable; whatever else a name contains must not end the service.
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -43,8 +43,8 @@ ResponsePointer response_of(std::string_view text, const char* type) {
 constexpr const char* plain = "text/plain; charset=utf-8";
 
 // The service's umask is for its files and would keep the group from the socket. This thread, which
-// makes nothing else, gets one of its own; where the system refuses that, the umask narrows the
-// socket, and Worker::open() says so.
+// makes nothing else, gets its own umask. If the system refuses that, the umask narrows the mode of
+// the socket, and Worker::open() logs it.
 void take_own_umask() {
     if (::unshare(CLONE_FS) == 0) ::umask(0117);
 }
@@ -60,14 +60,14 @@ void warn_if_narrow(const std::string& name, mode_t mode) {
 
 }  // namespace
 
-// All that the thread has.
+// Everything that the thread owns.
 class StatusServer::Worker {
   public:
     Worker(StatusServerOptions options, Render render);
 
-    // Opens what is to be open and is not.
+    // Opens the addresses that should be open and are not.
     void open(SteadyTime now);
-    // What keeps an address from being listened at; empty: all are.
+    // Why an address is not served; empty if all are.
     [[nodiscard]] std::string unanswered() const;
     void wait(SteadyTime now, const WakeUp& wake_up);
     void turn(SteadyTime now);
@@ -224,12 +224,12 @@ StatusServer::~StatusServer() {
 }
 
 void StatusServer::run() {
-    // A client that went is an error of its connection, and of nothing else.
+    // A client that is gone is an error of its connection only.
     sigset_t pipe;
     sigemptyset(&pipe);
     sigaddset(&pipe, SIGPIPE);
     ::pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
-    // Of this thread alone, on Linux; where it may not, it goes on as it is.
+    // On Linux this affects only this thread. If it is not permitted, the thread goes on unchanged.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
     take_own_umask();
     while (!stopping_) {

@@ -36,12 +36,12 @@ ErrorCode code_of(int error_number) {
     }
 }
 
-// "fs.inotify.max_user_watches (now 16384)": what holds the user to so few, which is the least of
-// the limits there are. `name` without max_.
+// "fs.inotify.max_user_watches (now 16384)": the lowest of the limits that apply to the user.
+// `name` is without max_.
 std::string limit_named(std::string_view name) {
     std::string least_name = fmt::format("fs.inotify.max_{}", name);
     std::optional<std::uint64_t> least;
-    // The second counts for the users of a container.
+    // The second limit applies to the users of a container.
     const std::string_view kind = name.substr(name.find('_') + 1);
     for (const std::string& sysctl :
          {fmt::format("fs.inotify.max_{}", name), fmt::format("user.max_inotify_{}", kind)}) {

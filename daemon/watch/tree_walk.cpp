@@ -60,7 +60,7 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     }
 }
 
-// What makes some names of a directory unusable is said once of it.
+// Reports once for a directory what makes some of its names unusable.
 class NameProblem {
   public:
     NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)

@@ -17,8 +17,8 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int events_a_step = 32;
-// What directories that came or went have taken of the thread, and a tenth of the time is paid
-// back. Beyond it they are left to the next scan, which rests as long after each look.
+// How much time of the thread directories may take when they come and go; a tenth of the time is
+// paid back. Beyond it they are left to the next scan, which rests as long after each look.
 constexpr double most_owed_s = 0.2;
 constexpr double paid_back_each_second = 0.1;
 
@@ -78,15 +78,15 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     // The drop directory itself may be reached through a link.
     const Result<int> watch = events_.watch(directory == drop_ ? drop_ / "." : directory);
     if (!watch) {
-        // One that went away meanwhile is no problem, and of one that may not be read the walk
-        // says so.
+        // A directory that went away meanwhile is no problem, and the walk reports one that may not
+        // be read.
         const ErrorCode code = watch.error().code;
         if (code == ErrorCode::not_found || code == ErrorCode::permission) return;
         ++unwatched_;
         if (!std::exchange(told_unwatched_, true)) listener_.directory_problem(watch.error());
         return;
     }
-    // One directory under a new name keeps its watch, and one name may have a new directory.
+    // A directory under a new name keeps its watch, and one name may belong to a new directory.
     const std::string& path = directory.native();
     if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second.path != path) {
         watch_of_.erase(old->second.path);
@@ -98,7 +98,7 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     watch_of_[path] = *watch;
 }
 
-// Directories that were moved away, or went while their events were lost.
+// Directories that were moved away, or were deleted while their events were lost.
 void Watcher::forget_unseen() {
     std::vector<int> watches;
     for (const auto& [watch, directory] : path_of_) {
@@ -183,7 +183,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
     owed_at_ = began;
     const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        // Otherwise its watches go with the next scan, or with the directory.
+        // Otherwise its watches end with the next scan, or with the directory.
         if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {

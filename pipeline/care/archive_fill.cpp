@@ -17,11 +17,11 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Uncompressed bricks of the volumes at hand take 0.1 to 0.33; much echo takes more, and a small
+// The uncompressed bricks of the known volumes take 0.1 to 0.33; much echo takes more, and a small
 // grid may be all echo.
 constexpr double bytes_a_cell = 0.5;
 constexpr double cells_of_small_grid = 2e6;
-// No frame takes volumes that are farther from it.
+// No frame uses volumes that are farther from it.
 constexpr std::chrono::minutes farthest_frame{30};
 constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
 
@@ -39,7 +39,7 @@ IngestOptions ingest_options(const ArchiveOptions& options) {
     return ingest;
 }
 
-// What became of each file, noted by many workers.
+// The result for each file; many workers note it.
 class Ledger {
   public:
     Ledger(FillReport& report, const FillProgress& progress)
@@ -64,7 +64,7 @@ class Ledger {
         const std::scoped_lock lock(mutex_);
         return !outcome_;
     }
-    // After all workers.
+    // Call it after all workers have ended.
     [[nodiscard]] Status outcome() { return std::move(outcome_); }
 
   private:
@@ -92,13 +92,14 @@ std::string reason_of(const IngestOutcome& outcome, level2::Moment moment) {
     }
 }
 
-// What the files of volumes are known by: a volume that came as one file a chunk by all of them.
+// The names that identify the files of volumes: a volume that came as one file a chunk has all of
+// them.
 std::string key_of(const std::filesystem::path& path) {
     const auto chunk = ChunkPath::of(path);
     return chunk ? chunk->key : path.native();
 }
 
-// Whether files are those that the catalog has of these volumes.
+// Returns true if the files are those that the catalog has of these volumes.
 class CatalogedFiles {
   public:
     CatalogedFiles(const catalog::CatalogReader& catalog, const std::vector<ArchiveVolume>& volumes)
@@ -164,7 +165,7 @@ bool ArchiveFill::is_of_this_grid(const cache::GridDescription& description) con
            spec.ny == options_.ny && spec.levels_m == levels_m;
 }
 
-// A grid of a file that is gone since is as good as ever.
+// The grid of a file that was deleted since is still good.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
     if (!path) return pass_on(path);
@@ -214,7 +215,7 @@ std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) con
     if (options_.domain) {
         const grid::GridSpec& spec = options_.domain->spec;
         const auto all = static_cast<double>(spec.cell_count());
-        // What one site reaches of it.
+        // The part of the domain that one site reaches.
         const double side = 2 * grid::site_reach_m;
         const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
                                std::min(1.0, side / (spec.ny * spec.cell_height_m()));
@@ -232,7 +233,7 @@ std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) con
     return static_cast<std::uint64_t>((cells + echo) * bytes_a_cell + files * bytes_a_file);
 }
 
-// The drop directory, where all lie below it.
+// The drop directory, if all files are below it.
 Result<std::filesystem::path> ArchiveFill::root_of(
     const std::vector<ArchiveVolume>& volumes) const {
     std::filesystem::path root = "/";

@@ -35,8 +35,8 @@ std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
     return std::nullopt;
 }
 
-// A failed read of an open file is damage, too, but worth nothing to us only where the grid can be
-// made again; a failed open may mean that the system has no descriptors left.
+// A failed read of an open file is damage too, but the grid should be removed only if it can be
+// made again. A failed open may mean that the system has no descriptors left.
 bool is_damage(const Finding& found, bool has_source) {
     const ErrorCode code = found.error.code;
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
@@ -51,7 +51,7 @@ std::string joined(const std::vector<std::string>& texts) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// Whether the catalog knows the file as it stands there now. Its modification time; none if not.
+// The modification time of the file, if the catalog knows the file as it is now; none otherwise.
 std::optional<std::int64_t> settled_as_it_is(const catalog::CatalogReader& catalog,
                                              const fs::path& path) {
     const auto stamp = stamp_of(path);
@@ -66,7 +66,7 @@ bool may_have_a_grid(const CatalogEntry& entry) {
            entry.volume.start_time && entry.volume.radial_count > 0;
 }
 
-// The file whose grid is the one to stand, as pipeline/ingest/ingest.h has it.
+// The file whose grid should be in the cache, by the rule of pipeline/ingest/ingest.h.
 std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
     using Rank = std::tuple<bool, std::int64_t>;
@@ -98,7 +98,7 @@ Result<std::optional<fs::path>> CacheMender::raw_of(const std::string& station, 
 
 Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto found = look_at(entry.path, depth);
-    // Evicted or replaced meanwhile: nothing is wrong with that.
+    // The grid was evicted or replaced meanwhile, which is not a fault.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
     const MosaicMaker& mosaics = ingestor_.mosaics();
     if (mosaics.find(entry.domain, entry.moment) != nullptr) {
@@ -127,8 +127,7 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
                                   level2::moment_name(entry.moment), entry.domain)};
 }
 
-// Somebody may have put another file in the place of the one that was cataloged, with its size and
-// time.
+// Somebody may have replaced the file that was cataloged by another with the same size and time.
 Result<IngestOutcome> CacheMender::make_from(const fs::path& raw, const std::string& station) {
     return ingestor_.ingest_again(
         raw,
@@ -170,7 +169,7 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     return mended;
 }
 
-// The new frame takes the damaged one's place at once, and counts on from its revision.
+// The new frame replaces the damaged one at once, and counts on from its revision.
 Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const Error& damage) {
     MendedGrid mended{GridCondition::made_again, damage.message, {}, {}};
     std::vector<std::string> problems;
@@ -182,7 +181,7 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
         return mended;
     }
     // There is no such frame or no partial for it, or the partials contradict one another: another
-    // try makes none either.
+    // try would make none either.
     const bool never_made = !made && (made.error().code == ErrorCode::not_found ||
                                       made.error().code == ErrorCode::bad_argument);
     if (!made && !never_made) return pass_on(made);
@@ -194,7 +193,7 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
     return mended;
 }
 
-// What the ingestor makes of this station's volumes; partials where it is known to reach.
+// What the ingestor makes from this station's volumes; partials if the station is known to reach.
 std::vector<CacheMender::Series> CacheMender::series_of(const std::string& station) const {
     std::vector<Series> all = {{station, moment_}};
     const auto place = find_station(station);
@@ -230,7 +229,7 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
                                                          std::chrono::milliseconds newest) {
     std::vector<MissingGrid> missing;
     auto entries = catalog_.list(station, {{}, now_utc() + most_ahead, false});
-    // A database that cannot be read is its own station's trouble, which the catalog names.
+    // A database that cannot be read is a trouble of its own station, which the catalog names.
     if (!entries || entries->empty()) return missing;
     const auto standing = standing_of(station, *entries->back().volume.start_time - newest);
     if (!standing) return pass_on(standing);

@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As deep as the daemon looks.
+// The daemon looks equally deep.
 constexpr int max_depth = 16;
 
-// Whether a file may hold volumes of the station: all but those whose name, or whose directory's
-// name, is another one's.
+// Returns true if a file may hold volumes of the station: all files except those whose name, or
+// whose directory's name, is that of another station.
 bool may_be_of(const fs::path& path, const std::string& station) {
     if (station.empty()) return true;
     const std::string by_name = station_of_file_name(path);
@@ -75,7 +75,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
 
 Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     RebuildReport report;
-    // The daemon writes absolute paths without links; rows are found by them.
+    // The daemon writes absolute paths without links, and rows are found by these.
     std::error_code error;
     const fs::path drop = fs::canonical(options.drop, error);
     if (error) {
@@ -87,7 +87,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     auto catalog = catalog::CatalogWriter::open(options.catalog, writing);
     if (!catalog) return pass_on(catalog);
     if (options.station.empty()) {
-        // One that cannot be used is no reason to leave the others as they are.
+        // A database that cannot be used is no reason to leave the others as they are.
         (void)catalog->examine_all();
     } else if (Status examined = catalog->examine(options.station); !examined) {
         return pass_on(examined);

@@ -9,7 +9,7 @@ namespace {
 
 using catalog::CatalogEntry;
 
-// Which of two files of one volume is the better one.
+// Returns true if the first of two files of one volume is the better one.
 bool is_better(const CatalogEntry& a, const CatalogEntry& b) {
     const auto rank = [](const CatalogEntry& entry) {
         return std::tuple(entry.state != catalog::FileState::gone, entry.volume.complete,
@@ -35,7 +35,7 @@ std::vector<ArchiveVolume> each_once(const std::string& station,
     return volumes;
 }
 
-// Those that the range takes, of one station's by start.
+// The volumes of one station that belong to the range, by their start.
 void keep_taken(const ArchiveRange& range, std::vector<ArchiveVolume>& volumes) {
     const auto first = std::find_if(volumes.begin(), volumes.end(), [&](const ArchiveVolume& one) {
         return one.end >= range.from;

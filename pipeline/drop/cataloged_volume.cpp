@@ -12,7 +12,7 @@ namespace {
 using catalog::CatalogEntry;
 using catalog::CatalogReader;
 
-// Puts the bytes of a file behind those that were read before.
+// Appends the bytes of a file to those that were read before.
 Status append(const CatalogReader& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
     auto read = catalog::read_cataloged(catalog, entry);
     if (!read) return pass_on(read);

@@ -16,7 +16,7 @@ constexpr std::size_t most_siblings = 2000;
 
 }  // namespace
 
-// The key has all of the name but the chunk's number and kind.
+// The key is the name without the chunk's number and kind.
 std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
     const std::string file = path.filename().string();
     auto placed = level2::place_chunk_name(file);

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t read_stretch_bytes = std::size_t{256} << 10;
 
-// As many bytes as there are, up to the buffer's size.
+// Reads as many bytes as there are, up to the size of the buffer.
 Result<std::size_t> read_stretch(int descriptor, const std::filesystem::path& path,
                                  std::span<std::byte> buffer) {
     std::size_t done = 0;

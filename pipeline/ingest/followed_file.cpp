@@ -28,7 +28,7 @@ constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
 constexpr double same_elevation_deg = 0.2;
 constexpr std::chrono::minutes longest_standing{20};
 constexpr std::uint64_t most_records = 10'000;
-// The largest record known has half a megabyte, and holds five.
+// The largest known record has half a megabyte, and holds five.
 constexpr std::uint64_t most_last_record_bytes = std::uint64_t{2} << 20;
 constexpr std::uint64_t most_last_record_output = std::uint64_t{16} << 20;
 
@@ -38,14 +38,14 @@ class OpenFile {
         : opened_(open_beneath(beneath, path)), descriptor_(opened_ ? *opened_ : -1) {}
     [[nodiscard]] bool is_open() const { return descriptor_.is_open(); }
     [[nodiscard]] const Error& failure() const { return opened_.error(); }
-    // None where it is no regular file.
+    // None if it is not a regular file.
     [[nodiscard]] std::optional<struct stat> facts() const {
         struct stat found {};
         if (::fstat(descriptor_.number(), &found) != 0 || !S_ISREG(found.st_mode))
             return std::nullopt;
         return found;
     }
-    // As many as there are.
+    // Reads as many bytes as there are.
     [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::byte> into) const {
         std::size_t done = 0;
         while (done < into.size()) {
@@ -71,10 +71,10 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
 }
 
 struct RecordChain {
-    // It ends with the file by its last word, or is none: whoever reads such a file whole finds
-    // more.
+    // The file ends here by its last control word, or this is no record: reading the whole file
+    // finds more.
     bool is_whole = false;
-    // Where the last record begins that ends with the file; 0: the file ends within one.
+    // Where the last record begins, if it ends with the file; 0 if the file ends within a record.
     std::uint64_t last = 0;
 };
 
@@ -93,7 +93,7 @@ RecordChain chain_of(const OpenFile& file, std::uint64_t size) {
     return {true, 0};
 }
 
-// Whether the record from there to the end of the file holds the last radial of a volume.
+// Returns true if the record from there to the end of the file holds the last radial of a volume.
 bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) {
     if (size - begin > most_last_record_bytes) return false;
     std::vector<std::byte> record(size - begin);
@@ -126,7 +126,7 @@ std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
     const auto header = level2::read_archive_header(head);
     if (!header) return std::nullopt;
     Growing growing{header->icao, 0};
-    // Nothing but the header yet: no more than a promise, but of a file that grows.
+    // The file has only a header yet: that promises nothing, but it is a growing file.
     if (known <= level2::archive_header_bytes + 16) return growing;
     if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
     const RecordChain chain = chain_of(file, static_cast<std::uint64_t>(facts->st_size));
@@ -239,7 +239,7 @@ Status FollowedFile::is_as_followed() const {
     Xxh3Stream hash;
     std::vector<std::byte> buffer(stretch_bytes);
     std::uint64_t done = 0;
-    // One byte more than was read shows that it has grown.
+    // One byte more than was read shows that the file has grown.
     while (done <= read_bytes_) {
         const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), read_bytes_ + 1 - done);
         const std::size_t got = file.read(done, std::span{buffer}.first(wanted));
@@ -264,7 +264,7 @@ Result<level2::Decoded> FollowedFile::finish() {
     if (!decoded) return decoded;
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
-    // The last sweep may have closed only now.
+    // Only now may the last sweep have closed.
     for (std::size_t index = dropped_; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
         const auto place = kept_->shelf->put(sweep);

@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// A day of a radar has some 300 volumes in 3 GB. What an archive may claim here is no more than
-// what a file may: memory for one member and little else. Level II is packed already, so a packed
-// archive unpacks to about its own size; raw messages inside it, to some ten times that.
+// A day of a radar has some 300 volumes in 3 GB. An archive may claim no more than a file may:
+// memory for one member and little else. Level II is packed already, so a packed archive unpacks to
+// about its own size; raw messages inside it unpack to some ten times that.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
     limits.members = 10'000;
@@ -31,7 +31,7 @@ archive::Limits limits_of(const IngestOptions& options) {
     return limits;
 }
 
-// Adds what became of a member to what becomes of its archive.
+// Adds the outcome of a member to the outcome of its archive.
 void add(const IngestOutcome& member, IngestOutcome& all) {
     const auto append = [](const auto& from, auto& to) {
         to.insert(to.end(), from.begin(), from.end());
@@ -62,7 +62,7 @@ std::string reason_of(const OpenArchive& open) {
     return reason;
 }
 
-// The member's own time, or else its archive's.
+// The member's own time, or else that of its archive.
 std::int64_t modified_ns_of(const archive::Member& member, const FileStamp& archive_stamp) {
     if (!member.modified) return archive_stamp.modified_ns;
     return std::chrono::nanoseconds{member.modified->time_since_epoch()}.count();
@@ -126,7 +126,7 @@ Result<IngestOutcome> TakeArchive::take() {
     return settle();
 }
 
-// The archive is incomplete. What its members became stands.
+// The archive is incomplete; the results of its members stay.
 Result<IngestOutcome> TakeArchive::wait(std::string reason) {
     outcome_.ending = ended::Incomplete{};
     outcome_.reason = std::move(reason);

@@ -15,7 +15,8 @@ namespace {
 
 using catalog::FileState;
 
-// A radar's file holds one, and one that somebody joined some hours. All are gridded in one job.
+// A radar's file holds one volume; a file that somebody joined may hold those of some hours. All of
+// them are gridded in one job.
 constexpr std::size_t most_volumes = 64;
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
@@ -23,7 +24,7 @@ bool has_moment(const level2::Volume& volume, level2::Moment moment) {
                        [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
 }
 
-// The row and the log say whose data stand among those of no known station.
+// The row and the log name the station, because the row is among those of no known station.
 std::string of_other_station(const std::string& station, const std::string& reason) {
     const std::string text =
         fmt::format("is of {}, a station that [ingest] stations does not accept", station);
@@ -71,7 +72,7 @@ Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial pa
     return grid_all(volumes);
 }
 
-// What the report says of the file as a whole.
+// Notes what the report says about the whole file.
 void TakeVolumes::note(const level2::Decoded& decoded) {
     facts_.reason = reason_of(decoded.report);
     outcome_.lone_chunk = is_lone_chunk(decoded);
@@ -85,7 +86,7 @@ void TakeVolumes::note(const level2::Decoded& decoded) {
         reading_.troubles = level2::rda_troubles(*decoded.report.rda_status);
 }
 
-// Into the rows and the outcome: what the volumes are, and whose.
+// Adds to the rows and the outcome what the volumes are, and of which stations.
 void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     for (const level2::Volume& volume : volumes) {
         if (volume.radial_count() == 0) continue;  // metadata alone are no volume
@@ -104,7 +105,7 @@ void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     outcome_.reason = facts_.reason;
 }
 
-// As grids keep them.
+// In the form in which grids store them.
 std::vector<std::string> TakeVolumes::troubles_of(const std::string& station) const {
     if (reading_.troubles.empty()) return {};
     return {fmt::format("{}: {}", station, fmt::join(reading_.troubles, ", "))};
@@ -123,8 +124,8 @@ Result<IngestOutcome> TakeVolumes::settle() {
     return std::move(outcome_);
 }
 
-// Grids first, then settles the catalog's row: a crash between the two makes the work be done
-// again, never lost.
+// Grids first and settles the row in the catalog afterwards: after a crash between the two the work
+// is done again, and nothing is lost.
 Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
     bool has_other_station = false;
     for (const level2::Volume& volume : volumes) {
@@ -150,7 +151,7 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
     return settle();
 }
 
-// The site's own grid, where such grids are made and the volume has the moment.
+// Makes the site's own grid, if such grids are made and the volume has the moment.
 Status TakeVolumes::grid(const level2::Volume& volume) {
     if (!context_.options.own_grids) {
         (void)SiteGrids::has_place(volume, outcome_);
@@ -163,7 +164,7 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
                                      context_.share_of(context_.options.grid_threads), outcome_);
 }
 
-// What a domain cannot use is no reason to reject the file, whose own grid stands.
+// A volume that a domain cannot use is no reason to reject the file, whose own grid is stored.
 Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     const auto antenna = level2::antenna_position(volume);
     if (context_.mosaics.is_idle() || !antenna || volume.station.empty()) return {};

@@ -15,7 +15,7 @@ bool is_living(const grid::Provenance& provenance) {
                        [](const std::string& note) { return note.starts_with(living_note); });
 }
 
-// A volume's first radial that has come is so far from its header at most.
+// The first radial that has come is at most this far from the volume's header.
 constexpr std::chrono::minutes farthest_radial{15};
 
 }  // namespace

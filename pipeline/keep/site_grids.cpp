@@ -80,7 +80,7 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, const Grid
     return made;
 }
 
-// A grid that cannot be audited is as good as others: nothing is known of it then.
+// A grid that cannot be audited is as good as others, but its quality is unknown.
 Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, bool is_living,
                                    IngestOutcome& outcome) {
     grid::Grid& grid = made.grid;
@@ -150,7 +150,7 @@ Status SiteGrids::keep_living(const level2::Volume& volume, const GridSource& so
     const auto commit_start = Clock::now();
     auto path = commit(*made, volume, true, outcome);
     outcome.commit_s += seconds_since(commit_start);
-    // The whole volume says so when it has come.
+    // The whole volume reports it when it has come.
     if (!path && path.error().code == ErrorCode::over_budget) return {};
     if (!path) return of_storing(path.error());
     if (!path->empty()) outcome.living.push_back(std::move(*path));

@@ -20,7 +20,7 @@ namespace {
 using level2::Sweep;
 using level2::SweepMoment;
 
-// All of one sweep as bytes of this process: what is read back was written by the same program.
+// Writes one sweep as bytes of this process: the same program reads them back.
 class Writer {
   public:
     template <class T>
@@ -130,7 +130,7 @@ tl::unexpected<Error> system_failure(const char* what, int number) {
     return fail(code, "{} of a growing volume: {}", what, std::system_category().message(number));
 }
 
-// Where the file system cannot make a file without a name, it loses it at once.
+// If the file system cannot create a file without a name, the name is removed at once.
 int nameless_file(const std::filesystem::path& directory) {
     const int made = ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (made >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return made;

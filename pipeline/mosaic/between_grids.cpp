@@ -33,7 +33,7 @@ BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment momen
       geometries_(std::make_unique<GeometryCache>(kept_geometries)),
       instants_(std::make_unique<InstantCache>(kept_instants_bytes)) {}
 
-// A frame names its overlap; of the rest of its rules it has a digest.
+// A frame names its overlap rule; the rest of its rules is stored as a digest.
 Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
     Domain rules;
     rules.spec = newest.spec;
@@ -92,7 +92,7 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
     return all;
 }
 
-// The last grid that is not after the instant.
+// The last grid that is not later than the instant.
 std::optional<std::size_t> BetweenGrids::before(UtcTime instant) const {
     const auto after =
         std::upper_bound(grids_.begin(), grids_.end(), instant,
@@ -131,7 +131,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
         if (!file) return pass_on(file);
         files.push_back(std::move(*file));
     }
-    // Of grids of different shapes the nearer one stands.
+    // If the grids have different shapes, the nearer one is used.
     if (has_next && grids_[*first].spec != grids_[*first + 1].spec) {
         const bool later = grids_[*first + 1].middle - instant < instant - grids_[*first].middle;
         files.erase(later ? files.begin() : files.begin() + 1);

@@ -12,7 +12,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Bytes to be hashed, as they stand in memory: fingerprints are compared on one kind of machine.
+// Bytes to be hashed, as in memory: fingerprints are compared only on one kind of machine.
 class Digest {
   public:
     template <class Number>
@@ -36,7 +36,7 @@ class Digest {
     std::vector<std::byte> bytes_;
 };
 
-// What is the same of one grid however its file is packed.
+// What is the same for a grid, however its file is packed.
 void add_bricks(const grid::BrickView& view, Digest& digest) {
     digest.add(view.quantization.code_bytes);
     digest.add(view.quantization.first_value);

@@ -1,4 +1,4 @@
-// Frames that are damaged, dropped or missing, made again from the partials in the store.
+// Makes damaged, removed or missing frames again from the partials in the store.
 #include <algorithm>
 #include <set>
 
@@ -19,7 +19,7 @@ auto no_domain(const cache::GridName& frame) {
                 level2::moment_name(frame.moment));
 }
 
-// When the volumes began whose partials stand.
+// When the volumes of the existing partials began.
 Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domain& domain,
                                     level2::Moment moment) {
     std::set<UtcTime> starts;
@@ -34,7 +34,7 @@ Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domai
     return starts;
 }
 
-// Whether the instant lies between two partials of which one counts for it, as take_in() has it.
+// Returns true if the instant is between two partials of which one counts for it, as in take_in().
 bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
     bool any_before = false, any_after = false;
     for (const PartialView& partial : partials) {

@@ -20,7 +20,8 @@ grid::TimedView timed(const PartialView& partial) {
     return {partial.view, partial.middle(), partial.description->provenance.sweeps};
 }
 
-// What one site gives to a frame: a partial as it stands, or a grid made of two for the instant.
+// What one site contributes to a frame: a partial as it is, or a grid for the instant made from
+// two.
 struct SiteShare {
     const PartialView* nearest = nullptr;
     const PartialView* before = nullptr;  // both, or none
@@ -36,13 +37,13 @@ struct SiteShare {
     }
 };
 
-// Two windows of one site differ where it moved, codes where the configuration was changed.
+// Two windows of one site differ if it moved, codes if the configuration was changed.
 bool is_pair(const PartialView& before, const PartialView& after) {
     return *before.view.spec == *after.view.spec &&
            before.view.quantization == after.view.quantization;
 }
 
-// Where the method takes the nearer one untouched, or only one can be had, that stands.
+// If the method takes the nearer partial unchanged, or there is only one, that partial is used.
 SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
                    grid::TimeMethod method) {
     SiteShare share;
@@ -58,7 +59,7 @@ SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime 
     return share;
 }
 
-// One a site that has a partial near the instant; not_found where none has.
+// One for each site that has a partial near the instant; not_found if none has.
 Result<std::vector<SiteShare>> shares_of(std::span<const PartialView> partials, UtcTime instant,
                                          const FrameOptions& options) {
     const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
@@ -170,7 +171,7 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
-// On which columns the new frame differs from the previous one; none where that is of no use.
+// On which columns the new frame differs from the previous one; none if that does not help.
 std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
                                                            const cache::GridDescription& now,
                                                            const FrameOptions& options,
@@ -188,7 +189,7 @@ std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* 
     return changed_windows(was.provenance.parts, now.provenance.parts);
 }
 
-// Sites of which no brick that changed asks anything.
+// Sites of which no changed brick needs anything.
 void drop_untouched(const grid::GridSpec& domain, const std::vector<grid::GridWindow>& changed,
                     std::vector<SiteShare>& shares) {
     std::erase_if(shares, [&](const SiteShare& share) {
@@ -214,7 +215,7 @@ Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameO
     return {};
 }
 
-// All but its cells; also notes by what each share can be known again.
+// Everything except its cells; also notes the fingerprint of each contribution.
 Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
                                               std::vector<SiteShare>& shares, UtcTime instant,
                                               const FrameOptions& options) {
@@ -249,13 +250,13 @@ Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
 grid::Partial placed(const grid::GridSpec& domain, const SiteShare& share,
                      GeometryCache& geometries) {
     grid::Partial partial{share.view(), share.nearest->site()};
-    // Of a grid that is no window of the domain merge() says what is wrong.
+    // If a grid is no window of the domain, merge() reports what is wrong.
     const auto window = grid::window_of(domain, *partial.view.spec);
     if (window) partial.distance = geometries.distance(domain, *window, partial.site);
     return partial;
 }
 
-// Four gates to a cell are enough where cells are wide.
+// Four gates for each cell are enough if cells are wide.
 grid::AuditOptions audit_options(const grid::GridSpec& domain) {
     grid::AuditOptions options;
     const double cell_m = std::min(domain.cell_width_m(), domain.cell_height_m());

@@ -45,7 +45,7 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
     return options;
 }
 
-// From the site's volume before to the one after, as far as volumes count and there are any.
+// From the site's volume before to the one after, if these exist and count.
 struct Span {
     UtcTime from, to;
 };
@@ -66,8 +66,8 @@ Span span_changed_by(const cache::GridDescription& changed,
     return span;
 }
 
-// Whether another try may succeed: the system refused something. Else the volume or the budgets
-// make no grid of it.
+// Returns true if another try may succeed, because the system refused something. Otherwise the
+// volume or the limits allow no grid.
 bool may_pass(const Error& error) {
     return error.cause() != Cause::data && error.code != ErrorCode::over_budget &&
            error.code != ErrorCode::bad_argument && error.code != ErrorCode::not_found;
@@ -111,7 +111,7 @@ MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
-// What goes wrong with one domain keeps nothing from the others.
+// A failure in one domain does not affect the others.
 Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     Kept kept;
     Status all;
@@ -182,7 +182,7 @@ Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
     return {};
 }
 
-// A partial that turns out to be damaged is left out: it is mended by others.
+// A partial that turns out to be damaged is left out; the caretaker mends it.
 Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                                 const PreviousFrame* previous,
                                                 std::vector<std::string>& problems) {
@@ -199,7 +199,7 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
     const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
     if (!path) return pass_on(path);
     const auto stands = cache::GridFile::open(*path);
-    // What is damaged is not copied from: its bricks would have new checksums.
+    // A damaged frame is not copied from: its bricks would get new checksums.
     const bool sound = stands && stands->verify();
     const PreviousFrame previous =
         sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};

@@ -22,7 +22,7 @@ struct Cut {
     grid::CellDetails ages;
 };
 
-// What both sites may look at, and `margin` bricks about it; none: nothing.
+// The bricks that both sites may see, and `margin` bricks around them; none if there are none.
 std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::SitePosition& a,
                                         const grid::SitePosition& b, int margin) {
     const auto about_a = grid::site_window(spec, a, greatest_range_m);
@@ -60,7 +60,8 @@ grid::BrickGrid bricks_of(const grid::BrickView& view, const grid::GridSpec& spe
     return cut;
 }
 
-// Seconds after the instant. Of a partial without sweeps all is of its volume's middle.
+// Seconds after the instant. For a partial without sweeps, all cells have the time of its volume's
+// middle.
 Result<grid::CellDetails> ages_of(const PartialView& partial, const grid::GridSpec& spec,
                                   UtcTime instant) {
     const grid::SitePosition& site = partial.site();

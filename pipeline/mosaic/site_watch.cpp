@@ -7,7 +7,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// The newest frames of a domain are provisional; so many are looked at.
+// The newest frames of a domain are provisional; this many are examined.
 constexpr std::size_t frames_looked_at = 24;
 
 bool has_reflectivity(const Domain& domain) {
@@ -50,7 +50,7 @@ Result<std::optional<SiteWatch::CompleteFrame>> SiteWatch::newest_complete(
     return std::optional<CompleteFrame>{};
 }
 
-// Marks it as compared by this frame.
+// Marks the pair as compared by this frame.
 std::optional<SiteWatch::Pair> SiteWatch::take_due(const CompleteFrame& frame) {
     const auto& sites = frame.description.sites;
     const UtcTime now = frame.description.time;

@@ -90,7 +90,7 @@ void read_spacing(TomlTable& table, GridSpec& spec) {
     spec.spacing_m = grid::metres_of_km(km.value_or(1));
 }
 
-// Columns or rows that cover an extent; a millionth of a cell is rounding.
+// The columns or rows that cover an extent; a millionth of a cell counts as rounding.
 int cells_over(TomlTable& table, std::string_view key, double cells) {
     const double whole = std::ceil(cells - 1e-6);
     if (whole >= 1 && whole <= GridSpec::greatest_side) return static_cast<int>(whole);
@@ -99,7 +99,7 @@ int cells_over(TomlTable& table, std::string_view key, double cells) {
     return 1;
 }
 
-// The columns that hold the boundary of the bounds, on both sides of the centre alike.
+// The columns that hold the boundary of the bounds, equally on both sides of the center.
 void size_by_bounds(TomlTable& table, const std::array<double, 4>& bounds, GridSpec& spec) {
     if (spec.in_degrees()) {
         spec.nx = cells_over(table, "bounds", width_deg(bounds) / spec.spacing_deg);
@@ -136,7 +136,7 @@ void size_by_extent(TomlTable& table, GridSpec& spec) {
     spec.ny = cells_over(table, key, (*extent)[1] / spacing);
 }
 
-// Where it lies and how large it is.
+// Reads where the domain is and how large it is.
 void read_place(TomlTable& table, GridSpec& spec) {
     const auto center = read_numbers(table, "center", 2, "[latitude, longitude]");
     const auto bounds = read_numbers(table, "bounds", 4, "[west, south, east, north]");

@@ -1,8 +1,7 @@
 // pipeline/options/domain.h -- a named region with a grid spec that the daemon keeps gridded.
 //
-// Read from [[domain]] tables (daemon/stormcellard.toml explains every key). Distances are
-// kilometres in the file and metres here.
-// Thread contract: plain data.
+// It is read from a [[domain]] table (daemon/stormcellard.toml explains every key). Distances are
+// kilometers in the file and meters here. Thread contract: plain data, and functions without state.
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ struct Domain {
     std::string name;
     grid::GridSpec spec;
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    std::vector<std::string> stations;     // empty: each one that reaches it
+    std::vector<std::string> stations;     // empty: every station that reaches it
     std::chrono::seconds interval{300};    // from frame to frame, counted from midnight UTC
     std::optional<grid::Overlap> overlap;  // none: the moment's default
     double overlap_length_m = 250'000;
@@ -36,24 +35,24 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
-// West, south, east, north in degrees; east of the antimeridian west is the greater one.
+// West, south, east, north in degrees; if the box spans the antimeridian, west is the greater one.
 using Bounds = std::array<double, 4>;
-[[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and holding something
+[[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and not empty
 [[nodiscard]] double width_deg(const Bounds& bounds);
 [[nodiscard]] grid::GeoPoint middle_of(const Bounds& bounds);
-// How many columns of the spec, whose size does not count, the boundary reaches from its centre at
+// How many columns of the spec (whose size does not count) the boundary reaches from its center at
 // most. Errors: those of grid::validate().
 [[nodiscard]] Result<grid::ColumnPoint> half_columns_of(const grid::GridSpec& spec,
                                                         const Bounds& bounds);
 
-// Heights above mean sea level of the key levels_km: "BOTTOM:TOP:STEP" or a list; none when the key
-// is absent or, with a complaint noted, makes no sense.
+// The heights above mean sea level of the key levels_km: "BOTTOM:TOP:STEP" or a list. None if the
+// key is absent, or invalid; then a complaint is noted.
 [[nodiscard]] std::optional<std::vector<double>> read_levels_m(TomlTable& table);
-// One moment's name; none with a complaint noted.
+// The moment of this name; none if there is none, and then a complaint is noted.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,
                                                         const std::string& name);
 
-// All [[domain]] tables; what makes no sense is complained of and left out.
+// Reads all [[domain]] tables; complains of invalid ones and leaves them out.
 [[nodiscard]] std::vector<Domain> read_domains(TomlTable& root);
 
 }  // namespace stormcellar::pipeline

@@ -4,8 +4,8 @@
 namespace stormcellar::pipeline {
 
 enum class FramesWhen {
-    volume_comes,  // each that it changes, at once, as the daemon does
-    asked_for,     // by MosaicMaker::make_again() alone: of an archive each is then made once
+    volume_comes,  // at once, each frame that a volume changes, as the daemon does
+    asked_for,     // only by MosaicMaker::make_again(): each frame of an archive is then made once
 };
 
 }  // namespace stormcellar::pipeline

@@ -10,7 +10,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A row, what its errors are of, and what is timed for it.
+// A row, what its errors refer to, and what is timed for it.
 struct Rung {
     accuracy::LadderRow row;
     MosaicChoice with_errors;
@@ -73,7 +73,7 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
     return rungs;
 }
 
-// The times of all in rounds, one behind the other.
+// Times all in rounds, one after the other.
 Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
     Status status;
     std::vector<std::function<void()>> works;
@@ -89,7 +89,7 @@ Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
         accuracy::time_in_rounds(works, rounds, [&scene] { return scene.now_s(); });
     if (!status) return status;
     for (std::size_t at = 0; at < rungs.size(); ++at) {
-        // The scene's frames find their motion made.
+        // The motion is already estimated when the scene's frames are timed.
         const bool moves = rungs[at].with_times.time == grid::TimeMethod::advected;
         const double motion_s = moves ? scene.motion_seconds() : 0;
         rungs[at].row.time_s = timings[at].first_s + motion_s;
@@ -116,7 +116,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
         rung.row.value = found->summary();
         rung.row.status = found->status;
     }
-    // Steps alone first, so that the partials they share are kept.
+    // Single steps come first, so that the partials that they share stay cached.
     const auto chains = std::stable_partition(rungs.begin(), rungs.end(),
                                               [](const Rung& rung) { return !rung.grids; });
     std::vector<Rung> whole(std::make_move_iterator(chains), std::make_move_iterator(rungs.end()));

@@ -14,13 +14,13 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A beam is as wide as the radar of this site has it.
+// Uses the beam width of this site's radar.
 MosaicChoice default_choice_at(const MosaicRequest& request, const grid::SitePosition& site) {
     return mosaic_choice(request.chain, default_mosaic_choice(request.chain, request.domain,
                                                               grid::beam_width_of(site.icao)));
 }
 
-// The time in the middle of what a volume shows.
+// The time in the middle of the data of a volume.
 std::optional<UtcTime> middle_time(const level2::Volume& volume) {
     const std::optional<UtcTime> start = volume.start_time();
     if (!start) return std::nullopt;
@@ -58,7 +58,7 @@ grid::Grid dense_grid_of(const MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
-    // Where no site sees a cell both are 0, as to_dense() leaves what has no value.
+    // If no site sees a cell both are 0, as to_dense() leaves cells without a value.
     if (frame.mosaic.counts) {
         const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
         grid.site_counts.assign(counts.values.begin(), counts.values.end());
@@ -85,7 +85,7 @@ Result<MosaicFrame> frame_plainly(const std::vector<SceneVolume>& volumes,
     return frame;
 }
 
-// None where the budget cannot be met.
+// None if the budget cannot be met.
 Result<std::optional<MosaicFrame>> frame_by_plan(const std::vector<SceneVolume>& volumes,
                                                  const MosaicRequest& request,
                                                  MosaicOfVolumes& made) {

@@ -19,7 +19,7 @@ constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
-// A mosaic's chain has each of the steps of merging.
+// The chain of a mosaic has each of the steps of merging.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -31,7 +31,7 @@ Result<double> p99_between(const MosaicFrame& a, const MosaicFrame& b, int threa
     return summary ? summary->p99 : 0;
 }
 
-// The steps of gridding, predicted for each volume by itself.
+// Predicts the steps of gridding for each volume by itself.
 class GriddingSizes {
   public:
     GriddingSizes(MosaicScene& scene, const grid::PlanOptions& options,
@@ -82,7 +82,7 @@ class GriddingSizes {
         return chain;
     }
 
-    // Sizes are those of the worst volume, times add up.
+    // Sizes are those of the worst volume, times are added.
     static void add(const accuracy::Chain& one, bool first, accuracy::Chain& all) {
         for (std::size_t i = 0; i < one.steps.size(); ++i) {
             for (std::size_t k = 0; k < one.steps[i].effects.size(); ++k) {
@@ -136,8 +136,8 @@ Result<TimedFrame> timed_frame(MosaicScene& scene, const MosaicChoice& choice) {
     return TimedFrame{std::move(*frame), scene.now_s() - start_s};
 }
 
-// One step from its exact rung downwards, every other step of merging exact; all frames are of
-// `gridding` in fine codes.
+// Measures one step from its exact rung downward, with every other step of merging exact; all
+// frames use `gridding` in fine codes.
 Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::SceneChoice& gridding,
                     std::string_view name, accuracy::Chain& chain) {
     const std::size_t index = accuracy::find_step(chain, name).value();
@@ -162,7 +162,7 @@ Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::Sce
     return {};
 }
 
-// Each rounding moves a value by at most half a step, and means of such by no more.
+// Each rounding moves a value by at most half a step, and a mean of such values by no more.
 void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFrame& coarse,
                accuracy::Chain& chain) {
     const level2::Moment moment = scene.options().partial.gridder.moment;
@@ -208,7 +208,7 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::sweeps).effects[0].predicted.position_m = moved.within_volume_m;
     step_named(chain, step::time).effects[1].cost_s += scene.motion_seconds();
     set_efforts(scene, chain);
-    // What the cheapest frame takes beside its gridding.
+    // What the cheapest frame takes in addition to its gridding.
     MosaicChoice cheapest = coarse;
     cheapest.time = grid::TimeMethod::nearest;
     cheapest.sweep_times = false;
