@@ -156,7 +156,7 @@ struct Layout {
     at.file_size = at.codes_offset + at.codes_size;
     return at;
 }
-// The same where the codes are packed, into so many bytes.
+// The layout with packed codes that take this many bytes.
 [[nodiscard]] constexpr Layout packed_layout(Layout at, std::uint64_t codes_size) {
     at.codes_size = codes_size;
     at.file_size = at.codes_offset + codes_size;

@@ -64,7 +64,7 @@ Status CatalogReader::Impl::open(Slot& place, const std::string& name, bool crea
     // deleted its file must be made again.
     // somebody deleted must be made again.
     if (place.file != FileIdentity{} && place.file != FileIdentity::of(path)) {
-        databases.close(place);  // what we write there would be seen by nobody
+        databases.close(place);  // nobody would see what we write to the deleted file
         place.file = {};
         place.strays = Strays::unknown;
         is_listing_old_ = true;

@@ -119,8 +119,8 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     if (wait >= behind_after) {
         if (!is_behind_ || now >= next_line_) {
             log_warning({Event::behind},
-                        "behind: {} waiting, the first for {} s; until the service catches up it "
-                        "grids only the low sweeps of growing volumes, but all of whole ones",
+                        "behind: {} waiting, the oldest for {} s; until it catches up, the service "
+                        "grids complete volumes as usual, but only the low sweeps of growing ones",
                         counted(waiting, "file"),
                         std::chrono::duration_cast<std::chrono::seconds>(wait).count());
             next_line_ = now + std::chrono::minutes{1};

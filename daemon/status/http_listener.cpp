@@ -27,7 +27,7 @@ MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const c
 }
 
 bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
-    if (!port) return false;  // whoever may open a Unix socket is no page of the web
+    if (!port) return false;  // a client that may open a Unix socket is not a web page
     bool are_ours = true;
     MHD_get_connection_values(connection, MHD_HEADER_KIND, &look_at_host, &are_ours);
     return !are_ours;

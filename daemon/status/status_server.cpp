@@ -208,7 +208,7 @@ HttpListener::Answer StatusServer::Worker::answer(const HttpListener::Request& r
         if (path == "/metrics") return page(StatusPage::metrics);
         if (path == "/status.json") return page(StatusPage::json);
         return {not_found_.get(), MHD_HTTP_NOT_FOUND};
-    } catch (const std::exception&) {  // no memory: whoever asked may ask again
+    } catch (const std::exception&) {  // no memory: the client may ask again
         return {};
     }
 }

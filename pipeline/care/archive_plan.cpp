@@ -30,7 +30,7 @@ std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                          std::vector<LeftOut>& left_out) {
     std::vector<grid::SitePosition> sites;
     for (const std::string& icao : stations) {
-        if (icao.empty()) continue;  // of which nobody knows the station
+        if (icao.empty()) continue;  // files of no known station
         if (auto site = place_of_station(catalog, icao)) {
             sites.push_back(std::move(*site));
         } else {

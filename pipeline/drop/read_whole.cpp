@@ -61,7 +61,7 @@ WholeFile read_by_stretches(const std::filesystem::path& beneath, const std::fil
             file.was_read = pass_on(got);
             return file;
         }
-        if (*got == 0) break;  // shorter than it was: whoever asked sees that it has changed
+        if (*got == 0) break;  // the file was cut: the caller sees that it has changed
         done += *got;
         const auto stretch = std::span{buffer}.first(*got);
         hash.append(stretch);

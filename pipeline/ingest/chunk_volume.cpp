@@ -140,7 +140,7 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
         if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
     }
     representative_ = of.path;
-    former_representative_.clear();  // nobody was told to ask for it
+    former_representative_.clear();  // no job was told to poll it
     const auto now = level2::LiveVolume::Clock::now();
     if (!all && !fails_since_) fails_since_ = now;
     // One bad sector must not keep everybody from the rest of the volume.

@@ -16,7 +16,7 @@ constexpr std::size_t most_representatives = 4096;
 
 bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
     const auto beside = chunks_beside(chunk, options_.beneath);
-    if (!beside) return true;  // whoever reads it says why
+    if (!beside) return true;  // reading the file reports why
     bool has_end = chunk.name.kind == level2::ChunkKind::end;
     auto newest = level2::LiveVolume::Clock::time_point::min();
     const auto look_at = [&](const ChunkPath& one) {

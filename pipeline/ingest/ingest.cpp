@@ -111,7 +111,7 @@ Result<Noted> Ingestor::note(const fs::path& path) {
         if (Status marked = context.mark_gone(path); !marked) return pass_on(marked);
         return impl_->is_waited_for(path) ? Noted::stands : Noted::gone;
     }
-    if (!stamp || !stamp->regular) return Noted::stands;  // refused when it is taken in
+    if (!stamp || !stamp->regular) return Noted::stands;  // ingesting it will reject it
     const Status noted = context.note_seen(facts_unread(path, *stamp, station_of_path(path)));
     if (!noted) return pass_on(noted);
     return Noted::stands;

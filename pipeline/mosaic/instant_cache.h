@@ -33,7 +33,7 @@ class InstantCache {
 
     explicit InstantCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-    // Null where it is not there.
+    // Null if the cache does not have it.
     [[nodiscard]] std::shared_ptr<const grid::BrickGrid> find(const Key& key);
     void keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made);
     [[nodiscard]] std::size_t bytes() const;

@@ -6,8 +6,8 @@
 //   sweeps    as one, each at its own time                   sweep_times
 //   overlap   the nearest site, the rule asked for           site_overlap
 //   codes     default steps, fine steps                      fine_codes
-// Which rule sites overlap by is a definition, as the averaging is; where it is the nearest site,
-// the step has no effect. The exact form's motion is that which the default grids show.
+// The rule by which sites overlap is a definition, like the averaging; if it is the nearest site,
+// the step has no effect. The exact form uses the motion that the default grids show.
 // Threads: pure functions.
 #pragma once
 
