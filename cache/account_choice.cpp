@@ -7,8 +7,8 @@
 namespace stormcellar::cache {
 namespace {
 
-constexpr std::uint64_t others_part = 10;    // of a budget's space, at most
-constexpr std::uint64_t protected_part = 2;  // likewise
+constexpr std::uint64_t others_part = 10;  // others hold at most this fraction of a limit of space
+constexpr std::uint64_t protected_part = 2;  // protected grids, too
 
 }  // namespace
 
@@ -111,7 +111,7 @@ class Account::Shield {
 
   private:
     const Account& account_;
-    const Group* group_;  // null: of all
+    const Group* group_;  // null: all groups
     const Protection protection_;
     std::optional<std::set<const Item*>> lapsed_;
 };

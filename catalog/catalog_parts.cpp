@@ -253,7 +253,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     const auto began = std::chrono::steady_clock::now();
     // Damage is mended when somebody asks the database, or when files of its own station come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
-        if (place->strays != Strays::unknown) return true;  // somebody else did meanwhile
+        if (place->strays != Strays::unknown) return true;  // another thread did it meanwhile
         place->strays =
             find_strays(database, name, most_looked_through).value_or(Strays::too_many_rows);
         return true;

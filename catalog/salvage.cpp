@@ -115,7 +115,7 @@ class Reader {
             while (rows.executeStep())
                 add_volume(rows, file);
         } catch (const SQLite::Exception&) {
-            return;  // the row of the file says at least that it was there
+            return;  // the row of the file at least shows that the file existed
         }
     }
 

@@ -240,7 +240,7 @@ void StationDatabase::restore_gone(const std::vector<SalvagedFile>& files) {
         file.bind(4, static_cast<std::int64_t>(facts.content_hash));
         file.bind(5, facts.reason);
         file.bind(6, salvaged.registered_time.time_since_epoch().count());
-        if (file.exec() == 0) continue;  // one path, two rows: only damage makes that
+        if (file.exec() == 0) continue;  // one path has two rows, which only damage can cause
         const std::int64_t file_id = database_.getLastInsertRowid();
         int ordinal = 0;
         for (const SalvagedVolume& volume : salvaged.volumes) {

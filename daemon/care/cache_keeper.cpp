@@ -15,7 +15,8 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     std::optional<cache::StoreUsage> usage;
     if (roll_.valid()) {
         if (roll_.wait_for(std::chrono::seconds{0}) != std::future_status::ready) {
-            next_ = std::max(next_, now + std::chrono::seconds{1});  // it wakes us when it ends
+            next_ = std::max(
+                next_, now + std::chrono::seconds{1});  // the roll wakes the service when it ends
             return std::nullopt;
         }
         const CacheRolled rolled = roll_.get();
@@ -26,7 +27,7 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     next_ = now + period;
     try {
         roll_ = std::async(std::launch::async, [this, budgets] { return roll(budgets); });
-    } catch (const std::system_error& error) {  // no thread to be had
+    } catch (const std::system_error& error) {  // the system has no thread left
         log_warning({Event::cache_problem}, "cannot check the limits of the cache: {}",
                     error.what());
     }

@@ -75,7 +75,7 @@ bool Caretaker::compare_sites() {
     while (true) {
         if (!pause({})) return false;
         auto report = of_.sites.compare_next();
-        if (!report || !*report) break;  // of a cache that cannot be read the rounds tell
+        if (!report || !*report) break;  // the rounds report a cache that cannot be read
         links_.compared(std::move(**report));
     }
     next_look_ = std::chrono::steady_clock::now() + times_.between_looks;

@@ -31,7 +31,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
     };
     try {
         work_ = std::async(std::launch::async, work);
-    } catch (const std::system_error& error) {  // no thread to be had
+    } catch (const std::system_error& error) {  // the system has no thread left
         log_warning({Event::files_gone_failed}, "cannot check which cataloged files are gone: {}",
                     error.what());
         return;

@@ -44,7 +44,7 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
     std::string complaint;
     const auto until = SteadyClock::now() + longest_check;
     while (SteadyClock::now() < until) {
-        const std::string how = child->ended();  // asked first: what it said is all there then
+        const std::string how = child->ended();  // ask first: then all of its output is there
         take_complaint(*child, complaint);
         if (how == "status 0") return {};
         if (!how.empty()) {

@@ -18,8 +18,8 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::chrono::seconds time_to_end{3};    // before it is killed
-constexpr std::chrono::minutes long_enough{1};    // it ran well
-constexpr std::chrono::seconds longest_rest{60};  // as long as nothing happens
+constexpr std::chrono::minutes long_enough{1};    // a process that ran this long ran well
+constexpr std::chrono::seconds longest_rest{60};  // between two turns if nothing happens
 constexpr double most_frames = 1e9;               // an int holds them
 
 // A scene may be a symbolic link, unlike a raw file.
@@ -50,7 +50,7 @@ void LoopSupervisor::set(std::vector<LoopConfig> loops) {
     if (thread_.joinable()) return;
     try {
         thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error& error) {  // no thread to be had
+    } catch (const std::system_error& error) {  // the system has no thread left
         log_error({Event::loop_failed}, "cannot run loops: {}", error.what());
     }
 }
@@ -170,7 +170,7 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
         slot.child->signal(SIGKILL);
         slot.kill_at.reset();
     }
-    const std::string how = slot.child->ended();  // asked first: what it said is all there then
+    const std::string how = slot.child->ended();  // ask first: then all of its output is there
     for (const std::string& line : slot.child->out.read())
         note_made(slot, line);
     for (const std::string& line : slot.child->err.read())
@@ -187,7 +187,7 @@ void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
-    slot.last_line.clear();  // of what was not made before: it is no reason of an end
+    slot.last_line.clear();  // it is about an earlier attempt, and does not explain an end
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");
@@ -237,7 +237,7 @@ void LoopSupervisor::sleep(SteadyTime now) {
         if (slot.child) {
             for (const int descriptor : {slot.child->descriptor(), slot.child->out.descriptor(),
                                          slot.child->err.descriptor()}) {
-                sources.push_back({descriptor, POLLIN, 0});  // -1 is left out
+                sources.push_back({descriptor, POLLIN, 0});  // poll ignores -1
             }
             if (slot.kill_at) until = std::min(until, *slot.kill_at);
         } else if (!slot.is_leaving) {

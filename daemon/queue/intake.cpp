@@ -17,7 +17,8 @@ constexpr std::size_t most_going_on = 4096;
 constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
-constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
+constexpr std::int64_t live_ns =
+    600 * recent_ns;  // a younger file that a scan finds is not backlog
 
 // The same key for all files of one volume.
 std::string volume_of(const std::filesystem::path& path) {

@@ -31,7 +31,7 @@ std::string_view name_of(IngestResult result) {
 std::string_view name_of(ErrorCode code) {
     switch (code) {
         case ErrorCode::bad_argument:
-            return "contradictory";  // what the file says of itself makes no grid
+            return "contradictory";  // the file's own data allow no grid
         case ErrorCode::not_found:
             return "not_found";
         case ErrorCode::empty:

@@ -78,7 +78,7 @@ class StatusServer::Worker {
         std::function<Result<ListeningSocket>()> listen;
         bool may_lack = false;  // a machine without IPv6 is no error
         std::unique_ptr<HttpListener> listener = nullptr;
-        bool failing = false;   // said once, until it works again
+        bool failing = false;   // logged once, until it works again
         bool hopeless = false;  // not tried again
         std::string problem = {};
     };
@@ -99,7 +99,7 @@ class StatusServer::Worker {
         response_of("ask for 127.0.0.1, localhost or [::1], with this port or none\n", plain);
     ResponsePointer not_yet_ = response_of("starting\n", plain);
     SteadyTime next_open_{};
-    std::vector<Address> addresses_;  // last: what they answer stands above
+    std::vector<Address> addresses_;  // the last member: its listeners use the members above
 };
 
 StatusServer::Worker::Worker(StatusServerOptions options, Render render)

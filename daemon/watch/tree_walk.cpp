@@ -51,7 +51,8 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     const DirectoryHandle directory = open_directory(parent, name);
     if (directory) {
         walk_entries(directory.get(), path, depth, visitor);
-    } else if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) {  // gone since: no problem
+    } else if (errno != ENOENT && errno != ENOTDIR &&
+               errno != ELOOP) {  // it went meanwhile: no problem
         const int error_number = errno;
         visitor.problem(fmt::format("{}: {}", path.native(), reason_of(error_number)));
         const bool is_for_now =

@@ -156,7 +156,7 @@ void Watcher::handle(const DirectoryEvent& event) {
         return;
     }
     const auto found = path_of_.find(event.watch);
-    if (found == path_of_.end()) return;  // an event from before its watch was taken away
+    if (found == path_of_.end()) return;  // the event came before its watch was removed
     const std::filesystem::path directory = found->second.path;
     if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
         unwatch_tree(drop_);

@@ -24,7 +24,7 @@ constexpr std::chrono::minutes most_ahead{10};
 
 struct Finding {
     Error error;
-    bool opened = false;  // it is the contents that are wrong or cannot be read
+    bool opened = false;  // the contents are wrong or cannot be read
 };
 
 std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {

@@ -106,7 +106,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
         if (outcome) {
             count(*outcome, report);
         } else if (outcome.error().code == ErrorCode::no_space) {
-            return pass_on(outcome);  // it would be the same for the next one
+            return pass_on(outcome);  // the next file would fail in the same way
         } else if (!outcome.error().message.starts_with(options.catalog.native())) {
             report.problems.push_back(outcome.error());
         }

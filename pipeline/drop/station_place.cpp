@@ -9,7 +9,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-constexpr int most_files = 4;  // that are looked into
+constexpr int most_files = 4;  // how many files are read
 
 std::optional<grid::SitePosition> place_in(const catalog::CatalogReader& catalog,
                                            const catalog::CatalogEntry& entry) {

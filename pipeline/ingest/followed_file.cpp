@@ -268,7 +268,8 @@ Result<level2::Decoded> FollowedFile::finish() {
     for (std::size_t index = dropped_; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
         const auto place = kept_->shelf->put(sweep);
-        if (!place) break;  // it is missing in the next volume's living grids, and nowhere else
+        if (!place)
+            break;  // the sweep is missing in the next volume's living grids, and nowhere else
         kept_->places.insert_or_assign(index, *place);
         kept_->sweeps.insert_or_assign(
             index, ShelvedVolume::Kept{sweep.find(moment_) != nullptr, sweep.mean_elevation_deg()});
