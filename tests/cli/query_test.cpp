@@ -229,7 +229,7 @@ TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     const auto changed =
         run({"catalog", "get", "--station", "KBGM", "--from", "2005-08-22T02:55", "-o", out + "2"});
     EXPECT_EQ(changed.status, 1);
-    EXPECT_NE(changed.err.find("has 1000 bytes and not"), std::string::npos) << changed.err;
+    EXPECT_NE(changed.err.find("has 1000 bytes, not"), std::string::npos) << changed.err;
 }
 
 TEST_F(QueryTest, AMisspeltOptionIsNamedThoughARequiredOneIsMissing) {

@@ -144,7 +144,7 @@ TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
     EXPECT_EQ(status_table(status, now).find(gone), std::string::npos);
     EXPECT_NE(status_table(status, now).find("; run by process 18: stopped\n"), std::string::npos);
     status.erase("loops_service");
-    EXPECT_EQ(status_table(status, now).find("process keeps"), std::string::npos);
+    EXPECT_EQ(status_table(status, now).find("process runs them"), std::string::npos);
     status["loops"]["elsewhere"] = true;
     EXPECT_NE(status_table(status, now).find("; no process runs them\n"), std::string::npos);
 }

@@ -348,9 +348,9 @@ TEST(EndToEnd, OneDaemonAStateDirectory) {
 TEST(EndToEnd, ASocketPathThatIsTooLongIsSaid) {
     RunningDaemon daemon;
     daemon.start({}, {{"RUNTIME_DIRECTORY", (daemon.root() / std::string(120, 's')).native()}});
-    EXPECT_TRUE(
-        daemon.wait_for_log(": a socket's path has 1 to 107 bytes; name another [status] "
-                            "socket and restart"))
+    EXPECT_TRUE(daemon.wait_for_log(
+        ": the path of a socket must have 1 to 107 bytes; name another [status] "
+        "socket and restart"))
         << daemon.log();
     EXPECT_EQ(daemon.log().find("trying again"), std::string::npos);
     EXPECT_EQ(daemon.terminate(), 0);

@@ -44,7 +44,7 @@ class Loops : public ::testing::Test {
     // Of the loop that was started last.
     pid_t process() const {
         const std::string log = daemon_.log();
-        const std::size_t at = log.rfind("started, process ");
+        const std::size_t at = log.rfind("started as process ");
         return at == std::string::npos ? 0 : std::stoi(log.substr(at + 17));
     }
     static bool is_gone(pid_t process) {
@@ -102,7 +102,7 @@ TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
 
 TEST_F(Loops, ALoopThatDiesIsStartedAgain) {
     daemon_.start(one_loop, with_program());
-    ASSERT_TRUE(daemon_.wait_for_log("started, process")) << daemon_.log();
+    ASSERT_TRUE(daemon_.wait_for_log("started as process")) << daemon_.log();
     ::kill(process(), SIGKILL);
     EXPECT_TRUE(daemon_.wait_for_log("loop binghamton: ended with signal 9")) << daemon_.log();
     EXPECT_TRUE(daemon_.wait_for([](const json& s) {

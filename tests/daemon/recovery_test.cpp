@@ -164,7 +164,7 @@ TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
 
     fs::remove_all(daemon_.cache() / "north");
     daemon_.start(domain);
-    EXPECT_TRUE(daemon_.wait_for_log("missing frame north 2005-08-22T02:50:00Z: made again"))
+    EXPECT_TRUE(daemon_.wait_for_log("missing frame north 2005-08-22T02:50:00Z was made again"))
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     fs::remove_all(daemon_.cache() / "north");
