@@ -41,7 +41,7 @@ enum class Reach {  // grids of groups that are not known
     all,            // also the protected grids
 };
 
-// What is protected from one limit.
+// Which grids are protected from a limit.
 struct Protection {
     std::chrono::milliseconds age{};     // grids written less than this ago; 0: of any age
     std::optional<std::uint64_t> space;  // at most half of it is protected; none: any amount

@@ -105,12 +105,12 @@ Status check_description(const GridDescription& description,
                     static_cast<int>(description.moment));
     }
     if (!is_possible(quantization)) {
-        return fail(ErrorCode::corrupt, "impossible quantisation: {} bytes, from {} by {}",
+        return fail(ErrorCode::corrupt, "impossible quantization: {} bytes, from {} by {}",
                     quantization.code_bytes, quantization.first_value, quantization.step);
     }
     for (const UtcTime time : {description.time, description.start_time, description.end_time}) {
         if (!time_is_possible(time)) {
-            return fail(ErrorCode::corrupt, "a time is beyond the years 1970 to 9999");
+            return fail(ErrorCode::corrupt, "a time is outside the years 1970 to 9999");
         }
     }
     if (!std::all_of(description.sites.begin(), description.sites.end(), is_finite)) {

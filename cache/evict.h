@@ -34,7 +34,7 @@ struct EvictionPlan {
     std::vector<StoreEntry> victims;  // oldest first
     std::size_t looked_at = 0;        // grids of the domain
     std::size_t pinned = 0;           // how many of them are pinned
-    std::uint64_t bytes_left = 0;     // on disk, of those that stay
+    std::uint64_t bytes_left = 0;     // on disk, of the grids that stay
 };
 [[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,
                                                  const EvictionOrder& order, UtcTime now);

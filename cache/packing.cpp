@@ -26,7 +26,7 @@ Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> code
         reinterpret_cast<const char*>(packed.data()), reinterpret_cast<char*>(codes.data()),
         static_cast<int>(packed.size()), static_cast<int>(codes.size()));
     if (size != static_cast<int>(codes.size())) {
-        return fail(ErrorCode::corrupt, "packed codes give no whole brick");
+        return fail(ErrorCode::corrupt, "the packed codes do not give a whole brick");
     }
     return {};
 }
@@ -35,7 +35,7 @@ Result<SparseMemory> SparseMemory::of(std::uint64_t size) {
     void* const start = ::mmap(nullptr, size, PROT_READ | PROT_WRITE,
                                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (start == MAP_FAILED) {
-        return fail(ErrorCode::io, "no room for {} bytes of addresses", size);
+        return fail(ErrorCode::io, "cannot reserve {} bytes of addresses", size);
     }
     return SparseMemory(static_cast<std::byte*>(start), size);
 }

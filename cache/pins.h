@@ -25,7 +25,7 @@ inline constexpr std::string_view pin_extension = ".pin";
 // Pinning a pinned grid is not an error.
 // Removes a pin, and returns true if there was one. The grid need not exist.
 [[nodiscard]] Status pin_grid(FileSystem& file_system, const std::filesystem::path& grid);
-// Whether there was a pin; the grid need not be there.
+// Returns true if there was a pin; the grid need not exist.
 [[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 
 enum class Evicted { gone, pinned, missing };
@@ -35,8 +35,7 @@ enum class Evicted { gone, pinned, missing };
 [[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
                                          const std::filesystem::path& grid);
 
-// Removes the directory of a day, then those of its moment and its domain, as far as they are
-// empty.
+// Removes the directory of a day, then those of its moment and its domain, if they are empty.
 void remove_empty_directories(const std::filesystem::path& day);
 
 }  // namespace stormcellar::cache

@@ -116,12 +116,12 @@ Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::ui
         } else if (!in_flight_.empty()) {
             changed_.wait(lock);  // what others write or evict may still make room
         } else if (account_.is_to_stay(name)) {
-            return fail(ErrorCode::over_budget,
-                        "{}: no room for {} within the cache's budget: it is smaller than that, or "
-                        "what is held ({}; {} of {}) is pinned or cannot be removed",
-                        path_of(name).native(), format_byte_size(bytes),
-                        format_byte_size(account_.used()), format_byte_size(account_.used(group)),
-                        group);
+            return fail(
+                ErrorCode::over_budget,
+                "{}: the cache's limits leave no room for {}: a limit is smaller than that, or the "
+                "grids in the cache ({}; {} of {}) are pinned or cannot be removed",
+                path_of(name).native(), format_byte_size(bytes), format_byte_size(account_.used()),
+                format_byte_size(account_.used(group)), group);
         } else {
             break;
         }

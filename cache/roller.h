@@ -118,7 +118,7 @@ class Roller {
     FileSystem& file_system_;
     const std::filesystem::path directory_;
     const Surroundings surroundings_;
-    const Descriptor lock_;  // on the directory itself, against a second writer
+    const Descriptor lock_;  // on the directory itself, to exclude a second writer
     std::uint64_t block_bytes_ = 4096;
 
     std::mutex rolling_;        // one roll at a time
@@ -127,8 +127,9 @@ class Roller {
     std::condition_variable changed_;
     Budgets budgets_;
     Account account_;
-    std::set<GridName> in_flight_;   // being written or evicted
-    std::set<std::string> reached_;  // groups that were full since the last roll; empty name: all
+    std::set<GridName> in_flight_;  // being written or evicted
+    std::set<std::string>
+        reached_;  // groups that reached a limit since the last roll; empty name: all
     std::map<Day, DayState> days_;
     std::vector<Leftover> leftovers_;
     std::uint64_t evicted_ = 0, evicted_bytes_ = 0, not_kept_ = 0;

@@ -1,4 +1,4 @@
-// The part of the roller that looks at the whole cache every few seconds: what others changed in
+// The part of the roller that examines the whole cache every few seconds: what others changed in
 // it, what has grown too old, and how full the file system is.
 #include <algorithm>
 #include <cmath>
@@ -180,11 +180,11 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
     if (!limit || held() <= *limit) return;
     report.problems.push_back(
         disk_too_full
-            ? fmt::format("the file system is more than {} % full and {} has nothing left that may "
-                          "go: {} are pinned or the newest of their domains",
+            ? fmt::format("the file system is more than {} % full, and {} has no grid left that "
+                          "may be evicted: {} are pinned or the newest of their domains",
                           *budget.file_system_percent, whose(group), format_byte_size(held()))
-            : fmt::format("{} holds {}, more than its budget of {}: they are pinned, the newest of "
-                          "their domains, or cannot be removed",
+            : fmt::format("{} holds {}, more than its limit of {}: the rest is pinned, the newest "
+                          "of its domain, or cannot be removed",
                           whose(group), format_byte_size(held()), format_byte_size(*limit)));
 }
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 // programs may take the room that was made on a full disk.
 constexpr int most_tries = 4;
 
-// The directory stands afterwards, and so it does after a power cut.
+// Afterwards the directory exists, also after a power cut.
 Status make_cache_directory(FileSystem& file_system, const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directories(directory, error);
@@ -115,7 +115,7 @@ Result<fs::path> StoreReader::path_of(const std::string& domain, level2::Moment 
     }
     if (!is_possible(time)) {
         return fail(ErrorCode::bad_argument,
-                    "a grid of {}: its time is beyond the years 1970 to 9999", domain);
+                    "a grid of {}: its time is outside the years 1970 to 9999", domain);
     }
     return directory() / relative_path(GridName{domain, moment, time});
 }

@@ -139,7 +139,8 @@ Status GridFile::Mapping::check_zeros(std::uint64_t begin, std::uint64_t end) co
         const auto part = std::span(page).first(std::min<std::uint64_t>(page.size(), end - begin));
         if (Status read = read_at(file, begin, part); !read) return read;
         if (std::any_of(part.begin(), part.end(), [](std::byte b) { return b != std::byte{0}; })) {
-            return fail(ErrorCode::corrupt, "bytes stand at {}, where no brick is stored", begin);
+            return fail(ErrorCode::corrupt, "there are bytes at {}, where no brick is stored",
+                        begin);
         }
         begin += part.size();
     }

@@ -20,8 +20,8 @@ constexpr std::size_t most_left_alone_named = 5;
 // For a station that a user asks for. A name in lower case does not find another station.
 Status check_asked_for(std::string_view station) {
     if (station.empty() || is_icao(station)) return {};
-    return fail(ErrorCode::bad_argument, "'{}' is no station: four letters and digits, as in KTLX",
-                station);
+    return fail(ErrorCode::bad_argument,
+                "'{}' is not a station: give four capital letters or digits, as in KTLX", station);
 }
 
 // Returns when the database was last written.
@@ -94,7 +94,7 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
 Result<CatalogReader> CatalogReader::open(fs::path directory) {
     std::error_code ignored;
     if (!fs::is_directory(directory, ignored)) {
-        return fail(ErrorCode::not_found, "{}: no such catalog directory", directory.native());
+        return fail(ErrorCode::not_found, "{}: there is no catalog here", directory.native());
     }
     CatalogOptions options;
     options.most_open = CatalogOptions::most_open_of_reader;
@@ -304,7 +304,7 @@ Status CatalogWriter::examine(std::string_view station) {
     const OpenDatabases::Lease place = impl().databases.lease(*name);
     const std::scoped_lock lock(place->mutex);
     if (impl().mend(*place, *name)) return {};
-    return fail(ErrorCode::corrupt, "{}: {}, and cannot be mended", path.native(),
+    return fail(ErrorCode::corrupt, "{}: {}; it cannot be mended", path.native(),
                 found->damage.front());
 }
 

@@ -32,7 +32,8 @@ Result<fs::path> read_drop_directory(const fs::path& catalog) {
     std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     if (text.ends_with('\n')) text.pop_back();
     const bool is_path = text.starts_with('/') && text.find('\0') == std::string::npos;
-    if (!is_path) return fail(ErrorCode::corrupt, "{}: holds no absolute path", file.native());
+    if (!is_path)
+        return fail(ErrorCode::corrupt, "{}: does not hold an absolute path", file.native());
     return fs::path{std::move(text)};
 }
 

@@ -52,18 +52,18 @@ enum class Strays : std::uint8_t {
 
 // The place of one database.
 struct Slot {
-    std::mutex mutex;  // guards what follows
+    std::mutex mutex;  // guards the members below
     std::unique_ptr<StationDatabase> database;
     FileIdentity file;                             // the file that was opened last; none: not yet
     std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
 
   private:
     friend class OpenDatabases;
-    // Guarded by the mutex of OpenDatabases.
+    // The mutex of OpenDatabases guards these.
     std::string name_;
     std::size_t leases_ = 0;
     bool is_counted_ = false;
-    std::list<Slot*>::iterator place_;  // among the open ones, while it is counted
+    std::list<Slot*>::iterator place_;  // in the list of open ones, while it is counted
 };
 
 class OpenDatabases {

@@ -23,7 +23,7 @@
 
 namespace stormcellar::catalog {
 
-// The database of files whose station is not known.
+// The database of files of no known station.
 inline constexpr std::string_view unknown_station = "_unknown";
 
 // Returns the station to which a path seems to belong: by its name, by that of its directory

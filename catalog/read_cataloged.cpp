@@ -25,7 +25,7 @@ Status check_size(const CatalogEntry& entry, std::uint64_t size_bytes) {
         has_final_hash(entry) ? size_bytes == entry.size_bytes : size_bytes >= entry.size_bytes;
     if (fits) return {};
     return fail(
-        ErrorCode::corrupt, "{}: is not the file that was cataloged: it has {} bytes and not {}{}",
+        ErrorCode::corrupt, "{}: is not the file that was cataloged: it has {} bytes, not {}{}",
         entry.path.native(), size_bytes, entry.size_bytes, has_final_hash(entry) ? "" : " or more");
 }
 
@@ -37,8 +37,7 @@ Result<CatalogedBytes> read_member(const CatalogEntry& entry, const Descriptor& 
     limits.member_bytes = entry.size_bytes;
     auto member = archive::find_member(archive.number(), name.member, limits);
     if (!member) {
-        return fail(ErrorCode::corrupt, "{}: the archive does not have it any more",
-                    entry.path.native());
+        return fail(ErrorCode::corrupt, "{}: is no longer in the archive", entry.path.native());
     }
     const std::uint64_t hash = xxh3_64(member->bytes);
     if (Status same = check_cataloged(entry, member->bytes.size(), hash); !same) {
@@ -66,7 +65,7 @@ Status check_cataloged(const CatalogEntry& entry, std::uint64_t size_bytes,
     if (Status sized = check_size(entry, size_bytes); !sized) return sized;
     if (!has_final_hash(entry) || content_hash == entry.content_hash) return {};
     return fail(ErrorCode::corrupt,
-                "{}: is not the file that was cataloged: it has the same size and other contents",
+                "{}: is not the file that was cataloged: it has the same size but other contents",
                 entry.path.native());
 }
 
@@ -85,7 +84,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     // Before it is read, because the present file may be far larger.
     struct stat facts {};
     if (::fstat(file.number(), &facts) != 0) {
-        return fail(ErrorCode::io, "{}: cannot be looked at", entry.path.native());
+        return fail(ErrorCode::io, "{}: its size cannot be read", entry.path.native());
     }
     if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
         return pass_on(sized);
@@ -93,11 +92,10 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     // A hard link to a file that only the reader may read is not refused as a link, and only a hash
     // can tell it apart.
     if (!has_final_hash(entry) && facts.st_nlink > 1) {
-        return fail(
-            ErrorCode::corrupt,
-            "{}: may not be the file that was cataloged: it was still growing then, and has "
-            "{} names now",
-            entry.path.native(), facts.st_nlink);
+        return fail(ErrorCode::corrupt,
+                    "{}: may not be the file that was cataloged: it was still growing then and now "
+                    "has {} names",
+                    entry.path.native(), facts.st_nlink);
     }
     auto bytes = read_open_file(file.number(), entry.path, default_read_limit);
     if (!bytes) return pass_on(bytes);

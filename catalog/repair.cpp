@@ -49,10 +49,9 @@ void check_references(SQLite::Database& database, std::vector<std::string>& dama
         const int count = database.execAndGet(query).getInt();
         if (count > 0) damage.push_back(fmt::format("{} {}", count, what));
     };
-    complain("SELECT count(*) FROM pragma_foreign_key_check",
-             "rows refer to rows that are missing");
+    complain("SELECT count(*) FROM pragma_foreign_key_check", "rows refer to missing rows");
     complain("SELECT count(*) FROM volume WHERE id NOT IN (SELECT volume_id FROM part)",
-             "volumes are in no file");
+             "volumes belong to no file");
 }
 
 Examination examine(SQLite::Database& database) {
@@ -64,11 +63,11 @@ Examination examine(SQLite::Database& database) {
     const bool ours = schema == schema_wanted();
     if (!ours && (id != application_id || version > schema_version)) {
         found.foreign = true;
-        found.damage.push_back(id == application_id ? "is of a later version of this software"
+        found.damage.push_back(id == application_id ? "was made by a later version of this software"
                                                     : "is not a catalog of this software");
         return found;
     }
-    if (!ours) found.damage.emplace_back("tables or indices are missing or others than ours");
+    if (!ours) found.damage.emplace_back("has missing or unknown tables or indices");
     if (id != application_id || version != schema_version) {
         found.damage.push_back(fmt::format("has the numbers {:#x} and {}, not {:#x} and {}", id,
                                            version, application_id, schema_version));
@@ -181,12 +180,12 @@ Result<Repair> repair_database(const fs::path& path, const std::string& station,
 
 std::string describe(const Repair& repair) {
     if (repair.set_aside.empty()) {
-        return fmt::format("{}: {}; it is made again from the files", repair.database.native(),
-                           repair.damage);
+        return fmt::format("{}: {}; a new database is made from the files",
+                           repair.database.native(), repair.damage);
     }
     return fmt::format(
-        "{}: damaged ({}), set aside as {}; {} rows of files that are gone were kept, {} are made "
-        "again from their files, {} could not be read",
+        "{}: was damaged ({}) and is set aside as {}; a new database keeps {} rows of files that "
+        "are gone, {} rows are made again from their files, {} could not be read",
         repair.database.native(), repair.damage, repair.set_aside.filename().native(),
         repair.kept_gone, repair.to_read_again,
         repair.lost == 0 ? std::string{"none"} : fmt::format("at most {}", repair.lost));

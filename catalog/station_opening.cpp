@@ -55,7 +55,7 @@ tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception
     return fail(code_of(error), "{}: {}", path.native(), error.what());
 }
 
-// SQLite would wait at a FIFO for somebody who writes to it.
+// SQLite would wait at a FIFO until somebody writes to it.
 Status check_regular(const fs::path& path) {
     for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
         const fs::path file = path.native() + ending;
@@ -84,7 +84,8 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
     }
     if (id == application_id && version > schema_version) {
         return fail(ErrorCode::unsupported,
-                    "{}: was made by a later version of this software (schema {}, known up to {})",
+                    "{}: was made by a later version of this software (schema {}; this version "
+                    "knows up to {})",
                     path.native(), version, schema_version);
     }
     if (!ours || id != application_id || version != schema_version) {
@@ -141,7 +142,7 @@ auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{}
             }
         }
     }
-    return fail(ErrorCode::internal, "{}: could not be opened", path.native());
+    return fail(ErrorCode::internal, "{}: cannot be opened", path.native());
 }
 
 }  // namespace

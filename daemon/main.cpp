@@ -35,10 +35,10 @@ constexpr int exit_bad_usage = 2;
 
 constexpr std::string_view usage =
     "usage: stormcellard --config FILE [--no-loops | --loops-only | --check-config]\n"
-    "  --config FILE    what to watch and how (TOML)\n"
-    "  --no-loops       leave [[loop]] to another stormcellard\n"
-    "  --loops-only     keep [[loop]] and do nothing else\n"
-    "  --check-config   say whether FILE and its loops' scenes are right, and end\n"
+    "  --config FILE    read the configuration from FILE (TOML)\n"
+    "  --no-loops       leave the [[loop]] tables to another stormcellard\n"
+    "  --loops-only     run the [[loop]] tables and do nothing else\n"
+    "  --check-config   check FILE and its loops' scenes, and exit\n"
     "  --version, --help\n";
 
 struct Arguments {
@@ -70,15 +70,16 @@ Result<Arguments> parse(int argc, char** argv) {
         } else if (word == "--help" || word == "-h") {
             arguments.help = true;
         } else if (word == "--config") {
-            return fail(ErrorCode::bad_argument, "--config: no file is named");
+            return fail(ErrorCode::bad_argument, "--config: give a file");
         } else {
-            return fail(ErrorCode::bad_argument, "{}: there is no such option", word);
+            return fail(ErrorCode::bad_argument, "{}: is not an option", word);
         }
     }
     if (!arguments.help && !arguments.version && !arguments.config)
-        return fail(ErrorCode::bad_argument, "--config is needed");
+        return fail(ErrorCode::bad_argument, "--config FILE must be given");
     if (arguments.no_loops && arguments.loops_only)
-        return fail(ErrorCode::bad_argument, "--no-loops and --loops-only exclude each other");
+        return fail(ErrorCode::bad_argument,
+                    "--no-loops and --loops-only cannot be given together");
     return arguments;
 }
 
@@ -120,13 +121,13 @@ void print_notes(const Config& config) {
         fmt::print(stderr, "stormcellard: note: {}\n", what);
     };
     if (const auto names = names_beneath(paths.drop, paths.drop); !names) {
-        note(fmt::format("drop directory {}: the service waits for it",
+        note(fmt::format("cannot read the drop directory {}; the service will wait for it",
                          printable(names.error().message)));
     }
     for (const auto& [key, path] : {std::pair{"state", paths.state}, {"cache", paths.cache}}) {
         const std::filesystem::path stands = in_the_way_of(path);
         if (stands.empty()) continue;
-        note(fmt::format("[paths] {}: {} is no directory: the service cannot start", key,
+        note(fmt::format("[paths] {}: {} is not a directory, so the service cannot start", key,
                          printable(stands.native())));
     }
     for (const std::string& doubt :
@@ -137,9 +138,10 @@ void print_notes(const Config& config) {
 std::unique_ptr<EventSource> open_events() {
     Result<std::unique_ptr<EventSource>> events = open_inotify();
     if (events) return std::move(*events);
-    log_warning({Event::watch_failed},
-                "{}; until then the drop directory is polled ([watch] poll_seconds)",
-                printable(events.error().message));
+    log_warning(
+        {Event::watch_failed},
+        "cannot watch the drop directory: {}; the service polls it instead ([watch] poll_seconds)",
+        printable(events.error().message));
     return no_events();
 }
 
@@ -159,7 +161,9 @@ int serve_loops(const Config& config, const std::filesystem::path& file) {
 void know_stations(const catalog::CatalogReader& catalog, Service& service) {
     const auto stations = catalog.stations();
     if (!stations) {
-        log_warning({Event::stations_unknown}, "what was known of stations: {}",
+        log_warning({Event::stations_unknown},
+                    "cannot read the newest volume of each station from the catalog: {}; the "
+                    "status starts without them",
                     printable(stations.error().message));
         return;
     }

@@ -27,8 +27,9 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     next_ = now + period;
     try {
         roll_ = std::async(std::launch::async, [this, budgets] { return roll(budgets); });
-    } catch (const std::system_error& error) {  // no thread could be started
-        log_warning({Event::cache_problem}, "cannot look after the cache: {}", error.what());
+    } catch (const std::system_error& error) {  // the system has no thread left
+        log_warning({Event::cache_problem}, "cannot check the limits of the cache: {}",
+                    error.what());
     }
     return usage;
 }
@@ -48,7 +49,7 @@ CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
 void CacheKeeper::log(const CacheRolled& rolled, SteadyTime now) {
     if (rolled.report.evicted > 0 && rolled.usage) {
         log_info({Event::cache_rolled},
-                 "cache: removed {} ({}) that its limits no longer keep; {} remain ({})",
+                 "cache: evicted {} ({}) to keep its limits; it now holds {} ({})",
                  counted(static_cast<std::uint64_t>(rolled.report.evicted), "grid"),
                  format_byte_size(rolled.report.evicted_bytes),
                  counted(rolled.usage->grids, "grid"), format_byte_size(rolled.usage->bytes));

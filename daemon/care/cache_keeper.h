@@ -36,7 +36,7 @@ class CacheKeeper {
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread of the roll
 
   private:
-    CacheRolled roll(const cache::Budgets& budgets);  // in its own thread
+    CacheRolled roll(const cache::Budgets& budgets);  // runs in its own thread
     void log(const CacheRolled& rolled, SteadyTime now);
 
     Sink& sink_;

@@ -93,7 +93,8 @@ void Caretaker::run() {
             if (!check_grids(MendDepth::all, times_.between_grids)) return;
         } while (rest(times_.between_rounds));
     } catch (const std::exception& error) {
-        log_error({Event::care_failed}, "grids are not looked after any more: {}", error.what());
+        log_error({Event::care_failed},
+                  "the service no longer verifies or mends grids: {}; restart it", error.what());
     }
     pulse_.rest();
 }
@@ -113,7 +114,7 @@ void Caretaker::examine_databases() {
 bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) {
     const auto domains = of_.store.domains();
     if (!domains) {
-        log_problem("cannot look into the cache", domains.error());
+        log_problem("cannot list the grids in the cache", domains.error());
         return true;
     }
     for (const std::string& domain : *domains) {
@@ -121,7 +122,7 @@ bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) 
             pulse_.beat();
             const auto entries = of_.store.list(domain, moment, std::nullopt, std::nullopt);
             if (!entries) {
-                log_problem("cannot look into the cache", entries.error());
+                log_problem("cannot list the grids in the cache", entries.error());
                 continue;
             }
             for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry) {
@@ -147,15 +148,16 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
         case GridCondition::sound:
             break;
         case GridCondition::made_again:
-            log_warning(about, "damaged grid {}: dropped, and made again from {}", reason,
-                        printable(mended->from));
+            log_warning(about, "damaged grid {}; the service removed it and made it again from {}",
+                        reason, printable(mended->from));
             break;
         case GridCondition::dropped:
-            log_warning(about, "damaged grid {}: dropped; it cannot be made again: {}", reason,
-                        printable(mended->why_not));
+            log_warning(about,
+                        "damaged grid {}; the service removed it and cannot make it again: {}",
+                        reason, printable(mended->why_not));
             break;
         case GridCondition::left_alone:
-            log_warning(unchecked, "grid {}: cannot be checked", reason);
+            log_warning(unchecked, "cannot verify grid {}; the service left it alone", reason);
             break;
     }
 }
@@ -175,7 +177,7 @@ void Caretaker::refill() {
                   .volume = grid.time,
                   .file = grid.raw,
                   .domain = grid.names.front().domain},
-                 "missing grid {} {}: made again from {}", grid.names.front().domain,
+                 "missing grid {} {} was made again from {}", grid.names.front().domain,
                  format_utc(grid.time), printable(grid.raw.native()));
     }
     refill_frames();
@@ -191,7 +193,7 @@ void Caretaker::refill_frames() {
         if (!made) return log_problem("cannot make a missing frame", made.error());
         if (!*made) continue;
         log_info({.event = Event::frame_made_again, .volume = frame.time, .domain = frame.domain},
-                 "missing frame {} {}: made again from {}", frame.domain, format_utc(frame.time),
+                 "missing frame {} {} was made again from {}", frame.domain, format_utc(frame.time),
                  **made);
     }
 }

@@ -23,16 +23,16 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
             mark_missing();
             roll_rows();
             if (deletes) delete_gone(gone_rows_kept_for);
-        } catch (const std::exception& error) {  // out of memory
-            log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
-                        error.what());
+        } catch (const std::exception& error) {  // no memory
+            log_warning({Event::files_gone_failed},
+                        "cannot check which cataloged files are gone: {}", error.what());
         }
         return std::chrono::steady_clock::now() - began;
     };
     try {
         work_ = std::async(std::launch::async, work);
-    } catch (const std::system_error& error) {  // no thread could be started
-        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+    } catch (const std::system_error& error) {  // the system has no thread left
+        log_warning({Event::files_gone_failed}, "cannot check which cataloged files are gone: {}",
                     error.what());
         return;
     }
@@ -43,10 +43,11 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_fo
 void RowKeeper::mark_missing() {
     const Result<int> marked = sink_.mark_missing([this] { pulse_.beat(); });
     if (!marked) {
-        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+        log_warning({Event::files_gone_failed}, "cannot check which cataloged files are gone: {}",
                     printable(marked.error().message));
     } else if (*marked > 0) {
-        log_info({Event::files_gone}, "{} went while nobody watched",
+        log_info({Event::files_gone},
+                 "marked {} as gone: deleted or moved while the service did not watch",
                  counted(static_cast<std::uint64_t>(*marked), "file"));
     }
 }
@@ -54,12 +55,14 @@ void RowKeeper::mark_missing() {
 void RowKeeper::roll_rows() {
     const Result<std::int64_t> rolled = sink_.roll_rows([this] { pulse_.beat(); });
     if (!rolled) {
-        log_warning({Event::files_gone_failed}, "cannot delete rows of files that went: {}",
+        log_warning({Event::files_gone_failed},
+                    "cannot delete the catalog rows of files that are gone: {}",
                     printable(rolled.error().message));
     } else if (*rolled > 0) {
-        log_info({Event::rows_deleted},
-                 "the rows of {} that went were deleted: the catalog takes no more room",
-                 counted(static_cast<std::uint64_t>(*rolled), "file"));
+        log_info(
+            {Event::rows_deleted},
+            "deleted the catalog rows of {} marked as gone: the catalog had reached its size limit",
+            counted(static_cast<std::uint64_t>(*rolled), "file"));
     }
 }
 
@@ -67,10 +70,13 @@ void RowKeeper::delete_gone(std::chrono::milliseconds gone_rows_kept_for) {
     const Result<int> deleted =
         sink_.forget_gone(now_utc() - gone_rows_kept_for, [this] { pulse_.beat(); });
     if (!deleted) {
-        log_warning({Event::files_gone_failed}, "cannot delete rows of files that went: {}",
+        log_warning({Event::files_gone_failed},
+                    "cannot delete the catalog rows of files that are gone: {}",
                     printable(deleted.error().message));
     } else if (*deleted > 0) {
-        log_info({Event::rows_deleted}, "the rows of {} that went long ago were deleted",
+        log_info({Event::rows_deleted},
+                 "deleted the catalog rows of {} marked as gone: they were older than [catalog] "
+                 "gone_days",
                  counted(static_cast<std::uint64_t>(*deleted), "file"));
     }
 }

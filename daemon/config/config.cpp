@@ -53,7 +53,7 @@ void read_paths(TomlTable paths, const std::filesystem::path& file, PathsConfig&
     read_path(paths, "state", file, config.state);
     read_path(paths, "cache", file, config.cache);
     if (config.drop.empty()) {
-        paths.complain("drop", "the drop directory must be named");
+        paths.complain("drop", "names the drop directory and must be given");
         return;
     }
     using Named = std::pair<std::string_view, const std::filesystem::path*>;
@@ -62,9 +62,11 @@ void read_paths(TomlTable paths, const std::filesystem::path& file, PathsConfig&
     for (const auto& [name, path] : all) {
         for (const auto& [other_name, other] : all) {
             if (name == other_name || !is_within(*path, *other)) continue;
-            paths.complain(name,
-                           fmt::format("{} is or lies within {} ({}); the three must be apart",
-                                       path->native(), other->native(), other_name));
+            paths.complain(
+                name,
+                fmt::format(
+                    "{} is the same as or within {} ({}); the three directories must be separate",
+                    path->native(), other->native(), other_name));
         }
     }
 }
@@ -135,10 +137,10 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
     const auto path = bunzip::path_named(*name);
     if (!path) {
         ingest.complain("bunzip",
-                        fmt::format("\"{}\" is none of fastest, libbz2, plain, avx2, avx512",
+                        fmt::format("\"{}\" must be one of fastest, libbz2, plain, avx2, avx512",
                                     printable(*name)));
     } else if (!bunzip::is_available(*path)) {
-        ingest.complain("bunzip", fmt::format("this machine has no {}", *name));
+        ingest.complain("bunzip", fmt::format("the processor of this machine has no {}", *name));
     } else {
         config.bunzip = path;
     }
@@ -187,7 +189,7 @@ void read_storage(TomlTable& table, StorageConfig& config) {
             config.packing = *name == "lz4" ? cache::Packing::lz4 : cache::Packing::none;
         } else {
             table.complain("compression",
-                           fmt::format("\"{}\" is none of none, lz4", printable(*name)));
+                           fmt::format("\"{}\" must be one of none, lz4", printable(*name)));
         }
     }
 }
@@ -222,7 +224,7 @@ void read_rest(TomlTable watch, TomlTable log, Config& config) {
         static constexpr std::array<std::string_view, 4> levels = {"debug", "info", "warning",
                                                                    "error"};
         if (std::find(levels.begin(), levels.end(), *level) == levels.end()) {
-            log.complain("level", fmt::format("\"{}\" is none of debug, info, warning, error",
+            log.complain("level", fmt::format("\"{}\" must be one of debug, info, warning, error",
                                               printable(*level)));
         } else {
             config.reloadable.log_level = *level;
@@ -236,11 +238,10 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
     const std::filesystem::path& socket = config.socket;
     for (const std::filesystem::path* path : {&paths.drop, &paths.cache}) {
         if (socket.empty() || path->empty() || !is_within(socket, *path)) continue;
-        status.complain("socket",
-                        fmt::format("{} lies within {}", socket.native(), path->native()));
+        status.complain("socket", fmt::format("{} is within {}", socket.native(), path->native()));
     }
     if (socket.native().size() > most_socket_bytes) {
-        status.complain("socket", fmt::format("is longer than {} bytes", most_socket_bytes));
+        status.complain("socket", fmt::format("has more than {} bytes", most_socket_bytes));
     }
     if (const auto port = status.whole_number("http_port", {0, 65'535})) {
         config.http_port = *port;
@@ -267,11 +268,12 @@ void read_budgets(TomlTable& cache, cache::Budgets& budgets) {
         read_budget(domain, budget);
         const auto name = domain.text("name");
         if (!name) {
-            if (!domain.has("name")) domain.complain("name", "the domain must be named");
+            if (!domain.has("name")) domain.complain("name", "must be given");
         } else if (*name == "*") {
             budgets.every_domain = budget;
         } else if (!cache::is_domain_name(*name) || cache::is_part(*name)) {
-            domain.complain("name", fmt::format("\"{}\" is no domain's name", printable(*name)));
+            domain.complain(
+                "name", fmt::format("\"{}\" is not a valid name of a domain", printable(*name)));
         } else if (!budgets.domains.emplace(*name, budget).second) {
             domain.complain("name", fmt::format("\"{}\" is named twice", *name));
         }
@@ -307,19 +309,20 @@ std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConf
     // A new part of the configuration does not compile here until it has a sentence, too.
     const auto& [paths, grid, queue_limit, ingest, storage, status] = fresh;
     if (paths != running.paths) {
-        sentences.emplace_back("[paths] cannot change while the service runs: restart it");
+        sentences.emplace_back("restart the service for the change of [paths] to take effect");
     }
     if (grid != running.grid || queue_limit != running.queue_limit) {
         sentences.emplace_back(
-            "the grid, mosaics, threads and queue_limit change at a restart only");
+            "restart the service for changes of the grid, mosaics, threads and queue_limit to take "
+            "effect");
     }
     if (ingest != running.ingest || storage != running.storage) {
         sentences.emplace_back(
-            "stations, living, bunzip, the chunks' times, refill_hours, compression and the "
-            "catalog's bytes change at a restart only");
+            "restart the service for changes of stations, living, bunzip, the chunks' times, "
+            "refill_hours, compression and the catalog's bytes to take effect");
     }
     if (status != running.status) {
-        sentences.emplace_back("[status] changes at a restart only");
+        sentences.emplace_back("restart the service for the change of [status] to take effect");
     }
     return sentences;
 }

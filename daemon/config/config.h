@@ -45,7 +45,7 @@ struct StatusConfig {
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
 
-// The three directories: absolute, symbolic links resolved; none lies within another.
+// The three directories: absolute, with symbolic links resolved; none is within another.
 struct PathsConfig {
     std::filesystem::path drop;
     std::filesystem::path state = "/var/lib/stormcellar";
@@ -60,11 +60,11 @@ struct GridConfig {
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32
     std::vector<pipeline::Domain> domains;  // mosaics to keep, beside each site's own grid
-    int threads = 1;                        // that decode, and that grid
+    int threads = 1;                        // for decoding, and for gridding
     bool operator==(const GridConfig&) const = default;
 };
 
-// How files are taken in.
+// How files are ingested.
 struct IngestConfig {
     StationRule stations;  // the stations from which data are accepted
     std::vector<AddedStation> added_stations;
@@ -74,7 +74,7 @@ struct IngestConfig {
     bool operator==(const IngestConfig&) const = default;
 };
 
-// How the catalog and the cache store what was taken in.
+// How the catalog and the cache store the results.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
@@ -82,7 +82,7 @@ struct StorageConfig {
     bool operator==(const StorageConfig&) const = default;
 };
 
-// The keys that count at the start alone.
+// The keys that take effect only at the start.
 struct FixedConfig {
     PathsConfig paths;
     GridConfig grid;
@@ -93,7 +93,7 @@ struct FixedConfig {
     bool operator==(const FixedConfig&) const = default;
 };
 
-// The keys that a reload makes count.
+// The keys that a reload applies.
 struct ReloadableConfig {
     int workers = 0;  // 0: one for each processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
@@ -109,15 +109,15 @@ struct ReloadableConfig {
     bool operator==(const ReloadableConfig&) const = default;
 };
 
-// Every key stands in one of the two parts, and in no third one: a reload compares the first and
-// takes over the second, each as a whole.
+// Every key is in one of these two parts; there is no third. A reload compares the first part and
+// replaces the second, each as a whole.
 struct Config {
     FixedConfig fixed;
     ReloadableConfig reloadable;
     bool operator==(const Config&) const = default;
 };
 
-// What a reload cannot do: for each part of `fresh` that differs from `running` a sentence that
+// What a reload cannot apply: for each part of `fresh` that differs from `running`, a sentence that
 // names its keys. Empty exactly when the two are equal.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);

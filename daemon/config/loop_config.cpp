@@ -24,10 +24,10 @@ bool lies_within(const fs::path& path, const fs::path& directory) {
 void read_name(TomlTable& table, std::set<std::string>& names, LoopConfig& loop) {
     const auto name = table.text("name");
     if (!name) {
-        if (!table.has("name")) table.complain("name", "the loop must be named");
+        if (!table.has("name")) table.complain("name", "must be given");
     } else if (!cache::is_domain_name(*name) || cache::is_part(*name)) {
-        table.complain("name",
-                       fmt::format("\"{}\" must be of letters, digits, - and _", printable(*name)));
+        table.complain("name", fmt::format("\"{}\" must consist of letters, digits, - and _",
+                                           printable(*name)));
     } else if (!names.insert(*name).second) {
         table.complain("name", fmt::format("\"{}\" is named twice", *name));
     } else {
@@ -49,7 +49,7 @@ void read_outputs(TomlTable& table, const fs::path& directory, const std::vector
         const fs::path plain = path.has_filename() ? path : path.parent_path();
         for (const fs::path& other : apart) {
             if (other.empty() || !lies_within(plain, other)) continue;
-            table.complain("outputs", fmt::format("{} lies within {}", printable(path.native()),
+            table.complain("outputs", fmt::format("{} is within {}", printable(path.native()),
                                                   printable(other.native())));
         }
         if (!known.insert(plain.native()).second) {
@@ -69,7 +69,7 @@ void read_scene(TomlTable& table, const fs::path& directory, SceneFiles scenes, 
     const fs::file_status found = fs::status(loop.scene, error);
     if (fs::is_regular_file(found)) return;
     table.complain("scene", fmt::format("{}: {}", printable(loop.scene.native()),
-                                        error ? error.message() : "is no file"));
+                                        error ? error.message() : "is not a file"));
 }
 
 void read_range(TomlTable& table, LoopConfig& loop) {
@@ -92,8 +92,8 @@ std::vector<LoopConfig> read_loops(TomlTable& root, const fs::path& directory,
         read_scene(table, directory, scenes, loop);
         if (const auto domain = table.text("domain")) {
             if (!cache::is_domain_name(*domain)) {
-                table.complain("domain",
-                               fmt::format("\"{}\" is no domain's name", printable(*domain)));
+                table.complain("domain", fmt::format("\"{}\" is not a valid name of a domain",
+                                                     printable(*domain)));
             }
             loop.domain = *domain;
         }
@@ -101,7 +101,7 @@ std::vector<LoopConfig> read_loops(TomlTable& root, const fs::path& directory,
         read_outputs(table, directory, apart, outputs, loop);
         if (!table.has("scene")) {
             for (const char* key : {"domain", "outputs"}) {
-                if (!table.has(key)) table.complain(key, "is needed where no scene says it");
+                if (!table.has(key)) table.complain(key, "must be given if no scene is named");
             }
         }
         loops.push_back(std::move(loop));

@@ -12,8 +12,9 @@ namespace {
 constexpr std::size_t most_added = 512;
 
 std::string no_station(const std::string& name) {
-    return fmt::format("\"{}\" is no station: four capital letters or digits, as in \"KTLX\"",
-                       printable(name));
+    return fmt::format(
+        "\"{}\" is not a station: give four capital letters or digits, as in \"KTLX\"",
+        printable(name));
 }
 
 StationRule read_list(TomlTable& ingest) {
@@ -30,7 +31,7 @@ void read_place(TomlTable& table, AddedStation& station) {
         if (const auto given = table.number(key, range)) {
             value = *given;
         } else if (!table.has(key)) {
-            table.complain(key, "is needed");
+            table.complain(key, "must be given");
         }
     };
     need("latitude_deg", {-90, 90}, station.latitude_deg);
@@ -45,9 +46,8 @@ StationRule read_station_rule(TomlTable& ingest) {
     const auto name = ingest.text("stations");
     if (!name || *name == "known") return {};
     if (*name == "any") return StationRule::any();
-    ingest.complain(
-        "stations",
-        fmt::format("\"{}\" is neither known nor any, nor a list of stations", printable(*name)));
+    ingest.complain("stations", fmt::format("\"{}\" must be known, any or a list of stations",
+                                            printable(*name)));
     return {};
 }
 
@@ -69,12 +69,12 @@ std::vector<AddedStation> read_added_stations(TomlTable& root) {
         AddedStation station;
         const auto icao = table.text("icao");
         if (!icao) {
-            if (!table.has("icao")) table.complain("icao", "the station must be named");
+            if (!table.has("icao")) table.complain("icao", "must be given");
         } else if (!is_icao(*icao)) {
             table.complain("icao", no_station(*icao));
         } else if (std::ranges::any_of(all_stations(),
                                        [&](const Station& one) { return one.icao == *icao; })) {
-            table.complain("icao", fmt::format("{} stands in the station table already", *icao));
+            table.complain("icao", fmt::format("{} is already in the station table", *icao));
         } else if (std::ranges::any_of(
                        stations, [&](const AddedStation& one) { return one.icao == *icao; })) {
             table.complain("icao", fmt::format("{} is named twice", *icao));

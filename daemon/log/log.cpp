@@ -173,8 +173,9 @@ void log_held_back_until(SteadyTime::duration ahead) {
     for (const LineLimiter::HeldBack& held : all) {
         if (!spdlog::should_log(level_of(held.severity))) continue;
         write(held.severity, about_of(held),
-              fmt::format("{}{}{}: {} more of these in the last minute", name_of(held.event),
-                          held.subject.empty() ? "" : " ", held.subject, held.lines),
+              fmt::format("{}{}{}: {} more lines like this were not logged in the last minute",
+                          name_of(held.event), held.subject.empty() ? "" : " ", held.subject,
+                          held.lines),
               held.lines);
     }
 }

@@ -76,8 +76,8 @@ std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
     };
     for (const LoopConfig& loop : loops) {
         if (!loop.domain.empty() && !is_known(loop.domain, domains)) {
-            doubt(loop, fmt::format("domain '{}' is neither a known station nor a [[domain]]: it "
-                                    "waits for grids of that name",
+            doubt(loop, fmt::format("domain '{}' is neither a known station nor a [[domain]]; the "
+                                    "loop waits for grids of that name",
                                     loop.domain));
         }
         for (const std::string& output : loop.outputs) {
@@ -85,8 +85,9 @@ std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
             const auto directory = (path.has_filename() ? path : path.parent_path()).parent_path();
             std::error_code error;
             if (std::filesystem::is_directory(directory, error)) continue;
-            doubt(loop, fmt::format("{}: there is no directory {} (yet): it cannot be written",
-                                    output, directory.native()));
+            doubt(loop,
+                  fmt::format("{}: there is no directory {} (yet), so the loop cannot be written",
+                              output, directory.native()));
         }
     }
     return doubts;
@@ -98,7 +99,7 @@ Status check_loops(const std::vector<LoopConfig>& loops, const std::filesystem::
     if (program.empty()) program = find_program("stormcellar");
     if (program.empty()) {
         return fail(ErrorCode::not_found,
-                    "[[loop]] {}: no program stormcellar, neither beside stormcellard nor on PATH",
+                    "[[loop]] {}: there is no program stormcellar beside stormcellard or on PATH",
                     loops.front().name);
     }
     for (const LoopConfig& loop : loops) {

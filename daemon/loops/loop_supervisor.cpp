@@ -50,8 +50,8 @@ void LoopSupervisor::set(std::vector<LoopConfig> loops) {
     if (thread_.joinable()) return;
     try {
         thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error& error) {  // no thread could be started
-        log_error({Event::loop_failed}, "cannot keep loops: {}", error.what());
+    } catch (const std::system_error& error) {  // the system has no thread left
+        log_error({Event::loop_failed}, "cannot run loops: {}", error.what());
     }
 }
 
@@ -143,8 +143,7 @@ void LoopSupervisor::start_due(SteadyTime now) {
 void LoopSupervisor::start(Slot& slot, SteadyTime now) {
     const std::filesystem::path program = program_.empty() ? find_program("stormcellar") : program_;
     Result<Child> child = fail(ErrorCode::not_found,
-                               "no program stormcellar, neither beside "
-                               "stormcellard nor on PATH");
+                               "there is no program stormcellar beside stormcellard or on PATH");
     if (!program.empty()) {
         child = Child::start(program, arguments_of(slot.wanted.loop, cache_, ::getpid()));
     }
@@ -154,7 +153,7 @@ void LoopSupervisor::start(Slot& slot, SteadyTime now) {
         slot.state.last_problem = printable(child.error().message);
         delay(slot, now);
         log_error({.event = Event::loop_failed, .loop = slot.state.name},
-                  "loop {}: cannot be started: {}; again in {} s", slot.state.name,
+                  "loop {}: cannot be started: {}; trying again in {} s", slot.state.name,
                   slot.state.last_problem, Schedule::retry_delay(slot.failures).count());
         return;
     }
@@ -162,7 +161,7 @@ void LoopSupervisor::start(Slot& slot, SteadyTime now) {
     slot.child = std::move(*child);
     slot.state.is_running = true;
     log_info({.event = Event::loop_started, .loop = slot.state.name},
-             "loop {}: started, process {}", slot.state.name, slot.child->id());
+             "loop {}: started as process {}", slot.state.name, slot.child->id());
 }
 
 void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
@@ -193,7 +192,7 @@ void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
     slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");
     log_info({.event = Event::loop_made, .took_s = took_s, .loop = slot.state.name},
-             "loop {}: made of {} in {:.1f} s", slot.state.name,
+             "loop {}: made from {} in {:.1f} s", slot.state.name,
              counted(static_cast<std::uint64_t>(slot.state.frames), "frame"), took_s);
 }
 
@@ -211,8 +210,8 @@ void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now
     slot.kill_at.reset();
     slot.state.is_running = false;
     if (slot.is_leaving) {
-        log_info({.event = Event::loop_ended, .loop = slot.state.name}, "loop {}: ended",
-                 slot.state.name);
+        log_info({.event = Event::loop_ended, .loop = slot.state.name},
+                 "loop {}: ended as requested", slot.state.name);
         return;
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
@@ -222,8 +221,8 @@ void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now
     slot.state.last_problem =
         was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
     log_error({.event = Event::loop_failed, .loop = slot.state.name},
-              "loop {}: ended with {}; again in {} s", slot.state.name, slot.state.last_problem,
-              Schedule::retry_delay(slot.failures).count());
+              "loop {}: ended with {}; starting it again in {} s", slot.state.name,
+              slot.state.last_problem, Schedule::retry_delay(slot.failures).count());
 }
 
 void LoopSupervisor::delay(Slot& slot, SteadyTime now) {

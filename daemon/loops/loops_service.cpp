@@ -40,7 +40,7 @@ void LoopsService::request_stop() {
 void LoopsService::run() {
     publish("running");
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: keeping {} of {}",
+    log_info({Event::ready}, "ready: running {} on the cache {}",
              counted(config_.reloadable.loops.size(), "loop"),
              printable(config_.fixed.paths.cache.native()));
     keeper_.set(config_.reloadable.loops);
@@ -90,15 +90,16 @@ void LoopsService::reload() {
         const PathsConfig& used = config_.fixed.paths;
         if (asked.state != used.state || asked.cache != used.cache) {
             log_warning({Event::reload_ignored},
-                        "reload: [paths] cannot change while the service runs: restart it");
+                        "reload: restart the service for the change of [paths] to take effect");
         }
         config_.reloadable = fresh->reloadable;
         keeper_.set(config_.reloadable.loops);
         set_log_level(config_.reloadable.log_level);
-        log_info({Event::reloaded}, "reloaded: {}",
+        log_info({Event::reloaded}, "reloaded: the configuration now has {}",
                  counted(config_.reloadable.loops.size(), "loop"));
     } else {
-        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+        log_error({Event::reload_failed},
+                  "reload failed: {}; the service keeps its previous configuration",
                   printable(fresh.error().message));
     }
     parts_.notifier.send("READY=1");
@@ -114,7 +115,7 @@ void LoopsService::publish(const char* state) {
         write_file_atomically(parts_.file_system, path, std::as_bytes(std::span{text}));
     if (!written && !failing_) {
         log_error({.event = Event::status_unwritten, .file = path},
-                  "cannot write the status: {}: {}", printable(path.native()),
+                  "cannot write the status file {}: {}", printable(path.native()),
                   printable(written.error().message));
     }
     failing_ = !written;

@@ -39,7 +39,7 @@ tl::unexpected<Error> failed(int number, const std::string& what) {
     return fail(code, "{}: {}", what, std::generic_category().message(number));
 }
 
-// Both ends are closed in programs that are started.
+// The programs that are started get neither end.
 struct Pipe {
     std::array<int, 2> ends{-1, -1};
 

@@ -55,8 +55,8 @@ void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
     if (watchdog.is_due(now, oldest)) notifier.send("WATCHDOG=1");
     if (!watchdog.hangs_now(now, oldest)) return;
     log_error({Event::hang},
-              "hang: {} has been at one step for {} s; until it goes on, the watchdog "
-              "is not fed",
+              "hang: {} has been at one step for {} s; the watchdog is not fed until it goes on, "
+              "so systemd may restart the service",
               printable(oldest->who),
               std::chrono::duration_cast<std::chrono::seconds>(now - oldest->since).count());
 }

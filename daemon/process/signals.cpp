@@ -19,7 +19,7 @@ Result<Signals> Signals::open() {
         sigaddset(&set, signal);
     std::signal(SIGPIPE, SIG_IGN);
     if (::pthread_sigmask(SIG_BLOCK, &set, nullptr) != 0) {
-        return fail(ErrorCode::internal, "signals cannot be blocked");
+        return fail(ErrorCode::internal, "cannot block signals");
     }
     const int descriptor = ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
     if (descriptor < 0) {
@@ -48,7 +48,7 @@ bool take_signals(const Signals* signals, const std::function<void()>& reload) {
             reload();
             continue;
         }
-        log_info({Event::stopping}, "stopping: asked to by {}",
+        log_info({Event::stopping}, "stopping: received {}",
                  *signal == SIGTERM ? "SIGTERM" : "SIGINT");
         is_asked_to_end = true;
     }

@@ -1,4 +1,5 @@
-// daemon/process/wake_up.h -- an event that any thread can set and one thread polls for (eventfd).
+// daemon/process/wake_up.h -- an event that any thread can raise and one thread polls for
+// (eventfd).
 #pragma once
 
 namespace stormcellar::daemon {

@@ -94,7 +94,7 @@ class GrowingFiles {
 
   private:
     struct File {
-        FileStamp looked_at;  // incomplete: the stamp that was ingested
+        FileStamp looked_at;  // incomplete: the stamp of the file when it was read
         FileStamp last;
         SteadyTime since;       // when it was added
         SteadyTime changed_at;  // when `last` was first seen

@@ -188,7 +188,7 @@ void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
 }
 
 void Intake::entry_left_out(const std::filesystem::path& path, std::string_view kind) {
-    tell({ErrorCode::not_a_file, fmt::format("{}: is {}: left out", path.native(), kind)});
+    tell({ErrorCode::not_a_file, fmt::format("{}: is {}, so it is not read", path.native(), kind)});
 }
 
 void Intake::tell(Error problem) {

@@ -42,7 +42,7 @@ class Intake final : public WatchListener {
     // short of disk, memory or descriptors, it is tried for as long as that lasts.
     static constexpr int most_tries = 8;
 
-    // New times to wait and another number of workers.
+    // Sets new waiting times and another number of workers.
     void reload(const ReloadableConfig& config);
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -130,15 +130,15 @@ class Intake final : public WatchListener {
     // Volumes of which sweeps have closed: files, and keys of volumes in chunks
     // (pipeline/drop/chunk_path.h).
     std::unordered_set<std::string> going_on_;
-    bool refused_ = false;  // something did not fit since the last scan began
+    bool refused_ = false;  // something had no room since the last scan began
     bool lost_ = false;
     std::uint64_t overflows_ = 0, unseen_ = 0;
     std::optional<SteadyTime> look_again_at_;
     int looks_in_vain_ = 0;
     bool is_looking_again_ = false;  // the current scan is for that
     std::vector<Error> problems_;
-    SeenFiles told_;                     // problems, by their text
-    std::int64_t newest_closed_ns_ = 0;  // as jobs have it
+    SeenFiles told_;                     // problems that were reported, by their text
+    std::int64_t newest_closed_ns_ = 0;  // as in Job
 };
 
 }  // namespace stormcellar::daemon

@@ -73,7 +73,7 @@ class ReadyJobs {
     struct Turns {
         std::unordered_map<std::string, Station> stations;  // those with jobs
         std::map<std::uint64_t, std::string> turns;
-        int left = 0;  // in this round
+        int left = 0;  // turns in this round
     };
     enum class Class : std::size_t { going_on, fresh, found, others };
     static constexpr std::array<int, 4> turns_a_round = {8, 4, 1, 1};

@@ -13,7 +13,8 @@ constexpr std::chrono::milliseconds look_at_shares{50};
 
 void Schedule::merge(Job& into, const Job& job) {
     into.finish_as_is = into.finish_as_is && job.finish_as_is;
-    into.closed_at = std::max(into.closed_at, job.closed_at);  // none is less than any time
+    into.closed_at =
+        std::max(into.closed_at, job.closed_at);  // an empty optional is less than any time
     into.newest_ns = std::max(into.newest_ns, job.newest_ns);
     into.not_before = std::max(into.not_before, job.not_before);
     into.failures = std::max(into.failures, job.failures);

@@ -1,5 +1,5 @@
-// daemon/queue/sink.h -- what the service does with a file: one call, so that the service can be
-// tested without radar data. Thread contract: take() is called by several workers at once, never
+// daemon/queue/sink.h -- what the service does with a file, as an interface, so that the service
+// can be tested without radar data. Thread contract: several workers call take() at once, never
 // twice at a time for one path.
 #pragma once
 
@@ -18,24 +18,25 @@
 namespace stormcellar::daemon {
 
 struct Taken {
-    FileStamp stamp;  // of the file before it was read
+    FileStamp stamp;  // the file's stamp from before it was read
     pipeline::IngestOutcome ingest;
 };
 
-// How the catalog stands.
+// The state of the catalog.
 struct CatalogState {
-    // Databases that cannot be used now, and why; the station is empty for that of files without.
+    // Databases that cannot be used now, and why; for the database of files of no known station the
+    // station is empty.
     std::vector<std::pair<std::string, std::string>> troubles;
     std::string rule;                  // "known", "any" or "listed"
-    std::vector<std::string> further;  // stations that `any` admitted
+    std::vector<std::string> further;  // stations that `any` accepted
     std::size_t most_further = 0;
-    // Databases of stations that are not known, and the first names of them.
+    // How many databases of unknown stations there are, and the first names.
     std::size_t left_alone = 0;
     std::vector<std::string> some_left_alone;
     bool operator==(const CatalogState&) const = default;
 };
 
-// What a roll of the cache did, and what it holds now; no usage where the cache keeps no budget.
+// What a roll of the cache did, and what the cache holds now; no usage if the cache has no limits.
 struct CacheRolled {
     cache::RollReport report;
     std::optional<cache::StoreUsage> usage;
@@ -48,39 +49,41 @@ class Sink {
     Sink& operator=(const Sink&) = delete;
     virtual ~Sink() = default;
 
-    // An error is ours alone (catalog or cache cannot be written): the file is tried again later.
-    // After the last try it is rejected, with its reason, where that can be stored.
+    // An error is never the file's fault (the catalog or the cache cannot be written): the file is
+    // tried again later. After the last try the file is rejected with the reason, if that can be
+    // stored.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
-    // For one that has to wait: writes the file into the catalog as it is there, unread
-    // (stands), or marks its rows when it is gone (gone: there is nothing left to do). May run
-    // beside take() of other paths.
+    // For a file that must wait: writes it into the catalog unread (stands), or marks its rows if
+    // it is gone (gone; then nothing is left to do). May run beside take() of other paths.
     virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {
         return pipeline::Noted::stands;
     }
-    // Whether more waits than workers can soon take: what may be left out is left out.
+    // Tells whether more files wait than the workers can soon ingest; then optional work is left
+    // out.
     virtual void set_pressed(bool /*pressed*/) {}
-    // Called now and then by what may last long, from its own thread: it moves on.
+    // Functions that may take long call this from their own thread now and then, to show progress.
     using OnStep = std::function<void()>;
-    // Marks what is known and no longer there, as after a scan; gives how much. May run beside
+    // Marks known files that are no longer there, after a scan; returns how many. May run beside
     // take().
     virtual Result<int> mark_missing(const OnStep& step) = 0;
-    // Deletes what is known of files that are gone and were last registered before that time; gives
-    // how many. May run beside take().
+    // Deletes rows of files that are gone and were last registered before that time; returns how
+    // many. May run beside take().
     virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
-    // Deletes rows of files that are gone where they take more than they may; gives how many. May
-    // run beside take().
+    // Deletes rows of files that are gone if rows take more room than they may; returns how many.
+    // May run beside take().
     virtual Result<std::int64_t> roll_rows(const OnStep& /*step*/) { return 0; }
-    // How the catalog stands now. May be called beside the others.
+    // The state of the catalog now. May be called beside the other functions.
     [[nodiscard]] virtual CatalogState catalog_state() { return {}; }
-    // Keeps the cache within these budgets from now on. May run beside take(); one at a time.
+    // Keeps the cache within these limits from now on. May run beside take(); one call at a time.
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};
     }
-    // Whether catalog and cache can be written now; asked until it was so once.
+    // Fails if the catalog or the cache cannot be written now. Called until it succeeds once.
     [[nodiscard]] virtual Status can_store() { return {}; }
-    // What was found damaged and put right since the last call, one line each, fit for the log. The
-    // files of the drop directory must then be offered again. May be called beside the others.
+    // What was found damaged and mended since the last call, one line each, fit for the log. The
+    // files of the drop directory must then be offered again. May be called beside the other
+    // functions.
     virtual std::vector<std::string> take_repairs() { return {}; }
 };
 

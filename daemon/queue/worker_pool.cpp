@@ -86,7 +86,7 @@ Result<Taken> WorkerPool::take(const Job& job) {
     try {
         return work_(job);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::exhausted, "the system gives no memory for it");
+        return fail(ErrorCode::exhausted, "the system has no memory left for it");
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, "{}: {}", job.path.native(), error.what());
     }

@@ -38,7 +38,7 @@ class IngestSink final : public Sink {
     [[nodiscard]] Status can_store() override;
     std::vector<std::string> take_repairs() override;
 
-    // For the keeper of the cache, which works beside take().
+    // For the cache keeper, which works beside take().
     [[nodiscard]] catalog::CatalogWriter& catalog() { return catalog_; }
     [[nodiscard]] const cache::StoreReader& store() const { return store_; }
     [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }

@@ -1,8 +1,8 @@
 // daemon/service/scan_times.h -- when the drop directory is scanned.
 //
-// Scans take at most about a tenth of the time, however often something calls for one. A regular
-// scan comes every rescan_seconds; where changes come without events, polls come between them.
-// Thread contract: one thread.
+// Scans take at most about a tenth of the time, however often something asks for one. A regular
+// scan comes every rescan_seconds. If changes come without events, polls come between them. Thread
+// contract: one thread.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace stormcellar::daemon {
 
 class ScanTimes {
   public:
-    // `is_needed`: something calls for a scan, and waits only until the last one has been rested.
+    // `is_needed`: something asks for a scan, which comes as soon as the rest after the last one is
+    // over.
     [[nodiscard]] bool is_due(SteadyTime now, bool is_needed) const {
         return now >= next_ || (is_needed && now >= rested_);
     }
@@ -22,7 +23,7 @@ class ScanTimes {
     [[nodiscard]] SteadyTime next() const { return next_; }
     [[nodiscard]] SteadyTime rested() const { return rested_; }
 
-    // A scan began and ended then; the next one comes after `gap`.
+    // Tells when a scan began and ended; the next one comes after `gap`.
     void scanned(SteadyTime began, SteadyTime ended, SteadyTime::duration gap) {
         const SteadyTime::duration rest = rest_factor * (ended - began);
         rested_ = ended + std::max<SteadyTime::duration>(least_gap, rest);

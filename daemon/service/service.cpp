@@ -119,11 +119,11 @@ void Service::get_ready() {
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
+    log_info({Event::ready}, "ready: watching {} ({}) with {}; {} to look at",
              printable(fixed_.paths.drop.native()),
              counted(watcher_.directory_count(), "directory", "directories"),
-             counted(pending.waiting + pending.growing, "file"),
-             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"));
+             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"),
+             counted(pending.waiting + pending.growing, "file"));
 }
 
 void Service::turn() {
@@ -178,7 +178,8 @@ void Service::reload() {
     if (const Result<Config> fresh = load_config(config_file_)) {
         apply(*fresh);
     } else {
-        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+        log_error({Event::reload_failed},
+                  "reload failed: {}; the service keeps its previous configuration",
                   printable(fresh.error().message));
     }
     // A service that is not ready yet says so once it is.
@@ -196,7 +197,8 @@ void Service::apply(const Config& fresh) {
     intake_.reload(reloadable);
     scan_times_.no_later_than(parts_.clock.steady() + reloadable.rescan);
     set_log_level(reloadable.log_level);
-    log_info({Event::reloaded}, "reloaded: {}, quiet after {} s, log level {}",
+    log_info({Event::reloaded},
+             "reloaded: the configuration now has {}, quiet_seconds {} and log level {}",
              counted(static_cast<std::uint64_t>(reloadable.worker_count()), "worker"),
              std::chrono::duration<double>(reloadable.quiet).count(), reloadable.log_level);
 }
@@ -277,7 +279,7 @@ void Service::look_at_catalog(SteadyTime now) {
     if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
 }
 
-// What fails because of a database in trouble is named once, with the trouble.
+// Failures that come from a database in trouble are logged once, with the trouble.
 void Service::report(const Finished& finished) {
     if (!finished.taken) {
         catalog_trouble_.look_soon();
@@ -318,7 +320,8 @@ void Service::keep_house() {
         for (std::uint64_t i = 0; i < overflows; ++i)
             status_.count_overflow();
         log_warning({Event::overflow},
-                    "the kernel dropped events (fs.inotify.max_queued_events): scanning");
+                    "the kernel dropped file events because their queue was full "
+                    "(fs.inotify.max_queued_events); scanning the drop directory instead");
     }
     status_.count_unseen(intake_.take_unseen());
     look_for_troubles(now);
@@ -386,13 +389,15 @@ Stopped Service::stop() {
     const std::size_t left = intake_.pending().waiting;
     log_all_held_back();
     if (!drained) {
-        log_error({Event::stopped_with_jobs}, "stopped with files still being read after {} s",
-                  time_to_drain.count());
+        log_error(
+            {Event::stopped_with_jobs},
+            "stopped while files were still being read after {} s; the next start reads them again",
+            time_to_drain.count());
         return Stopped::with_jobs;
     }
     status_.set_state("stopped");
     publish(true);
-    log_info({Event::stopped}, "stopped: {} ingested, {} left for the next start",
+    log_info({Event::stopped}, "stopped: ingested {}, left {} for the next start",
              counted(status_.ingested(), "file"), left);
     return Stopped::cleanly;
 }

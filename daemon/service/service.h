@@ -53,17 +53,17 @@ struct ServiceParts {
     EventSource& events;
     Notifier& notifier;
     FileSystem& file_system;
-    const Signals* signals = nullptr;  // none: only request_stop() ends it
+    const Signals* signals = nullptr;  // null: only request_stop() ends the service
     Clock clock = real_clock();
-    bool runs_loops = true;        // false: another process does (daemon/loops/loops_service.h)
-    StatusBoard* board = nullptr;  // none: the status is in its file alone
-    StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
-    std::filesystem::path socket = {};  // where the status is answered, to be named in it
+    bool runs_loops = true;  // false: another process runs them (daemon/loops/loops_service.h)
+    StatusBoard* board = nullptr;       // null: the status is published only in its file
+    StateKeeper* state = nullptr;       // null: a state directory that is deleted is not made again
+    std::filesystem::path socket = {};  // where the status is served, to be named in the status
 };
 
 enum class Stopped {
     cleanly,
-    with_jobs,  // jobs did not end in time: the process must be ended without waiting for them
+    with_jobs,  // jobs did not end in time: end the process without waiting for them
 };
 
 class Service {

@@ -30,9 +30,10 @@ bool stands_in(const CatalogState& state, const std::string& station) {
 void log_troubles(const CatalogState& state, const CatalogState& known) {
     for (const auto& [station, reason] : state.troubles) {
         if (stands_in(known, station)) continue;
-        log_error({.event = Event::database_trouble, .station = station},
-                  "the database of {} cannot be used: {}; its files wait, all others go on",
-                  named(station), printable(reason));
+        log_error(
+            {.event = Event::database_trouble, .station = station},
+            "the database of {} cannot be used: {}; files that belong in it wait, all others go on",
+            named(station), printable(reason));
     }
     for (const auto& [station, reason] : known.troubles) {
         if (stands_in(state, station)) continue;
@@ -42,13 +43,14 @@ void log_troubles(const CatalogState& state, const CatalogState& known) {
 }
 
 void log_left_alone(const CatalogState& state) {
-    log_warning({Event::databases_left_alone},
-                "{} of stations of which no data are taken in ({}{}): left alone, and files of "
-                "these stations are cataloged among those of no known station; a [[station]] or "
-                "[ingest] stations takes them in, stormcellar catalog check --clear-unknown "
-                "removes them",
-                counted(state.left_alone, "database"), fmt::join(state.some_left_alone, ", "),
-                state.left_alone > state.some_left_alone.size() ? ", ..." : "");
+    log_warning(
+        {Event::databases_left_alone},
+        "{} of stations that [ingest] stations does not accept ({}{}): the service does not open "
+        "them, and catalogs files of these stations among those of no known station; to accept a "
+        "station, add a [[station]] or name it in [ingest] stations; to remove the databases, stop "
+        "the service and run stormcellar catalog check --clear-unknown",
+        counted(state.left_alone, "database"), fmt::join(state.some_left_alone, ", "),
+        state.left_alone > state.some_left_alone.size() ? ", ..." : "");
 }
 
 }  // namespace
@@ -57,10 +59,11 @@ void DropTrouble::scanned(const Status& scanned, const std::filesystem::path& dr
                           std::chrono::milliseconds rescan, StatusBook& status) {
     why_ = scanned ? std::string{} : scanned.error().message;
     if (!scanned && !is_lost_) {
-        log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
+        log_error({Event::drop_lost}, "cannot read the drop directory {}; looking again every {} s",
                   printable(why_), std::chrono::duration<double>(rescan).count());
     } else if (scanned && is_lost_) {
-        log_info({Event::drop_back}, "drop directory {} is back", printable(drop.native()));
+        log_info({Event::drop_back}, "the drop directory {} can be read again",
+                 printable(drop.native()));
     }
     is_lost_ = !scanned;
     status.set_drop_lost(printable(why_));
@@ -77,12 +80,14 @@ bool StateTrouble::look(SteadyTime now, StateKeeper& keeper, const std::filesyst
     const std::optional<Status> made = keeper.look();
     const bool is_made = made && *made;
     if (is_made) {
-        log_warning({Event::state_mended}, "state directory {} was deleted: it is made again",
+        log_warning({Event::state_mended},
+                    "state directory {} was deleted; the service made it again",
                     printable(state.native()));
     } else if (made && !is_lost_) {
-        log_error({Event::state_lost},
-                  "state directory {} was deleted, and cannot be made again: {}",
-                  printable(state.native()), printable((*made).error().message));
+        log_error(
+            {Event::state_lost},
+            "state directory {} was deleted and cannot be made again: {}; restart the service",
+            printable(state.native()), printable((*made).error().message));
     }
     is_lost_ = made && !*made;
     return is_made;
@@ -114,8 +119,8 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     if (wait >= behind_after) {
         if (!is_behind_ || now >= next_line_) {
             log_warning({Event::behind},
-                        "behind: {} waiting, one of them for {} s; of growing volumes only the low "
-                        "sweeps are gridded, whole volumes all",
+                        "behind: {} waiting, the oldest for {} s; until it catches up, the service "
+                        "grids complete volumes as usual, but only the low sweeps of growing ones",
                         counted(waiting, "file"),
                         std::chrono::duration_cast<std::chrono::seconds>(wait).count());
             next_line_ = now + std::chrono::minutes{1};
@@ -127,7 +132,8 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     }
 }
 
-// Loops that a service of its own keeps are in this one's metrics, as that one answers none.
+// The metrics of this service include loops that a service of its own runs, because that service
+// serves no metrics.
 bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
                        const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status) {
     if (now < next_) return false;
@@ -138,7 +144,7 @@ bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
             others.begin(), others.end(), [](const LoopState& loop) { return loop.is_running; });
         if (are_kept_twice && !are_kept_twice_) {
             log_warning({Event::loop_failed},
-                        "another process keeps the loops, too, and writes the same files: start "
+                        "another process runs the same loops and writes the same files; restart "
                         "this one with --no-loops");
         }
         are_kept_twice_ = are_kept_twice;

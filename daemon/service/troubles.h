@@ -1,9 +1,9 @@
-// daemon/service/troubles.h -- what can be wrong for a while: the log says so once when it begins
-// and once when it is over, the status as long as it lasts.
+// daemon/service/troubles.h -- troubles that may last for a while: the log reports each once when
+// it begins and once when it is over, the status as long as it lasts.
 //
-// Each class remembers whether its trouble stands in the log, and looks at most as often as its
-// source names: look() may be called at every turn of the service.
-// Thread contract: the service's thread.
+// Each class remembers whether the log has reported its trouble. look() may be called at every turn
+// of the service; each class limits how often it really looks. Thread contract: the service's
+// thread.
 #pragma once
 
 #include <chrono>
@@ -23,10 +23,10 @@ namespace stormcellar::daemon {
 // The drop directory cannot be read.
 class DropTrouble {
   public:
-    // What a scan of it gave; it is scanned again after `rescan`.
+    // Takes the result of a scan; the directory is scanned again after `rescan`.
     void scanned(const Status& scanned, const std::filesystem::path& drop,
                  std::chrono::milliseconds rescan, StatusBook& status);
-    // The trouble as an error; that of not having been looked at is none.
+    // The trouble as an error. It is no trouble if the directory was not scanned yet.
     [[nodiscard]] Status is_over() const;
 
   private:
@@ -34,10 +34,10 @@ class DropTrouble {
     std::string why_;
 };
 
-// The state directory was deleted, and cannot be made again.
+// The state directory was deleted and cannot be made again.
 class StateTrouble {
   public:
-    // True when it was made again: files that could not be stored meanwhile are tried again.
+    // Returns true if it was made again: files that could not be stored meanwhile are tried again.
     bool look(SteadyTime now, StateKeeper& keeper, const std::filesystem::path& state);
 
   private:
@@ -48,16 +48,16 @@ class StateTrouble {
 // A database that cannot be used.
 class CatalogTrouble {
   public:
-    // True when the status has news of it.
+    // Returns true if the status changed.
     bool look(SteadyTime now, Sink& sink, StatusBook& status);
-    // The next call of look() is not too early: a file could not be stored.
+    // Lets the next look() look at once, because a file could not be stored.
     void look_soon() { next_ = {}; }
 
   private:
     SteadyTime next_{};
 };
 
-// More comes than can be taken in. While it lasts the log says so once a minute.
+// More files come than the service can ingest. While that lasts the log says so once a minute.
 class BacklogTrouble {
   public:
     void look(SteadyTime now, const Intake& intake, StatusBook& status);
@@ -67,10 +67,10 @@ class BacklogTrouble {
     bool is_behind_ = false;
 };
 
-// Two processes keep the loops; or, where it is another one alone, what it says of them.
+// Two processes run the loops; or, if only another process runs them, what that process reports.
 class OthersLoops {
   public:
-    // `runs_loops`: this process keeps them. True when the status has news of them.
+    // `runs_loops`: this process runs them. Returns true if the status changed.
     bool look(SteadyTime now, const std::filesystem::path& state,
               const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status);
 

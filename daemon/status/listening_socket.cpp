@@ -60,9 +60,9 @@ Status make_way(const sockaddr_un& address) {
     const std::string path = static_cast<const char*>(address.sun_path);
     if (::lstat(path.c_str(), &found) != 0) return {};
     if (!S_ISSOCK(found.st_mode))
-        return fail(ErrorCode::io, "{}: something that is no socket stands there", path);
+        return fail(ErrorCode::io, "{}: exists and is not a socket", path);
     if (is_answered(address))
-        return fail(ErrorCode::busy, "{}: another program answers there", path);
+        return fail(ErrorCode::busy, "{}: another program uses this socket", path);
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) return system_error(path, errno);
     return {};
 }
@@ -94,8 +94,8 @@ Result<ListeningSocket> ListeningSocket::at_path(const std::filesystem::path& pa
     address.sun_family = AF_UNIX;
     const std::string& name = path.native();
     if (name.empty() || name.size() >= sizeof address.sun_path) {
-        return fail(ErrorCode::bad_argument, "{}: a socket's path has 1 to {} bytes", name,
-                    sizeof address.sun_path - 1);
+        return fail(ErrorCode::bad_argument, "{}: the path of a socket must have 1 to {} bytes",
+                    name, sizeof address.sun_path - 1);
     }
     std::memcpy(static_cast<char*>(address.sun_path), name.data(), name.size());
     if (const Status free = make_way(address); !free) return pass_on(free);

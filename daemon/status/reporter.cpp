@@ -33,12 +33,13 @@ std::string describe_gridded(const Finished& finished) {
     const IngestOutcome& outcome = finished.taken->ingest;
     const std::optional<double> latency = latency_of(finished);
     const double took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
-    return fmt::format("gridded {}{}: {}, read {:.0f} decode {:.0f} grid {:.0f} commit {:.0f} ms{}",
-                       outcome.partial ? "partial " : "", subject(finished),
-                       latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
-                               : fmt::format("{:.0f} ms", took_s * 1000),
-                       outcome.read_s * 1000, outcome.decode_s * 1000, outcome.grid_s * 1000,
-                       outcome.commit_s * 1000, because(outcome));
+    return fmt::format(
+        "gridded {}{}: {}; read {:.0f} ms, decode {:.0f} ms, grid {:.0f} ms, commit {:.0f} ms{}",
+        outcome.partial ? "partial " : "", subject(finished),
+        latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
+                : fmt::format("{:.0f} ms", took_s * 1000),
+        outcome.read_s * 1000, outcome.decode_s * 1000, outcome.grid_s * 1000,
+        outcome.commit_s * 1000, because(outcome));
 }
 
 // Returns true if sweeps have entered the grid of a volume that is still growing.
@@ -48,9 +49,9 @@ bool shows_living(const IngestOutcome& outcome) {
 
 std::string describe_living(const Finished& finished) {
     const std::optional<double> latency = latency_of(finished);
-    return fmt::format("sweep of {}: {}", subject(finished),
-                       latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
-                               : std::string{"close not seen"});
+    return fmt::format("sweep of {}: gridded{}", subject(finished),
+                       latency ? fmt::format(" {:.0f} ms after close", *latency * 1000)
+                               : std::string{"; the close of its file was not seen"});
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ std::string describe(const Finished& finished) {
         const std::string next =
             tries < Intake::most_tries || is_shortage(error.code)
                 ? fmt::format("trying again in {} s", Schedule::retry_delay(tries).count())
-                : fmt::format("given up after {} tries until the drop directory is scanned", tries);
+                : fmt::format("gave up after {} tries until the next scan of the drop directory",
+                              tries);
         return fmt::format("cannot store {}: {}; {}", printable(finished.job.path.native()),
                            printable(error.message), next);
     }
@@ -72,7 +74,7 @@ std::string describe(const Finished& finished) {
         case IngestResult::gridded:
             return describe_gridded(finished);
         case IngestResult::no_moment:
-            return fmt::format("nothing to grid {}{}", subject(finished), because(outcome));
+            return fmt::format("nothing to grid in {}{}", subject(finished), because(outcome));
         case IngestResult::no_position:
             return fmt::format("no position for {}{}", subject(finished), because(outcome));
         case IngestResult::other_station:
@@ -135,9 +137,10 @@ void Reporter::report(const Finished& finished, Named named) {
 
 void Reporter::report_directory(const Error& error) {
     const bool is_blind = error.code == ErrorCode::no_space || error.code == ErrorCode::unsupported;
-    log_warning({.event = Event::directory_problem, .reason = name_of(error.code)}, "{}{}",
-                printable(error.message),
-                is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
+    log_warning(
+        {.event = Event::directory_problem, .reason = name_of(error.code)}, "{}{}",
+        printable(error.message),
+        is_blind ? "; the service polls the drop directory instead ([watch] poll_seconds)" : "");
 }
 
 // In clear air nothing can be determined, and that is not worth a line every hour.
@@ -145,7 +148,7 @@ void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};
     log_line(pipeline::tells_anything(report.found) ? Severity::info : Severity::debug, compared,
-             fmt::format("sites of {} at {}: {}", printable(report.domain),
+             fmt::format("compared sites of {} at {}: {}", printable(report.domain),
                          format_utc(report.instant), pipeline::describe(report.found)));
     About faulty = compared;
     faulty.event = Event::site_fault;

@@ -39,8 +39,8 @@ struct MissingChunks {
 };
 
 struct StationState {
-    std::optional<UtcTime> volume_time;    // start of the newest volume that was gridded
-    std::optional<UtcTime> newest_radial;  // of the newest volume that was gridded
+    std::optional<UtcTime> volume_time;    // start of the newest gridded volume
+    std::optional<UtcTime> newest_radial;  // of the newest gridded volume
     std::optional<UtcTime> ingested_at;    // when a volume was last gridded
     std::optional<UtcTime> data_at;        // when a file or a part of one was last seen
     PerResult<std::uint64_t> results{};    // files

@@ -36,7 +36,7 @@ bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyT
     const Status written = write(book.json(pending, now_utc()));
     if (!written && !failing_) {
         log_error({.event = Event::status_unwritten, .file = path_},
-                  "cannot write the status: {}: {}", printable(path_.native()),
+                  "cannot write the status file {}: {}", printable(path_.native()),
                   printable(written.error().message));
     }
     failing_ = !written;

@@ -53,7 +53,8 @@ void warn_if_narrow(const std::string& name, mode_t mode) {
     constexpr mode_t group_may_ask = 0060;
     if ((mode & group_may_ask) == group_may_ask) return;
     log_warning({Event::status_unanswered},
-                "the umask keeps the group from asking for the status: {} has mode {:04o}",
+                "the umask keeps the group from reading the status: {} has mode {:04o}; start the "
+                "service with umask 0007",
                 printable(name), mode);
 }
 
@@ -135,14 +136,15 @@ void StatusServer::Worker::open(Address& address) {
         }
     }
     if (opened) {
-        log_info({Event::status_answered}, "the status is answered at {}", printable(address.name));
+        log_info({Event::status_answered}, "status and metrics can be read at {}",
+                 printable(address.name));
     } else if (!address.failing) {
         address.hopeless = opened.error().code == ErrorCode::bad_argument;
         log_line(
             address.may_lack ? Severity::debug : Severity::error,
             {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
             fmt::format(
-                "the status cannot be asked for: {}; {}", printable(opened.error().message),
+                "the status cannot be served: {}; {}", printable(opened.error().message),
                 address.hopeless ? "name another [status] socket and restart" : "trying again"));
     }
     address.failing = !opened;
@@ -153,7 +155,7 @@ std::string StatusServer::Worker::unanswered() const {
     for (const Address& address : addresses_) {
         if (address.may_lack || address.hopeless) continue;
         if (address.listener && address.problem.empty()) continue;
-        return fmt::format("the status cannot be asked for: {}", address.problem);
+        return fmt::format("the status cannot be served: {}", address.problem);
     }
     return {};
 }

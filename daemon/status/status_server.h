@@ -65,11 +65,12 @@ class StatusServer {
     class Worker;
     void run();
 
-    std::unique_ptr<Worker> worker_;  // of the thread
+    std::unique_ptr<Worker> worker_;  // used only by the thread
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
     mutable std::mutex unanswered_mutex_;
-    std::string unanswered_ = "the status is not answered yet";  // guarded by it; empty: all are
+    std::string unanswered_ =
+        "the status is not served yet";  // guarded by the mutex; empty: all are
     Pulse pulse_;
     std::thread thread_;  // the last member: it uses the members above
 };

@@ -52,7 +52,7 @@ std::string limit_named(std::string_view name) {
         least = value;
         least_name = sysctl;
     }
-    return least ? fmt::format("{} ({} now)", least_name, *least) : least_name;
+    return least ? fmt::format("{} (now {})", least_name, *least) : least_name;
 }
 
 class Inotify final : public EventSource {
@@ -68,7 +68,7 @@ class Inotify final : public EventSource {
         const std::filesystem::path named =
             directory.filename() == "." ? directory.parent_path() : directory;
         if (error_number == ENOSPC) {
-            return fail(ErrorCode::no_space, "{}: no inotify watches left; raise the sysctl {}",
+            return fail(ErrorCode::no_space, "{}: no inotify watch is left; raise the sysctl {}",
                         named.native(), limit_named("user_watches"));
         }
         return fail(code_of(error_number), "{}: {}", named.native(),
@@ -80,7 +80,7 @@ class Inotify final : public EventSource {
     std::optional<std::string> silence(const std::filesystem::path& directory) override {
         const auto name = silent_file_system_of(directory);
         if (!name) return std::nullopt;
-        return fmt::format("{}: lies on {}, where the kernel does not tell of all changes",
+        return fmt::format("{}: is on {}, where the kernel does not report every change",
                            directory.native(), *name);
     }
 

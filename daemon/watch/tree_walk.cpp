@@ -34,7 +34,7 @@ std::string reason_of(int error_number) {
 }
 
 std::string too_deep(const std::filesystem::path& path) {
-    return fmt::format("{}: more than {} directories deep, left out", path.native(),
+    return fmt::format("{}: is more than {} directories deep, so it is not read", path.native(),
                        max_walk_depth);
 }
 
@@ -51,7 +51,8 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     const DirectoryHandle directory = open_directory(parent, name);
     if (directory) {
         walk_entries(directory.get(), path, depth, visitor);
-    } else if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) {  // gone since: no problem
+    } else if (errno != ENOENT && errno != ENOTDIR &&
+               errno != ELOOP) {  // it went meanwhile: no problem
         const int error_number = errno;
         visitor.problem(fmt::format("{}: {}", path.native(), reason_of(error_number)));
         const bool is_for_now =
@@ -85,8 +86,8 @@ void walk_entry(int descriptor, const char* name, const std::filesystem::path& d
     }
     std::filesystem::path path = directory / name;
     if (path.native().size() >= most_path_bytes) {
-        problem.say(
-            fmt::format("holds paths of more than {} bytes, left out", most_path_bytes - 1));
+        problem.say(fmt::format("holds paths of more than {} bytes, which are not read",
+                                most_path_bytes - 1));
     } else if (S_ISREG(facts.st_mode)) {
         visitor.file(path, stamp_of(facts));
     } else if (S_ISDIR(facts.st_mode)) {

@@ -1,8 +1,8 @@
 #compdef stormcellard
 _arguments \
-  '--config[What to watch and how]:FILE:_files' \
+  '--config[Read the configuration from FILE]:FILE:_files' \
   '(--loops-only)--no-loops[Leave the loops to another stormcellard]' \
-  '(--no-loops)--loops-only[Keep the loops and do nothing else]' \
-  '--check-config[Say whether the configuration is right, and end]' \
-  '--version[Print the version and end]' \
-  '--help[Print the usage and end]'
+  '(--no-loops)--loops-only[Run the loops and do nothing else]' \
+  '--check-config[Check the configuration, and exit]' \
+  '--version[Print the version and exit]' \
+  '--help[Print the usage and exit]'

@@ -118,8 +118,7 @@ class CatalogedFiles {
 
   private:
     static Status is_unknown(const std::filesystem::path& path) {
-        return fail(ErrorCode::corrupt, "{}: has come since, the catalog does not know it",
-                    path.native());
+        return fail(ErrorCode::corrupt, "{}: came later and is not in the catalog", path.native());
     }
 
     const catalog::CatalogReader& catalog_;

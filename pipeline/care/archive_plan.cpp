@@ -36,7 +36,7 @@ std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
         } else {
             left_out.push_back(
                 {{},
-                 fmt::format("{}: neither its files nor the station table say where it stands",
+                 fmt::format("{}: neither its files nor the station table give its position",
                              icao)});
         }
     }
@@ -90,8 +90,8 @@ Status check_cache_directory(const fs::path& directory) {
         }
         if (is_domain) continue;
         return fail(ErrorCode::bad_argument,
-                    "--cache: {} is no cache: it holds {}, which is no grid's", directory.native(),
-                    name);
+                    "--cache: {} is not a cache: it holds {}, which is not a grid",
+                    directory.native(), name);
     }
     return {};
 }

@@ -1,5 +1,5 @@
-// pipeline/care/archive_plan.h -- what is to be made of an archive's raw files, and where it is
-// kept (pipeline/care/archive_fill.h makes it).
+// pipeline/care/archive_plan.h -- what to make from the raw files of an archive, and where to keep
+// it (pipeline/care/archive_fill.h makes it).
 //
 // Thread contract: each call works alone.
 #pragma once
@@ -26,25 +26,25 @@ struct ArchivePlan {
     std::vector<LeftOut> left_out;  // stations without a known position
 };
 
-// Where the stations stand, by their files or the station table. A station of which neither says so
-// is added to `left_out` with the reason.
+// The positions of the stations, from their files or the station table. A station without a
+// position is added to `left_out` with the reason.
 [[nodiscard]] std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
-// A directory below $XDG_CACHE_HOME, else ~/.cache, whose name says by a hash what determines the
-// plan's grids: catalog, stations, grid, moment, rules and the version of this software.
-// Errors: bad_argument where the environment names no such place.
+// A directory below $XDG_CACHE_HOME or else ~/.cache. Its name holds a hash of everything that
+// determines the plan's grids: catalog, stations, grid, moment, rules and the version of this
+// software. Errors: bad_argument if the environment names no such place.
 [[nodiscard]] Result<std::filesystem::path> private_cache(const std::filesystem::path& catalog,
                                                           level2::Moment moment,
                                                           const ArchivePlan& plan);
 
-// Grids must not be mixed with files of others, least of all with those of a drop directory. A
-// cache holds directories of domains, and these hold directories of moments. Errors: bad_argument
-// for a directory that holds anything else. One that does not exist is in order.
+// Grids must not be mixed with other files, least of all with those of a drop directory. A cache
+// holds directories of domains, and these hold directories of moments. Errors: bad_argument for a
+// directory that holds anything else. A directory that does not exist is fine.
 [[nodiscard]] Status check_cache_directory(const std::filesystem::path& directory);
 
-// The grids at these times, as far as they are there. Errors: those of StoreReader::list().
+// The grids at these times that are in the cache. Errors: those of StoreReader::list().
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_at(const cache::StoreReader& store,
                                                                 const std::string& domain,
                                                                 level2::Moment moment,

@@ -123,7 +123,7 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
     return MendedGrid{GridCondition::dropped,
                       found->error.message,
                       {},
-                      fmt::format("no {} of {} is configured any more",
+                      fmt::format("the configuration no longer has {} of {}",
                                   level2::moment_name(entry.moment), entry.domain)};
 }
 
@@ -149,7 +149,8 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     }
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
-    MendedGrid mended{GridCondition::dropped, damage.message, {}, "no raw file of it is left"};
+    MendedGrid mended{
+        GridCondition::dropped, damage.message, {}, "its raw file is gone or has changed"};
     if (!*raw) return mended;
     const auto outcome = make_from(**raw, station);
     if (!outcome && outcome.error().cause() == Cause::data) {
@@ -159,7 +160,7 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     if (!outcome) return pass_on(outcome);
     if (!holds(outcome->grids, entry.path) && !holds(outcome->partials, entry.path)) {
         mended.why_not = fmt::format(
-            "{} gives no such grid{}", (*raw)->native(),
+            "{} no longer gives this grid{}", (*raw)->native(),
             outcome->reason.empty() ? std::string{} : fmt::format(" ({})", outcome->reason));
         return mended;
     }
@@ -181,14 +182,14 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
         return mended;
     }
     // There is no such frame or no partial for it, or the partials contradict one another: another
-    // try makes none either.
+    // try would make none either.
     const bool never_made = !made && (made.error().code == ErrorCode::not_found ||
                                       made.error().code == ErrorCode::bad_argument);
     if (!made && !never_made) return pass_on(made);
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
     mended.condition = GridCondition::dropped;
-    mended.why_not = made ? "it is older than what the cache keeps" : made.error().message;
+    mended.why_not = made ? "it is older than all that the cache keeps" : made.error().message;
     if (!problems.empty()) mended.why_not += fmt::format(" (left out: {})", joined(problems));
     return mended;
 }

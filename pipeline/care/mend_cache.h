@@ -45,9 +45,9 @@ enum class GridCondition {
 };
 struct MendedGrid {
     GridCondition condition = GridCondition::sound;
-    std::string reason;   // what is wrong; begins with the path
+    std::string reason;   // what is wrong, with the path first
     std::string from;     // made_again: the raw file, or "the partials of KBGM, KOKX"
-    std::string why_not;  // dropped: why it is not made again
+    std::string why_not;  // dropped: why it was not made again
 };
 
 enum class MendDepth {

@@ -43,8 +43,8 @@ Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogE
         const auto row = catalog.find_file(entry.station, chunk.path);
         if (!row) return pass_on(row);
         if (!row->has_value()) {
-            volume.notes.push_back(
-                fmt::format("{}: is not in the catalog, and left out", chunk.path.native()));
+            volume.notes.push_back(fmt::format("{}: is left out because it is not in the catalog",
+                                               chunk.path.native()));
             continue;
         }
         if (chunk.name.number > due) {

@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
+// No chunk has a hundredth of this; a volume's worth of other data is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
-// Of chunks that are read in the name of another. What is left comes in its own name.
+// How many chunks one job reads beside its own. The others come with jobs of their own.
 constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
 constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
@@ -33,7 +33,8 @@ class ShelfDepot final : public level2::SweepDepot {
     }
     Result<level2::Sweep> get(std::uint64_t place) const override {
         auto sweep = shelf_.get(places_.at(place));
-        // Ours, whatever it is: the chunks are as they were.
+        // The files are not to blame for this error, whatever its code: the chunks have not
+        // changed.
         if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
         return sweep;
     }
@@ -43,7 +44,7 @@ class ShelfDepot final : public level2::SweepDepot {
     std::vector<SweepShelf::Place> places_;
 };
 
-// Null where there is no room for one.
+// Null if there is no room for a shelf.
 std::unique_ptr<ShelvedVolume> kept_volume_in(const fs::path& directory) {
     auto shelf = SweepShelf::make_in(directory);
     if (!shelf) return nullptr;
@@ -120,7 +121,7 @@ bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
            volume.refused_.size() - refused >= most_refused_at_once;
 }
 
-// `of` becomes the representative, whatever is added in its name.
+// `of` becomes the representative, whichever chunks are added with it.
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const InOneJob before{read_bytes_, refused_.size()};
     representative_ = of.path;
@@ -139,15 +140,15 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
         if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
     }
     representative_ = of.path;
-    former_representative_.clear();  // nobody was told to ask for it
+    former_representative_.clear();  // no job was told to poll it
     const auto now = level2::LiveVolume::Clock::now();
     if (!all && !fails_since_) fails_since_ = now;
-    // One bad sector must not keep the rest of the volume from everybody.
+    // One bad sector must not keep everybody from the rest of the volume.
     if (!all && now - *fails_since_ < longest_failing) return all;
     return {};
 }
 
-// What fails here comes in its own name.
+// A chunk that fails here comes again with its own job.
 void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     const auto now = level2::LiveVolume::Clock::now();
     const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;
@@ -185,7 +186,7 @@ fs::path ChunkVolume::first_file() const {
     return first->first;
 }
 
-// Sweeps are told apart by their cut, which no late chunk changes.
+// The cut identifies a sweep, because no late chunk changes it.
 void ChunkVolume::shelve(const level2::Sweep& sweep) {
     if (!kept_) return;
     const auto place = kept_->shelf->put(sweep);

@@ -1,8 +1,8 @@
 // pipeline/ingest/chunk_volume.h -- one volume that comes as one file a chunk.
 //
-// What is decoded lies on the shelf (pipeline/keep/sweep_shelf.h) until it is wanted.
-// Inside the pipeline room only. Thread contract: one thread at a time, which the lock of its
-// Guarded sees to (pipeline/ingest/chunk_volumes.h).
+// Decoded sweeps are shelved (pipeline/keep/sweep_shelf.h) until they are wanted. Inside the
+// pipeline room only. Thread contract: one thread at a time, which holds the lock of its Guarded
+// (pipeline/ingest/chunk_volumes.h).
 #pragma once
 
 #include <cstdint>
@@ -27,19 +27,20 @@ class ChunkVolume {
     ChunkVolume(const FollowedFile::Options& options, const level2::LiveOptions& live);
 
     enum class Added : std::uint8_t {
-        added,       // or was there
-        unfinished,  // nothing in it is whole yet
-        not_ours,    // no chunk of this volume, whatever its name says: to be taken by itself
+        added,       // or was already there
+        unfinished,  // no part of it is complete yet
+        not_ours,  // not a chunk of this volume, whatever its name says: ingest the file by itself
     };
-    // Reads the file unless it is known with this stamp. io, no_space: it cannot be read now, as
-    // when descriptors or memory run out, and is to be asked for again.
+    // Reads the file unless this stamp of it is known. Returns io or no_space if the file cannot be
+    // read now, for example for want of descriptors or memory; then poll again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
-    // The same, and with the first chunk all others that lie beside it. Errors as add(): some may
-    // be missing; for two minutes, then the volume goes without them.
+    // As add(). With the first chunk it adds all other chunks in the same directory. Errors as
+    // add(). Some chunks may be missing; the volume waits two minutes for them and then goes on
+    // without them.
     [[nodiscard]] Result<Added> add_with_siblings(const ChunkPath& chunk, const FileStamp& stamp);
 
-    // Where numbers are missing, those that lie beside this one, which came later: their own jobs
-    // may wait behind others for long. At most once a second.
+    // If numbers are missing, adds chunks of this volume that came later, because their own jobs
+    // may wait behind others for a long time. Does so at most once a second.
     void add_what_is_missing(const ChunkPath& of);
 
     // The representative is the one file that is polled on behalf of the volume when nothing has
@@ -50,13 +51,14 @@ class ChunkVolume {
     // Returns true if this file is the representative and held a whole chunk when it was read.
     [[nodiscard]] bool is_representative(const std::filesystem::path& path) const;
     void set_representative(const std::filesystem::path& path) { representative_ = path; }
-    // Returns the representative of before the last chunk was added; empty if there was none, and
-    // at the second call.
+    // Returns the representative from before the last chunk was added. It is empty if there was
+    // none, and at the second call.
     [[nodiscard]] std::filesystem::path take_former_representative() {
         return std::exchange(former_representative_, {});
     }
 
-    // Nothing more is added to a closed volume. Whoever meets one asks for a new one in its place.
+    // A closed volume accepts nothing more. A caller that meets one asks for a new volume in its
+    // place.
     void close() { is_closed_ = true; }
     [[nodiscard]] bool is_closed() const { return is_closed_; }
 
@@ -65,11 +67,11 @@ class ChunkVolume {
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
     [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
-    // Null where there is no room on the shelf.
+    // Null if the shelf has no room.
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
-    // Some of its sweeps have closed.
+    // Some of its sweeps are closed.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
-    // What it holds in memory, about, and on the shelf.
+    // How much it holds, roughly, in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {live_.held_bytes(), kept_ ? kept_->shelf->bytes() : 0, has_sweeps()};
     }
@@ -81,7 +83,7 @@ class ChunkVolume {
         bool is_whole = true;
     };
     [[nodiscard]] const std::map<std::filesystem::path, File>& files() const { return files_; }
-    // Of the lowest number that is whole; there must be one.
+    // The complete chunk with the lowest number; there must be one.
     [[nodiscard]] std::filesystem::path first_file() const;
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
@@ -89,7 +91,7 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    // What had been read when a job began.
+    // What had been read when the job began.
     struct InOneJob {
         std::uint64_t read_bytes = 0;
         std::size_t refused = 0;
@@ -101,7 +103,7 @@ class ChunkVolume {
     void shelve(const level2::Sweep& sweep);
     void shelve_new_sweeps();
 
-    bool is_loaded_ = false;  // what lies beside the first chunk was added
+    bool is_loaded_ = false;  // the chunks in the directory of the first chunk were added
     bool is_closed_ = false;
     level2::Moment moment_;
     std::filesystem::path beneath_;
@@ -110,7 +112,7 @@ class ChunkVolume {
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;
-    // What was read and is no chunk of this volume, as it was then.
+    // Files that were read and are not chunks of this volume, with their stamps.
     std::map<std::filesystem::path, FileStamp> refused_;
     std::filesystem::path representative_, former_representative_;
     UnshownSweeps news_;
@@ -118,8 +120,8 @@ class ChunkVolume {
     level2::LiveVolume::Clock::time_point next_catching_up_{};
 };
 
-// When the file came, by the clock of LiveVolume. A volume that is put together again after a
-// restart, or after it was given up for others, has waited since its files came.
+// When the file came, by the clock of LiveVolume. If a volume is joined again after a restart, or
+// after it was given up, it has waited since its files came.
 [[nodiscard]] level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp);
 
 }  // namespace stormcellar::pipeline

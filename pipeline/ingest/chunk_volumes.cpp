@@ -9,14 +9,14 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Of volumes that found no place. Beyond it all are forgotten.
+// For volumes that found no place. Beyond this all of them are forgotten.
 constexpr std::size_t most_representatives = 4096;
 
 }  // namespace
 
 bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
     const auto beside = chunks_beside(chunk, options_.beneath);
-    if (!beside) return true;  // whoever reads it says why
+    if (!beside) return true;  // reading the file reports why
     bool has_end = chunk.name.kind == level2::ChunkKind::end;
     auto newest = level2::LiveVolume::Clock::time_point::min();
     const auto look_at = [&](const ChunkPath& one) {
@@ -71,7 +71,8 @@ ChunkVolumes::Shared ChunkVolumes::find_known(const ChunkPath& chunk) const {
 bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                         const std::string& station) {
     const std::scoped_lock lock(mutex_);
-    // Forgotten meanwhile, as when it is read anew: that is nobody's fault.
+    // The volume was forgotten meanwhile, for example because it is read anew: that is nobody's
+    // fault.
     if (volumes_.find(chunk.key) != volume) return !volumes_.was_given_up(chunk.key);
     return volumes_.grew(chunk.key, volume.get(), station, growth);
 }

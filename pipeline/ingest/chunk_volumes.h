@@ -1,12 +1,12 @@
 // pipeline/ingest/chunk_volumes.h -- volumes that come as one file a chunk.
 //
-// Chunks of one volume are the files of a directory whose names differ in the chunk's number and
-// kind alone (stormcellar/level2/chunk_name.h). Whichever of them is met first, all that lie there
-// are read, so that nothing depends on what was seen before: after a restart, and when a late chunk
-// comes, the volume is put together again from the files. Bounded for each station and in all
-// (pipeline/ingest/followed.h). A volume that was given up, and one that found no place, is read
-// from its files when nothing more comes of it. Inside the pipeline room only. Thread contract: all
-// may be called by many threads.
+// The chunks of one volume are the files of a directory whose names differ only in the chunk's
+// number and kind (stormcellar/level2/chunk_name.h). Whichever chunk comes first, all that are in
+// its directory are read, so nothing depends on what was seen before: after a restart, and when a
+// late chunk comes, the volume is joined again from its files. The set is bounded for each station
+// and in all (pipeline/ingest/followed.h). A volume that was given up, or found no place, is read
+// from its files when no more chunks come. Inside the pipeline room only. Thread contract: many
+// threads may call all functions.
 #pragma once
 
 #include <cstddef>
@@ -32,29 +32,30 @@ class ChunkVolumes {
         : options_(std::move(options)), volumes_(limits) {}
 
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
-    // What is still to come of a volume, as far as its caller knows.
+    // What the caller knows of the rest of a volume.
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
-    // Made where it is not known. `station`: whose its path says that it is. Null where there is no
-    // place for it and more is expected, or where it was given up and is not over: it is to be
-    // asked for again when it is quiet. One that was given up is read once more when its end comes:
-    // should that not make it whole, it waits like the others.
+    // Finds the volume, or makes it. `station` is the station that its path names. Returns null if
+    // there is no place for the volume and more of it is expected, or if it was given up and has
+    // not ended; then poll again when no more chunks come. A volume that was given up is read once
+    // more when its end comes; if that does not complete it, it waits like the others.
     [[nodiscard]] Shared find(const ChunkPath& chunk, const std::string& station,
                               Expected expected = Expected::more);
-    // Whether a volume may be finished by what its files' names and times say, without reading
-    // them: its end is there, or nothing has come for the timeout.
+    // Returns true if the names and times of its files, without their contents, allow to finish the
+    // volume: its end is there, or nothing has come for the timeout.
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
-    // Of a volume that found no place: this chunk waits for it now, in the place of the one that is
+    // For a volume that found no place: this chunk now represents it, instead of the chunk that is
     // given (empty: none).
     [[nodiscard]] std::filesystem::path poll_for_place(const ChunkPath& chunk);
-    // Null where it is not.
+    // Null if the volume is not known.
     [[nodiscard]] Shared find_known(const ChunkPath& chunk) const;
-    // Counts what it takes now. False: that is more than its share, and it was given up.
+    // Counts what the volume holds now. Returns false if that exceeds its share; then the volume
+    // was given up.
     [[nodiscard]] bool grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                             const std::string& station);
     void forget(const ChunkPath& chunk);
-    void forget(const ChunkPath& chunk, const Shared& volume);  // if it is still this one
+    void forget(const ChunkPath& chunk, const Shared& volume);  // if it is still this volume
     [[nodiscard]] std::size_t count() const;
-    // How many were given up since the last call.
+    // How many volumes were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
@@ -63,7 +64,8 @@ class ChunkVolumes {
     FollowedFile::Options options_;
     mutable std::mutex mutex_;  // guards what follows
     Followed<std::string, Guarded<ChunkVolume>> volumes_;
-    std::map<std::string, std::filesystem::path> representatives_;  // of those that found no place
+    std::map<std::string, std::filesystem::path>
+        representatives_;  // of volumes that found no place
 };
 
 }  // namespace stormcellar::pipeline

@@ -1,15 +1,17 @@
-// pipeline/ingest/file_kind.h -- as what a file is taken in.
+// pipeline/ingest/file_kind.h -- which kind of file a path is.
 //
-// A path is classified once, from its name, its stamp, the catalog and what is remembered of files
-// that grow; of the contents at most the lengths of records are read. Nothing is changed by it.
-// What a handler reads may still show otherwise: a file that is named as a chunk and is none is
-// classified again without its name (kind_by_itself()), and a file that cannot be followed is
-// taken as a whole.
+// A path is classified once, from its name, its stamp, the catalog and what is remembered of
+// growing files. Of the contents only the lengths of records are read. Classification changes
+// nothing. A handler may find by reading that a file is of another kind: a file that has the name
+// of a chunk but is none is classified again without its name (kind_by_itself()), and a file that
+// cannot be followed is read as a whole.
 //   Gone, Forbidden, Settled   there is nothing to read
 //   Chunk                      one file of many that make a volume
-//   Growing                    a volume that is appended to, and decoded as it comes
-//   Whole                      everything else: a volume, an archive, or what is to be rejected
-// Inside the pipeline room only. Thread contract: functions, for different files by many threads.
+//   Growing                    a volume to which data are appended, decoded as they come
+//   Whole                      everything else: a volume, an archive, or a file that will be
+//   rejected
+// Inside the pipeline room only. Thread contract: functions; many threads may call them for
+// different files.
 #pragma once
 
 #include <filesystem>
@@ -26,25 +28,25 @@
 
 namespace stormcellar::pipeline {
 
-// When a volume is gridded that may not be whole: when all of it is there, also when nothing more
-// is to be waited for, or now.
+// When to grid a volume that may be incomplete: when all of it is there; also when no more is to be
+// expected; or now.
 enum class Finish { when_it_ends, when_quiet, as_it_is };
 
-// A file that is offered, and how.
+// A file that is offered to the ingestor, and how to treat it.
 struct OfferedFile {
     std::filesystem::path path;
     Finish finish = Finish::when_it_ends;
-    bool is_again = false;       // it was settled before, and is to be gridded once more
-    ReadCheck is_the_same = {};  // that of Ingestor::ingest_again(); empty: it is not asked
+    bool is_again = false;       // settled before, and to be gridded once more
+    ReadCheck is_the_same = {};  // the check of Ingestor::ingest_again(); empty: no check
 
-    // The file may be taken in although its volume has not ended.
+    // Returns true if the file may be ingested although its volume has not ended.
     [[nodiscard]] bool may_be_partial() const { return finish != Finish::when_it_ends; }
 };
 
 struct Gone {
-    std::optional<ChunkPath> chunk;  // where it was named as one
+    std::optional<ChunkPath> chunk;  // if its name is that of a chunk
 };
-struct Forbidden {  // it may not even be looked at: its directory has no permission
+struct Forbidden {  // its directory does not permit even to examine it
     Error why;
 };
 struct Settled {};
@@ -54,18 +56,18 @@ struct Chunk {
 };
 struct Growing {
     FileStamp stamp;
-    std::shared_ptr<FollowedFile> followed;  // null: it begins with this look
-    FollowedFile::Growing start;             // of one that begins
+    std::shared_ptr<FollowedFile> followed;  // null: following begins now
+    FollowedFile::Growing start;             // of a file whose following begins now
 };
 struct Whole {
     FileStamp stamp;
 };
 using FileKind = std::variant<Gone, Forbidden, Settled, Chunk, Growing, Whole>;
 
-// Errors: the catalog's, and what keeps the file from being looked at, but for its permission.
+// Errors: those of the catalog, and whatever prevents examining the file, except its permission.
 [[nodiscard]] Result<FileKind> kind_of(const IngestContext& context, const OfferedFile& file);
 
-// As what a file that is there is taken when its name is none of a chunk: Growing or Whole.
+// The kind of an existing file whose name is not that of a chunk: Growing or Whole.
 [[nodiscard]] FileKind kind_by_itself(const IngestContext& context, const OfferedFile& file,
                                       const FileStamp& stamp);
 

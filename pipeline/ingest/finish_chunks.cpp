@@ -22,7 +22,7 @@ FileFacts row_of(const std::filesystem::path& path, const ChunkVolume::File& fil
     return facts;
 }
 
-// Of the whole chunks beside the first.
+// The paths of the whole chunks except the first.
 std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::string& station) {
     const std::filesystem::path first = volume.first_file();
     std::vector<FileFacts> others;
@@ -31,7 +31,7 @@ std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::stri
     return others;
 }
 
-// Whether `check`, where there is one, lets every file pass.
+// Returns true if there is no `check`, or if every file passes it.
 Status check_all(const ReadCheck& check, const ChunkVolume& volume) {
     if (!check) return {};
     for (const auto& [path, file] : volume.files()) {
@@ -61,7 +61,7 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
-    // What was put aside cannot be read back, or there is no memory for it: the files are not to
+    // A shelved sweep cannot be read back, or there is no memory for it: the files are not to
     // blame, and are read again.
     if (!decoded && decoded.error().cause() == Cause::system) return pass_on(decoded);
     const auto settle_others = [&] {

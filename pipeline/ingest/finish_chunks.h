@@ -1,4 +1,4 @@
-// pipeline/ingest/finish_chunks.h -- a volume of chunks of which nothing more is waited for.
+// pipeline/ingest/finish_chunks.h -- finishes a volume of chunks that waits for nothing more.
 //
 // Inside the pipeline room only. Thread contract: the caller holds the volume's lock.
 #pragma once
@@ -13,10 +13,11 @@ namespace stormcellar::pipeline {
 // The station that the volume's data name, or else the chunk's path.
 [[nodiscard]] std::string station_of(const ChunkVolume& volume, const ChunkPath& chunk);
 
-// Decodes the volume as it is, grids it, and settles the rows of all its files: that of the first
-// chunk stands for the volume, those of the others say that they were taken in. `station`: as
-// station_of() gives it; `is_the_same`: that of Ingestor::ingest_again(). Adds to the outcome.
-// Errors: those of Ingestor::ingest(); then the files are to be read again.
+// Decodes the volume with the chunks that it has, grids it, and settles the rows of all its files:
+// the row of the first chunk describes the volume, and the other rows say that their chunks are
+// part of it. `station` is the result of station_of(), `is_the_same` the check of
+// Ingestor::ingest_again(). Adds to the outcome. Errors: those of Ingestor::ingest(); then the
+// files must be read again.
 [[nodiscard]] Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
                                                   const std::string& station,
                                                   const ReadCheck& is_the_same,

@@ -1,10 +1,10 @@
 // pipeline/ingest/followed.h -- the files or volumes that are followed as they grow, and which of
 // them were given up.
 //
-// What a GrowingSet gives up to stay within its bounds is remembered, so that it is not followed
-// again, only to be given up again. At most `most_remembered` are: beyond that all are forgotten,
-// and may be followed once more.
-// Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
+// A GrowingSet gives up files or volumes to stay within its bounds. This class remembers them, so
+// that they are not followed again only to be given up again. It remembers at most
+// `most_remembered`; beyond that it forgets all, and they may be followed once more. Inside the
+// pipeline room only. Thread contract: one thread at a time; the owner locks.
 #pragma once
 
 #include <chrono>
@@ -26,9 +26,9 @@ class Followed {
 
     explicit Followed(GrowingLimits limits) : things_(limits) {}
 
-    // Null where it is not followed.
+    // Null if it is not followed.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
-    // As GrowingSet::has_place(): idle things of the station may be given up for it.
+    // As GrowingSet::has_place(): idle files or volumes of the station may be given up for it.
     [[nodiscard]] bool make_place(const std::string& station) {
         const bool has_place = things_.has_place(station, Clock::now());
         remember_given_up();
@@ -37,7 +37,8 @@ class Followed {
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station) {
         things_.add(key, std::move(object), station, Clock::now());
     }
-    // Counts what it holds now. False: it was given up, or another stands in its place.
+    // Counts what it holds now. Returns false if it was given up, or another object is in its
+    // place.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth) {
         const bool stands = things_.grew(key, object, station, growth, Clock::now());
@@ -49,14 +50,14 @@ class Followed {
         things_.erase(key);
         remember(key);
     }
-    // As if it had never been followed, nor given up.
+    // Forgets it, as if it had never been followed or given up.
     void forget(const Key& key) {
         things_.erase(key);
         given_up_.erase(key);
     }
 
     [[nodiscard]] bool was_given_up(const Key& key) const { return given_up_.contains(key); }
-    // Of one that was given up: true once, for a second try.
+    // For one that was given up: returns true once, for a second try.
     [[nodiscard]] bool take_second_try(const Key& key) {
         const auto at = given_up_.find(key);
         return at != given_up_.end() && !std::exchange(at->second.had_second_try, true);

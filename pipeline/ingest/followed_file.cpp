@@ -178,17 +178,18 @@ Status FollowedFile::read_on(std::uint64_t size_bytes, const std::function<bool(
     const auto facts = file.facts();
     const std::uint64_t inode = facts ? facts->st_ino : 0;
     if (!facts || (read_bytes_ > 0 && inode != inode_) || size_bytes < read_bytes_) {
-        return fail(ErrorCode::corrupt, "{}: is not the file that it was", path_.native());
+        return fail(ErrorCode::corrupt, "{}: was replaced by another file", path_.native());
     }
     inode_ = inode;
     std::vector<std::byte> buffer(std::min<std::uint64_t>(stretch_bytes, size_bytes - read_bytes_));
     while (read_bytes_ < size_bytes) {
         const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), size_bytes - read_bytes_);
         const std::size_t got = file.read(read_bytes_, std::span{buffer}.first(wanted));
-        if (got == 0) return fail(ErrorCode::io, "{}: became shorter", path_.native());
+        if (got == 0)
+            return fail(ErrorCode::io, "{}: became shorter while it was read", path_.native());
         if (Status taken = take(std::span{buffer}.first(got)); !taken) return taken;
         if (may_read_on && !may_read_on()) {
-            return fail(ErrorCode::over_budget, "{}: holds more than its share of the memory",
+            return fail(ErrorCode::over_budget, "{}: needs more than its share of the memory",
                         path_.native());
         }
     }
@@ -247,7 +248,7 @@ Status FollowedFile::is_as_followed() const {
         done += got;
     }
     if (done != read_bytes_ || hash.value() != hash_.value()) {
-        return fail(ErrorCode::corrupt, "{}: is not the file that it was", path_.native());
+        return fail(ErrorCode::corrupt, "{}: was replaced by another file", path_.native());
     }
     return {};
 }
@@ -263,7 +264,7 @@ Result<level2::Decoded> FollowedFile::finish() {
     if (!decoded) return decoded;
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
-    // The last sweep may have closed only now.
+    // Only now may the last sweep have closed.
     for (std::size_t index = dropped_; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
         const auto place = kept_->shelf->put(sweep);

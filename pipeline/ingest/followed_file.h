@@ -1,11 +1,11 @@
-// pipeline/ingest/followed_file.h -- one file whose volume is still growing, decoded once.
+// pipeline/ingest/followed_file.h -- a file whose volume is still growing, decoded once.
 //
-// What has been appended since the last look is read and decoded; sweeps that have closed are put
-// aside (pipeline/keep/sweep_shelf.h), so that little is held. finish() gives what decoding the
-// whole file gives, of the moments that were selected, bit for bit; it reads the file once more to
-// see that it is still the one that was followed. Only files of LDM records are followed: others
-// are held whole anyway until their end. Errors mean that the file must be taken as a whole, and
-// are final. Inside the pipeline room only. Thread contract: one thread at a time.
+// Each look reads and decodes what was appended since the last one. Closed sweeps are shelved
+// (pipeline/keep/sweep_shelf.h), so that memory holds little. finish() gives the same volume, bit
+// for bit, as decoding the whole file, for the selected moments; it reads the file once more to
+// verify that it is still the file that was followed. Only files of LDM records are followed;
+// others must be held whole until their end anyway. An error is final and means that the file must
+// be read as a whole. Inside the pipeline room only. Thread contract: one thread at a time.
 #pragma once
 
 #include <chrono>
@@ -31,9 +31,9 @@ struct ShelvedVolume {
     level2::Volume facts;  // without sweeps
     std::string source_file;
     std::unique_ptr<SweepShelf> shelf;
-    // What tells the sweeps of this volume apart, rising in their order. In a file that grows it is
-    // the index in the volume. In a volume of chunks it is the number of the cut, because a chunk
-    // that comes late may change the indices, but never the cut.
+    // Identifies a sweep of this volume; keys rise in the order of the sweeps. In a growing file
+    // the key is the index in the volume. In a volume of chunks it is the number of the cut,
+    // because a late chunk may change the indices, but never the cut.
     using SweepKey = std::size_t;
     std::map<SweepKey, SweepShelf::Place> places;  // on the shelf
     struct Kept {
@@ -60,7 +60,7 @@ class FollowedFile {
         std::filesystem::path scratch;
         std::filesystem::path beneath = {};  // all files must be below it (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
-        // Of the sweep that is open, within one stretch that is read; 0: see
+        // The limit for the open sweep within one stretch that is read; 0: see
         // stormcellar/level2/decode.h.
         std::uint64_t open_sweep_limit_bytes = 0;
     };
@@ -81,8 +81,8 @@ class FollowedFile {
     static Result<std::unique_ptr<FollowedFile>> begin(const std::filesystem::path& path,
                                                        const Options& options);
 
-    // Reads and decodes up to this size. not_found when the file is gone. `may_read_on` is asked
-    // after each stretch, and ends the reading where it says no: that is over_budget.
+    // Reads and decodes up to this size. Errors: not_found if the file is gone. `may_read_on` is
+    // called after each stretch; if it returns false, reading ends with over_budget.
     [[nodiscard]] Status read_to(std::uint64_t size_bytes,
                                  const std::function<bool()>& may_read_on = {});
     // no read has failed
@@ -98,7 +98,7 @@ class FollowedFile {
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
-    // What it holds in memory, about, and on the shelf.
+    // How much it holds, roughly, in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {growing_.held_bytes(), kept_->shelf->bytes(), !kept_->places.empty()};
     }
@@ -128,9 +128,9 @@ class FollowedFile {
     bool is_whole_ = true;
 };
 
-// The sweeps of a volume that is still growing, and before them those of the site's last volume
-// whose elevation has not come again: within 0.2 degrees. None of these when it is more than 20
-// minutes older. Only sweeps with the moment.
+// The sweeps of a growing volume, and before them those sweeps of the site's last volume whose
+// elevation has not come again (within 0.2 degrees). The last volume's sweeps are left out if it is
+// more than 20 minutes older. Only sweeps with the moment count.
 [[nodiscard]] Result<level2::Volume> volume_for_living_grid(const ShelvedVolume& growing,
                                                             const ShelvedVolume* last,
                                                             std::size_t* standing = nullptr);

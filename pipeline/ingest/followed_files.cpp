@@ -49,7 +49,7 @@ void FollowedFiles::drop_last_beyond_limits() {
     std::uint64_t shelf = files_.shelf_bytes();
     for (const auto& [station, volume] : last_)
         shelf += volume->shelf->bytes();
-    // As many sites as there are files: names come from outside.
+    // There may be as many sites as files, because their names come from outside.
     while (!last_.empty() && (last_.size() > limits_.count || shelf > limits_.shelf_bytes)) {
         const auto oldest =
             std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
@@ -72,7 +72,7 @@ void FollowedFiles::forget(const std::filesystem::path& path) {
 
 void FollowedFiles::keep_last(std::shared_ptr<const ShelvedVolume> volume) {
     if (!volume || volume->facts.station.empty()) return;
-    // Nothing would take the place of what claims to be of the future.
+    // Otherwise nothing would ever replace a volume that claims to be from the future.
     if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
     const std::scoped_lock lock(mutex_);
     auto& last = last_[volume->facts.station];

@@ -1,11 +1,11 @@
-// pipeline/ingest/followed_files.h -- the files that are being followed while they grow, and what
-// the sites' last volumes left for the next ones.
+// pipeline/ingest/followed_files.h -- the files that are followed while they grow, and the standing
+// sweeps that the sites' last volumes leave for the next ones.
 //
-// Bounded for each station and in all (pipeline/ingest/followed.h). The sites' last volumes give
-// way first where the disk is concerned, the oldest first: living grids then have less that stands.
-// A file that was given up is not followed again, and is read whole when its volume has ended.
-// Nothing of this outlives the process. Inside the pipeline room only. Thread contract: all may be
-// called by many threads; a file is worked on by one at a time.
+// The set is bounded for each station and in all (pipeline/ingest/followed.h). If the disk is
+// short, the last volumes of the sites give way first, the oldest first; living grids then have
+// fewer standing sweeps. A file that was given up is not followed again; it is read whole when its
+// volume has ended. Nothing of this outlives the process. Inside the pipeline room only. Thread
+// contract: many threads may call all functions; one thread at a time works on a file.
 #pragma once
 
 #include <cstdint>
@@ -28,20 +28,20 @@ class FollowedFiles {
 
     // Returns null if the file is not followed.
     [[nodiscard]] std::shared_ptr<FollowedFile> find(const std::filesystem::path& path) const;
-    // `station`: whose the file says that it is. Null where it cannot be followed: there is no
-    // place for it, no descriptor, no room, or it was given up before.
+    // `station` is the station that the file names. Returns null if the file cannot be followed:
+    // there is no place, descriptor or room for it, or it was given up before.
     [[nodiscard]] std::shared_ptr<FollowedFile> begin(const std::filesystem::path& path,
                                                       const std::string& fallback_station,
                                                       const std::string& station);
-    // So much more of the file was read: counts what it takes now. False: it was given up, and is
-    // not to be read on.
+    // Tells the set that this much more of the file was read, and counts what it holds now. Returns
+    // false if the file was given up; then it must not be read on.
     [[nodiscard]] bool grew(const std::filesystem::path& path, const FollowedFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
     // It holds more than its share, and must not be followed again.
     void give_up(const std::filesystem::path& path);
 
-    // The volume has ended.
+    // Call it when the volume has ended.
     void keep_last(std::shared_ptr<const ShelvedVolume> volume);
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;

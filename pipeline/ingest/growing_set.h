@@ -34,7 +34,7 @@
 namespace stormcellar::pipeline {
 
 struct GrowingLimits {
-    std::size_t count = 320;  // each has a descriptor
+    std::size_t count = 320;  // each holds a descriptor
     std::uint64_t held_bytes = std::uint64_t{192} << 20;
     std::uint64_t beginnings_held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
@@ -54,7 +54,7 @@ struct GrowingLimits {
     }
 };
 
-// What a thing holds, and what has come of it.
+// What a member holds, and what has come of it.
 struct Growth {
     std::uint64_t held_bytes = 0, shelf_bytes = 0;
     bool has_sweeps = false;  // sweeps have closed

@@ -1,7 +1,7 @@
-// pipeline/ingest/guarded.h -- a value that can be reached only by whoever holds its lock.
+// pipeline/ingest/guarded.h -- a value that only the holder of its lock can reach.
 //
-// Inside the pipeline room only. Thread contract: lock() by any thread; the value by the holder of
-// the Locked, which must not outlive the Guarded.
+// Inside the pipeline room only. Thread contract: any thread may call lock(); the holder of the
+// Locked uses the value. A Locked must not outlive its Guarded.
 #pragma once
 
 #include <mutex>
@@ -19,7 +19,8 @@ class Guarded {
       public:
         [[nodiscard]] T* operator->() const { return value_; }
         [[nodiscard]] T& operator*() const { return *value_; }
-        // Before the end of its scope; the value cannot be reached through it any more.
+        // Unlocks before the end of the scope; the value can then no longer be reached through this
+        // object.
         void unlock() {
             value_ = nullptr;
             lock_.unlock();

@@ -1,10 +1,10 @@
-// pipeline/ingest/handlers.h -- how a file of each kind (pipeline/ingest/file_kind.h) is taken in.
+// pipeline/ingest/handlers.h -- how to ingest a file of each kind (pipeline/ingest/file_kind.h).
 //
-// One class a kind, made for one file and used once: take() gives what became of the file.
-// Errors are those of Ingestor::ingest(). A handler that finds out by reading that the file is of
-// another kind hands it to that kind's handler, with an outcome that begins anew.
-// Inside the pipeline room only. Thread contract: an object by one thread; the context and the file
-// must outlive it.
+// There is one class for each kind. An object is made for one file and used once; take() returns
+// the outcome for the file. Errors are those of Ingestor::ingest(). If a handler finds by reading
+// that the file is of another kind, it passes the file to that kind's handler, with a new outcome.
+// Inside the pipeline room only. Thread contract: one thread uses an object; the context and the
+// file must outlive it.
 #pragma once
 
 #include <chrono>
@@ -22,13 +22,13 @@
 
 namespace stormcellar::pipeline {
 
-// As what it is.
+// Ingests the file with the handler of its kind.
 [[nodiscard]] Result<IngestOutcome> take(IngestContext& context, const OfferedFile& file,
                                          const FileKind& kind);
 
-// A file that is gone: its rows say so. Where a volume of chunks waits in its name, what was in it
-// has been decoded: the volume goes on in its name until it is due, as others that come later may
-// still make it whole.
+// A file that is gone: its rows become gone. If the file represents a volume of chunks, its own
+// data are decoded already. The volume is still polled under its name until the volume is due,
+// because later chunks may still complete it.
 class TakeGone {
   public:
     TakeGone(IngestContext& context, const OfferedFile& file) : context_(context), file_(file) {}
@@ -36,7 +36,7 @@ class TakeGone {
 
   private:
     static constexpr std::string_view deleted_text =
-        "the file that waited for its volume was deleted";
+        "the chunk that represented the volume was deleted";
     Result<IngestOutcome> finish(const ChunkPath& chunk, const ChunkVolumes::Shared& shared,
                                  ChunkVolume& volume);
 
@@ -44,7 +44,7 @@ class TakeGone {
     const OfferedFile& file_;
 };
 
-// One chunk of a volume: it is added to the volume, which is gridded when it is whole or due.
+// A chunk: it is added to its volume, which is gridded when it is complete or due.
 class TakeChunk {
   public:
     TakeChunk(IngestContext& context, const OfferedFile& file, const Chunk& chunk)
@@ -68,7 +68,7 @@ class TakeChunk {
     IngestOutcome outcome_;
 };
 
-// A file that grows: what has been appended is decoded, and the rest when its volume has ended.
+// A growing file: the handler decodes what was appended, and the rest when the volume has ended.
 class TakeGrowing {
   public:
     TakeGrowing(IngestContext& context, const OfferedFile& file, const Growing& growing);
@@ -86,7 +86,7 @@ class TakeGrowing {
     const Growing& growing_;
     std::shared_ptr<FollowedFile> followed_;
     catalog::FileFacts facts_;
-    std::string station_;  // whose the file says that it is, where its data are taken in
+    std::string station_;  // the station that the file names, if its data are accepted
     IngestOutcome outcome_;
 };
 
@@ -112,12 +112,12 @@ class TakeWhole {
     IngestOutcome outcome_;
 };
 
-// A tar or zip archive: each member is taken in as a file, "ARCHIVE!MEMBER".
+// A tar or zip archive: each member is ingested as a file named "ARCHIVE!MEMBER".
 class TakeArchive {
   public:
     TakeArchive(IngestContext& context, const OfferedFile& file, OpenArchive open)
         : context_(context), file_(file), open_(std::move(open)) {}
-    // The archive at the path, where it stands or opened anew; none: it is no archive.
+    // The archive at the path, already open or opened anew; none if the file is not an archive.
     [[nodiscard]] static std::optional<OpenArchive> open(IngestContext& context,
                                                          const std::filesystem::path& path,
                                                          const FileStamp& stamp);
@@ -134,7 +134,7 @@ class TakeArchive {
     IngestOutcome outcome_;
 };
 
-// One member of an archive that was settled before, once more.
+// Ingests again one member of an archive that was settled before.
 [[nodiscard]] Result<IngestOutcome> take_member_again(IngestContext& context,
                                                       const MemberName& name,
                                                       const FileStamp& archive_stamp,

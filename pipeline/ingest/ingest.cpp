@@ -15,7 +15,7 @@ struct Ingestor::Impl {
 
     [[nodiscard]] Finish finish_of(bool finish_as_is) const {
         if (!finish_as_is) return Finish::when_it_ends;
-        // Nobody who has nowhere to put things aside comes again when it has been quiet.
+        // Without a shelf, nobody offers the volume again when it has been quiet.
         return context.options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
     }
     Result<IngestOutcome> ingest(const fs::path& path, bool finish_as_is);
@@ -25,7 +25,7 @@ struct Ingestor::Impl {
 
 namespace {
 
-// Takes in one file, by its kind.
+// Ingests one file with the handler of its kind.
 struct Taker {
     IngestContext& context;
     const OfferedFile& file;
@@ -84,14 +84,15 @@ Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_a
     return take(context, file, *kind);
 }
 
-// It was tried often enough. After a restart the cause may be gone, so its stamp settles nothing.
+// The file was tried often enough. After a restart the cause may be gone, so its stamp settles
+// nothing.
 Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error& why) {
     const auto stamp = stamp_of(path, context.options.beneath);
     if (context.living) context.living->forget(path);
     auto rejected =
         context.reject_unread(path, {why.code, "given up: " + without_path(why.message, path)},
                               stamp ? stamp->size_bytes : 0);
-    // What failed, and not what failed while that was stored.
+    // Return the first error, not that of storing the rejection.
     return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
 
@@ -110,7 +111,7 @@ Result<Noted> Ingestor::note(const fs::path& path) {
         if (Status marked = context.mark_gone(path); !marked) return pass_on(marked);
         return impl_->is_waited_for(path) ? Noted::stands : Noted::gone;
     }
-    if (!stamp || !stamp->regular) return Noted::stands;  // refused when it is taken in
+    if (!stamp || !stamp->regular) return Noted::stands;  // ingesting it will reject it
     const Status noted = context.note_seen(facts_unread(path, *stamp, station_of_path(path)));
     if (!noted) return pass_on(noted);
     return Noted::stands;

@@ -1,14 +1,14 @@
 // pipeline/ingest/ingest.h -- one raw file -> catalog -> grid in the cache.
 //
-// Shared by the daemon and the CLI. Never changes the raw file. A file that cannot be decoded is
-// recorded as rejected with its reason; that is a result, not an error.
-// A grid in the cache is replaced by one of a whole volume or of a newer file, never by one of a
-// part of it or of an older file. A volume that the cache's budgets would not keep is not gridded.
-// Errors are never of the data: the catalog or the cache cannot be written, the system gives no
-// memory or descriptors. Trying again later may help. With the last try whatever is no shortage of
-// the system (is_shortage()) is recorded as a rejection with its reason; where not even that can be
-// stored, the error comes out all the same.
-// Thread contract: an Ingestor may be used by many threads at once, for different files.
+// The daemon and the CLI share it. It never changes the raw file. A file that cannot be decoded is
+// recorded as rejected, with the reason; that is a result, not an error. A grid in the cache is
+// replaced by the grid of a complete volume or of a newer file, never by that of an incomplete
+// volume or an older file. A volume that the limits of the cache would not keep is not gridded. The
+// data never cause an error. An error means that the catalog or the cache cannot be written, or
+// that the system gives no memory or descriptors; trying again later may help. At the last try
+// every failure except a shortage of the system (is_shortage()) is recorded as a rejection with its
+// reason; if not even that can be stored, the error is returned. Thread contract: many threads may
+// use an Ingestor at once, for different files.
 #pragma once
 
 #include <filesystem>
@@ -39,8 +39,9 @@ class Ingestor {
     // finish_as_is: grids a volume that has not ended (the file was quiet for long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_as_is,
                                  Tries tries = Tries::more_follow);
-    // Writes a file into the catalog as seen, unread, unless it stands there (stands), or marks
-    // its rows when it is gone (gone; stands where a volume of chunks waits in its name).
+    // Writes a file into the catalog as seen, without reading it, unless it has a row (then the
+    // result is `stands`). If the file is gone, marks its rows as gone. The result is then `gone`,
+    // or `stands` if the file represents a volume of chunks.
     Result<Noted> note(const std::filesystem::path& path);
     // Does the same as ingest() for a file that was settled before: its volumes are gridded again
     // as they are. If `is_the_same` fails for the bytes read, nothing is done and its error is

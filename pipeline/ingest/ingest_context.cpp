@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// Nearly all of a volume of chunks lies on the shelf.
+// Nearly all of a volume of chunks is on the shelf.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
-// All that anything is made of.
+// All moments of which something is made.
 std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     std::vector<level2::Moment> moments = {options.moment};
     for (const Domain& domain : options.domains)

@@ -1,8 +1,8 @@
 // pipeline/ingest/ingest_context.h -- what the handlers of all kinds of files share: where they
-// write, what they remember of files that grow, and how rows of the catalog are written.
+// write, what they remember of growing files, and how they write rows of the catalog.
 //
-// Inside the pipeline room only. Thread contract: that of Ingestor; all functions may be called by
-// many threads, for different files.
+// Inside the pipeline room only. Thread contract: that of Ingestor; many threads may call all
+// functions, for different files.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@
 namespace stormcellar::pipeline {
 
 struct IngestContext {
-    // `store` is null where files are only registered.
+    // If `store` is null, files are only registered.
     IngestContext(catalog::CatalogWriter& catalog, cache::StoreWriter* store,
                   IngestOptions options);
 
@@ -34,38 +34,39 @@ struct IngestContext {
     cache::StoreWriter* store;
     const IngestOptions options;
     MosaicMaker mosaics;
-    std::optional<SiteGrids> site_grids;  // where there is a store
-    std::optional<FollowedFiles> living;  // where volumes are gridded while they grow
+    std::optional<SiteGrids> site_grids;  // if there is a store
+    std::optional<FollowedFiles> living;  // if volumes are gridded while they grow
     ChunkVolumes chunks;
     OpenArchives archives;
-    std::atomic<int> running{0};  // files that are taken in at this moment
+    std::atomic<int> running{0};  // files that are being ingested at this moment
 
-    // One file's part of the threads.
+    // How many threads one file may use.
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
     [[nodiscard]] level2::DecodeOptions decode_options_for(const std::string& station) const;
 
-    // The station itself where its data are taken in, else empty.
+    // The station itself if its data are accepted, otherwise empty.
     [[nodiscard]] std::string taken_station(const std::string& station) const;
-    // Whole data of this station have come: the rule may admit a new name.
+    // Tells that complete data of this station have come: the rule may then accept a new name.
     void admit(const std::string& station) const;
 
-    // Into the catalog, among those of no known station where the file's is not taken in.
+    // Writes the row; the row is among those of no known station if the file's station is not
+    // accepted.
     Status record(catalog::FileFacts facts);
-    // The file as rejected: gives the outcome, or the error where that cannot be stored.
+    // Records the file as rejected. Returns the outcome, or the error if that cannot be stored.
     Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
-    // Rejects a file that was not looked at, with a stamp that settles nothing: it is tried when it
-    // is offered again. `size_bytes`: 0 where it is not known.
+    // Rejects a file that was not examined, with a stamp that settles nothing: it is tried again
+    // when it is offered again. `size_bytes` is 0 if it is not known.
     Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why,
                                         std::uint64_t size_bytes = 0);
-    // The file is incomplete: its row says that it is there, and no more.
+    // Records only that the file is there; it is incomplete.
     Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
-    // The same without an outcome. What is known stays as it is.
+    // The same without an outcome. An existing row stays as it is.
     Status note_seen(catalog::FileFacts facts);
-    // Marks the rows of a file that is gone, and follows it no more.
+    // Marks the rows of a file that is gone, and stops following it.
     Status mark_gone(const std::filesystem::path& path);
 };
 
-// Counts a file in while it is taken in.
+// Counts a file while it is being ingested.
 class Running {
   public:
     explicit Running(IngestContext& context) : count_(context.running) { ++count_; }
@@ -77,12 +78,12 @@ class Running {
     std::atomic<int>& count_;
 };
 
-// Of a file that was not decoded: its path and stamp, and this station.
+// The facts of a file that was not decoded: its path and stamp, and this station.
 [[nodiscard]] catalog::FileFacts facts_unread(const std::filesystem::path& path,
                                               const FileStamp& stamp, std::string station);
-// The station that the file's name gives, or for a chunk that of its directories.
+// The station that the file's name gives, or for a chunk the names of its directories.
 [[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
-// The reason without the path that begins it: the catalog has the path beside it.
+// The reason without the path at its beginning, because the catalog has the path beside it.
 [[nodiscard]] std::string without_path(const std::string& message,
                                        const std::filesystem::path& path);
 

@@ -1,7 +1,7 @@
-// pipeline/ingest/open_archives.h -- archives whose members are taken in by turns.
+// pipeline/ingest/open_archives.h -- archives whose members are ingested in turns.
 //
-// Inside the pipeline room only. Thread contract: OpenArchives by any thread; an OpenArchive by
-// one.
+// Inside the pipeline room only. Thread contract: any thread uses OpenArchives; one thread uses an
+// OpenArchive.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,21 @@
 
 namespace stormcellar::pipeline {
 
-// An archive whose members are taken in one after the other, and how far that has come.
+// An archive whose members are ingested one after the other, and how far that has come.
 struct OpenArchive {
     std::filesystem::path path;
     FileStamp stamp;
     Descriptor file;
     archive::ArchiveReader reader;
     std::size_t taken = 0, rejected = 0;
-    std::size_t known = 0;  // to the catalog, from an earlier time
+    std::size_t known = 0;  // members that the catalog knows from an earlier time
 };
 
 // The archives that wait for their next turn. A few of them stay open; the others are opened again
-// and gone through from their beginning.
+// and read from their beginning.
 class OpenArchives {
   public:
-    // None where it is not open, or has changed since.
+    // None if the archive is not open, or has changed since.
     [[nodiscard]] std::optional<OpenArchive> take(const std::filesystem::path& path,
                                                   const FileStamp& stamp);
     void keep(OpenArchive archive);
@@ -39,7 +39,8 @@ class OpenArchives {
     static constexpr std::size_t most_open = 4;
 
     std::mutex mutex_;
-    std::vector<OpenArchive> open_;  // the one that has waited longest first; guarded by mutex_
+    std::vector<OpenArchive>
+        open_;  // the one that has waited longest comes first; guarded by mutex_
 };
 
 }  // namespace stormcellar::pipeline

@@ -8,11 +8,13 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
                          const std::string& file, std::int64_t modified_ns,
                          IngestOutcome& outcome) {
     const IngestOptions& options = context.options;
-    // A grid is named by the start in the header: without it, it would stay beside the whole one.
+    // A grid has the name of the start in the header: without it, the living grid would stay beside
+    // that of the whole volume.
     if (!kept.facts.header) return false;
     const std::string station = context.taken_station(kept.facts.station);
     if (!context.living || !options.own_grids || station.empty()) return false;
-    // With the next sweep, or when the volume has ended. Low sweeps are what is looked at first.
+    // The sweeps are shown with the next sweep, or when the volume has ended. Users look at low
+    // sweeps first.
     if (!news.low && options.living.has_time && !options.living.has_time()) {
         outcome.living_left_out = true;
         return false;
@@ -20,7 +22,8 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
     const auto last = context.living->last_of(kept.facts.station);
     std::size_t standing = 0;
     const auto volume = volume_for_living_grid(kept, last.get(), &standing);
-    // Its grid would be named by another time than the whole volume's, and stay beside it.
+    // Its grid would have another time in its name than that of the whole volume, and stay beside
+    // it.
     if (!volume || volume->start_time() != kept.facts.header->time()) return true;
     GridSource source{file, modified_ns, true};
     source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",

@@ -1,6 +1,6 @@
-// pipeline/ingest/show_living.h -- the living grid of a volume that goes on growing.
+// pipeline/ingest/show_living.h -- makes the living grid of a growing volume.
 //
-// Inside the pipeline room only. Thread contract: for different volumes by many threads.
+// Inside the pipeline room only. Thread contract: many threads may call it for different volumes.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace stormcellar::pipeline {
 
-// Grids the sweeps that have closed, with what stands of the site's last volume, and adds the grid
-// to the outcome's `living`. `file`: what the grid's provenance is to say of the raw file. False:
-// the news have still to be shown, as there is no time for that now, or no grid can be made yet.
-// Errors: those of the cache and the system.
+// Grids the closed sweeps together with the standing sweeps of the site's last volume, and adds the
+// grid to the outcome's `living`. `file` is the name of the raw file for the grid's provenance.
+// Returns false if the new sweeps must still be shown later, because there is no time now or no
+// grid can be made yet. Errors: those of the cache and the system.
 [[nodiscard]] Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept,
                                        UnshownSweeps news, const std::string& file,
                                        std::int64_t modified_ns, IngestOutcome& outcome);

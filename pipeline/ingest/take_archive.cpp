@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// A day of a radar has some 300 volumes in 3 GB. What an archive may claim here is no more than
-// what a file may: memory for one member and little else. Level II is packed already, so a packed
-// archive unpacks to about its own size; raw messages inside it, to some ten times that.
+// A day of a radar has some 300 volumes in 3 GB. An archive may claim no more than a file may:
+// memory for one member and little else. Level II is packed already, so a packed archive unpacks to
+// about its own size; raw messages inside it unpack to some ten times that.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
     limits.members = 10'000;
@@ -31,7 +31,7 @@ archive::Limits limits_of(const IngestOptions& options) {
     return limits;
 }
 
-// Adds what became of a member to what becomes of its archive.
+// Adds the outcome of a member to the outcome of its archive.
 void add(const IngestOutcome& member, IngestOutcome& all) {
     const auto append = [](const auto& from, auto& to) {
         to.insert(to.end(), from.begin(), from.end());
@@ -53,8 +53,8 @@ void add(const IngestOutcome& member, IngestOutcome& all) {
 
 std::string reason_of(const OpenArchive& open) {
     std::string reason =
-        fmt::format("an archive: {} taken in, {} rejected", open.taken, open.rejected);
-    if (open.known > 0) reason += fmt::format(", {} known already", open.known);
+        fmt::format("an archive: {} ingested, {} rejected", open.taken, open.rejected);
+    if (open.known > 0) reason += fmt::format(", {} already known", open.known);
     for (const archive::LeftOut& one : open.reader.left_out()) {
         reason += fmt::format("; {}{}{}", one.name, one.name.empty() ? "" : " ", one.reason);
         if (reason.size() > 400) break;
@@ -62,7 +62,7 @@ std::string reason_of(const OpenArchive& open) {
     return reason;
 }
 
-// The member's own time, or else its archive's.
+// The member's own time, or else that of its archive.
 std::int64_t modified_ns_of(const archive::Member& member, const FileStamp& archive_stamp) {
     if (!member.modified) return archive_stamp.modified_ns;
     return std::chrono::nanoseconds{member.modified->time_since_epoch()}.count();
@@ -105,7 +105,7 @@ std::optional<OpenArchive> TakeArchive::open(IngestContext& context, const fs::p
 
 Result<IngestOutcome> TakeArchive::take() {
     if (!file_.may_be_partial() && !open_.reader.may_have_its_end())
-        return wait("an archive without an end");
+        return wait("the archive has no end yet");
     if (context_.store == nullptr) {
         outcome_.ending = ended::Registered{};
     } else {
@@ -118,7 +118,7 @@ Result<IngestOutcome> TakeArchive::take() {
         if (turn && std::chrono::steady_clock::now() - start > *turn) {
             outcome_.ending = ended::Incomplete{.has_next_turn = true};
             outcome_.reason =
-                fmt::format("an archive: {} taken in so far", open_.taken + open_.known);
+                fmt::format("an archive: {} ingested so far", open_.taken + open_.known);
             context_.archives.keep(std::move(open_));
             return std::move(outcome_);
         }
@@ -126,7 +126,7 @@ Result<IngestOutcome> TakeArchive::take() {
     return settle();
 }
 
-// The archive is incomplete. What its members became stands.
+// The archive is incomplete; the results of its members stay.
 Result<IngestOutcome> TakeArchive::wait(std::string reason) {
     outcome_.ending = ended::Incomplete{};
     outcome_.reason = std::move(reason);
@@ -151,8 +151,8 @@ Status TakeArchive::take_next(const archive::Member& member) {
 Result<IngestOutcome> TakeArchive::settle() {
     const auto after = stamp_of(file_.path, context_.options.beneath);
     const bool is_cut = open_.reader.is_cut();
-    if (!file_.may_be_partial() && is_cut) return wait("an archive without an end");
-    if (!after || *after != open_.stamp) return wait("changed while it was read");
+    if (!file_.may_be_partial() && is_cut) return wait("the archive has no end yet");
+    if (!after || *after != open_.stamp) return wait("the archive changed while it was read");
     FileFacts facts = facts_unread(file_.path, open_.stamp, station_of_file_name(file_.path));
     facts.state = is_cut ? FileState::partial : FileState::complete;
     facts.reason = reason_of(open_);
@@ -171,8 +171,7 @@ Result<IngestOutcome> take_member_again(IngestContext& context, const MemberName
         archive::find_member(file.number(), name.member, limits_of(context.options));
     const fs::path path = member_path(name.archive, name.member);
     if (!member) {
-        return fail(ErrorCode::not_found, "{}: the archive does not have it any more",
-                    path.native());
+        return fail(ErrorCode::not_found, "{}: is no longer in the archive", path.native());
     }
     if (is_the_same) {
         const Status same = is_the_same(path, member->bytes.size(), xxh3_64(member->bytes));

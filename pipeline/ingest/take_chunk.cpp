@@ -40,7 +40,7 @@ Result<IngestOutcome> TakeChunk::take() {
         if (!shared) return poll_for_place();
         auto volume = shared->lock();
         if (!volume->is_closed()) return add_to(shared, volume);
-        // Another worker has finished it while this one waited for it.
+        // Another worker finished the volume while this one waited for it.
         const auto settled =
             context_.catalog.is_settled(chunk_.path, stamp_.size_bytes, stamp_.modified_ns);
         if (!settled) return pass_on(settled);
@@ -52,7 +52,7 @@ Result<IngestOutcome> TakeChunk::take() {
     }
 }
 
-// One chunk of the volume, the newest, is offered again on behalf of all.
+// The newest chunk represents the volume: it is offered again.
 Result<IngestOutcome> TakeChunk::poll_for_place() {
     outcome_.former_representative = context_.chunks.poll_for_place(chunk_);
     return context_.wait_unread(facts_unread(chunk_.path, stamp_, station_of_path(chunk_.path)),
@@ -66,7 +66,7 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
     if (!added) return pass_on(added);
     if (*added == Added::not_ours && volume->files().empty())
         context_.chunks.forget(chunk_, shared);
-    // One that is still not whole when nothing more is waited for is no chunk either.
+    // If a file is still no whole chunk when nothing more is expected, it is not a chunk.
     const bool is_no_chunk =
         *added == Added::not_ours || (*added == Added::unfinished && file_.may_be_partial());
     if (is_no_chunk) {
@@ -88,18 +88,18 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
 
 Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                         const std::string& station) {
-    // A volume that could not be stored is put together again. Until then it is found, and waited
-    // for: two of one volume would overwrite each other's rows.
+    // A volume that could not be stored is joined again. Until then it stays known, so that others
+    // wait for it: two objects of one volume would overwrite each other's rows.
     volume.close();
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));
-    // Nobody need ask for it any more.
+    // Nobody need poll this file any more.
     if (finished) finished->former_representative = volume.take_former_representative();
     context_.chunks.forget(chunk_, shared);
     return finished;
 }
 
-// The volume goes on growing.
+// The volume continues to grow.
 Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                       const std::string& station) {
     FileFacts facts = facts_unread(chunk_.path, stamp_, station);
@@ -117,7 +117,7 @@ Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkV
         if (!shown) return pass_on(shown);
         if (*shown) volume.set_shown();
     }
-    // One chunk of a volume is offered again on behalf of all.
+    // One chunk represents the volume: it is offered again.
     if (!volume.has_representative()) volume.set_representative(chunk_.path);
     if (volume.is_representative(chunk_.path)) {
         outcome_.ending = ended::Incomplete{};

@@ -15,7 +15,8 @@ namespace {
 
 using catalog::FileState;
 
-// A radar's file holds one, and one that somebody joined some hours. All are gridded in one job.
+// A radar's file holds one volume; a file that somebody joined may hold those of some hours. All of
+// them are gridded in one job.
 constexpr std::size_t most_volumes = 64;
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
@@ -23,9 +24,10 @@ bool has_moment(const level2::Volume& volume, level2::Moment moment) {
                        [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
 }
 
-// The row and the log say whose data stand among those of no known station.
+// The row and the log name the station, because the row is among those of no known station.
 std::string of_other_station(const std::string& station, const std::string& reason) {
-    const std::string text = fmt::format("of {}, of which no data are taken in", station);
+    const std::string text =
+        fmt::format("is of {}, a station that [ingest] stations does not accept", station);
     return reason.empty() ? text : text + "; " + reason;
 }
 
@@ -39,7 +41,7 @@ bool is_lone_chunk(const level2::Decoded& decoded) {
 }
 
 constexpr std::string_view lone_chunk_text =
-    "looks like one chunk of a volume: chunks are put together where their names hold "
+    "looks like one chunk of a volume: chunks are joined only if their names hold "
     "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key";
 
 }  // namespace
@@ -49,8 +51,8 @@ Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial pa
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     if (volumes.size() > most_volumes) {
         return reject(ErrorCode::unsupported,
-                      fmt::format("holds {} volumes, and a raw file may hold {}", volumes.size(),
-                                  most_volumes));
+                      fmt::format("holds {} volumes, more than the {} that a raw file may hold",
+                                  volumes.size(), most_volumes));
     }
     describe(volumes);
     facts_.state = FileState::seen;
@@ -70,7 +72,7 @@ Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial pa
     return grid_all(volumes);
 }
 
-// What the report says of the file as a whole.
+// Notes what the report says about the whole file.
 void TakeVolumes::note(const level2::Decoded& decoded) {
     facts_.reason = reason_of(decoded.report);
     outcome_.lone_chunk = is_lone_chunk(decoded);
@@ -84,7 +86,7 @@ void TakeVolumes::note(const level2::Decoded& decoded) {
         reading_.troubles = level2::rda_troubles(*decoded.report.rda_status);
 }
 
-// Into the rows and the outcome: what the volumes are, and whose.
+// Adds to the rows and the outcome what the volumes are, and of which stations.
 void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     for (const level2::Volume& volume : volumes) {
         if (volume.radial_count() == 0) continue;  // metadata alone are no volume
@@ -103,7 +105,7 @@ void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     outcome_.reason = facts_.reason;
 }
 
-// As grids keep them.
+// In the form in which grids store them.
 std::vector<std::string> TakeVolumes::troubles_of(const std::string& station) const {
     if (reading_.troubles.empty()) return {};
     return {fmt::format("{}: {}", station, fmt::join(reading_.troubles, ", "))};
@@ -122,8 +124,8 @@ Result<IngestOutcome> TakeVolumes::settle() {
     return std::move(outcome_);
 }
 
-// Grids first, then settles the catalog's row: a crash between the two makes the work be done
-// again, never lost.
+// Grids first and settles the row in the catalog afterwards: after a crash between the two the work
+// is done again, and nothing is lost.
 Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
     bool has_other_station = false;
     for (const level2::Volume& volume : volumes) {
@@ -132,7 +134,7 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
             continue;
         }
         if (!volume.start_time()) {
-            return reject(ErrorCode::corrupt, "cannot be gridded: no time in it is plausible");
+            return reject(ErrorCode::corrupt, "cannot be gridded: it holds no plausible time");
         }
         if (const Status gridded = grid(volume); !gridded) {
             if (gridded.error().cause() != Cause::data) return pass_on(gridded);
@@ -149,7 +151,7 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
     return settle();
 }
 
-// The site's own grid, where such grids are made and the volume has the moment.
+// Makes the site's own grid, if such grids are made and the volume has the moment.
 Status TakeVolumes::grid(const level2::Volume& volume) {
     if (!context_.options.own_grids) {
         (void)SiteGrids::has_place(volume, outcome_);
@@ -162,7 +164,7 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
                                      context_.share_of(context_.options.grid_threads), outcome_);
 }
 
-// What a domain cannot use is no reason to reject the file, whose own grid stands.
+// A volume that a domain cannot use is no reason to reject the file, whose own grid is stored.
 Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     const auto antenna = level2::antenna_position(volume);
     if (context_.mosaics.is_idle() || !antenna || volume.station.empty()) return {};
@@ -179,11 +181,12 @@ Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     outcome_.mosaic_s += seconds_since(start);
     if (!kept) {
         if (kept.error().cause() != Cause::data) return pass_on(kept);
-        outcome_.reason = "in no mosaic: " + kept.error().message;
+        outcome_.reason = "cannot be added to a mosaic: " + kept.error().message;
         return {};
     }
     outcome_.partials.insert(outcome_.partials.end(), kept->partials.begin(), kept->partials.end());
-    if (!kept->problems.empty()) outcome_.reason = "left out: " + kept->problems.front();
+    if (!kept->problems.empty())
+        outcome_.reason = "left out of a mosaic: " + kept->problems.front();
     outcome_.frames.insert(outcome_.frames.end(), kept->frames.begin(), kept->frames.end());
     return {};
 }

@@ -1,8 +1,8 @@
-// pipeline/ingest/take_volumes.h -- decoded volumes of one file -> rows of the catalog, the grids
+// pipeline/ingest/take_volumes.h -- the decoded volumes of one file -> rows of the catalog, grids
 // of their sites, and mosaics.
 //
-// Inside the pipeline room only. Thread contract: an object by one thread; the context must outlive
-// it.
+// Inside the pipeline room only. Thread contract: one thread uses an object; the context must
+// outlive it.
 #pragma once
 
 #include <string>
@@ -13,13 +13,14 @@
 
 namespace stormcellar::pipeline {
 
-// Whether a volume that has not ended is gridded, or waited for.
+// Whether a volume that has not ended is gridded, or waits for more.
 enum class MayBePartial : bool { no, yes };
 
-// Made for one file, and used once.
+// An object is made for one file and used once.
 class TakeVolumes {
   public:
-    // `facts`: of the file, its contents' hash included. `outcome`: what is known of it so far.
+    // `facts` are those of the file, with the hash of its contents. `outcome` is what is known so
+    // far.
     TakeVolumes(IngestContext& context, catalog::FileFacts facts, IngestOutcome outcome)
         : context_(context), facts_(std::move(facts)), outcome_(std::move(outcome)) {}
 
@@ -27,11 +28,11 @@ class TakeVolumes {
     Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
 
   private:
-    // What was met in reading the file, in any of its volumes.
+    // What reading the file found, for all its volumes.
     struct Reading {
         bool is_complete = false;
         bool damaged = false;               // bytes are lost
-        std::vector<std::string> troubles;  // of the radar, by its last message 2
+        std::vector<std::string> troubles;  // of the radar, from its last message 2
     };
 
     void note(const level2::Decoded& decoded);

@@ -16,19 +16,20 @@ TakeWhole::TakeWhole(IngestContext& context, const OfferedFile& file, const Whol
 
 Result<IngestOutcome> TakeWhole::take() {
     const std::uint64_t most = context_.options.most_file_bytes;
-    // It may have been followed until it was too large.
+    // The file may have been followed until it was too large.
     if (stamp_.size_bytes > most && context_.living) context_.living->forget(file_.path);
     if (!stamp_.regular)
         return reject({ErrorCode::not_a_file, fmt::format("is {}", kind_of_file(stamp_.kind))});
-    // Chunks are never archives, and come in their thousands.
+    // Chunks are never archives, and there are thousands of them.
     if (!file_.is_the_same && stamp_.size_bytes > 0 && !is_chunk_name(file_.path)) {
         if (auto archive = TakeArchive::open(context_, file_.path, stamp_))
             return TakeArchive(context_, file_, std::move(*archive)).take();
     }
     if (stamp_.size_bytes > most) {
         return reject(
-            {ErrorCode::unsupported, fmt::format("{} bytes, and a raw file may have {}: not read",
-                                                 stamp_.size_bytes, most)});
+            {ErrorCode::unsupported,
+             fmt::format("has {} bytes, more than the {} that a raw file may have; it was not read",
+                         stamp_.size_bytes, most)});
     }
     return read();
 }
@@ -45,7 +46,7 @@ Result<IngestOutcome> TakeWhole::read() {
     outcome_.read_s = read.read_s;
     outcome_.decode_s = read.decode_s;
     const auto after = stamp_of(file_.path, context_.options.beneath);
-    if (!after || *after != stamp_) return wait("changed while it was read");
+    if (!after || *after != stamp_) return wait("the file changed while it was read");
     if (!read.was_read) return take_unread(read.was_read.error());
     facts_.content_hash = read.content_hash;
     if (file_.is_the_same) {
@@ -65,9 +66,9 @@ Result<IngestOutcome> TakeWhole::read() {
         .take(std::move(*read.decoded), partial);
 }
 
-// It cannot be read, at least not now.
+// The file cannot be read, at least not now.
 Result<IngestOutcome> TakeWhole::take_unread(const Error& why) {
-    // The system is short of something, such as descriptors: the file is not to blame.
+    // The system is short of something, for example descriptors: the file is not to blame.
     if (why.code == ErrorCode::io || is_shortage(why.code)) return tl::unexpected<Error>(why);
     if (why.code == ErrorCode::permission) facts_.modified_ns = catalog::never_read_ns;
     return reject({why.code, without_path(why.message, file_.path)});

@@ -22,7 +22,7 @@ class InstanceLock {
 
   private:
     explicit InstanceLock(Descriptor file) : file_(std::move(file)) {}
-    Descriptor file_;  // the kernel lets go of the lock when it is closed
+    Descriptor file_;  // closing it releases the lock
 };
 
 }  // namespace stormcellar::pipeline

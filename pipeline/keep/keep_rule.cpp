@@ -32,12 +32,13 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
     const bool stands_living = is_living(old);
     const bool made_living = is_living(made.provenance);
     if (stands_living && !made_living) return std::nullopt;
-    if (!stands_living && made_living) return "a grid of the volume's end stands in the cache";
+    if (!stands_living && made_living)
+        return "not replaced: the cache has a grid of the ended volume";
     const bool better = !old.partial && made.provenance.partial;
     const bool worse = old.partial && !made.provenance.partial;
-    if (better) return "a grid of the whole volume stands in the cache";
+    if (better) return "not replaced: the cache has a grid of the whole volume";
     if (!worse && old.source_modified_ns > made.provenance.source_modified_ns) {
-        return "a grid of a newer file of this volume stands in the cache";
+        return "not replaced: the cache has a grid of a newer file of this volume";
     }
     return std::nullopt;
 }

@@ -28,8 +28,8 @@ tl::unexpected<Error> of_gridding(Error error) {
 void note_not_kept(const std::string& station, IngestOutcome& outcome) {
     ++outcome.not_kept;
     outcome.reason = cache::is_known_group(station)
-                         ? "older than what the cache keeps"
-                         : "the cache has no more room for stations that nobody knows";
+                         ? "no grid was kept: it would be older than all that the cache keeps"
+                         : "no grid was kept: the cache has no more room for unknown stations";
 }
 
 tl::unexpected<Error> of_storing(Error error) {
@@ -40,13 +40,13 @@ tl::unexpected<Error> of_storing(Error error) {
 void note_no_room(IngestOutcome& outcome, const Error& why) {
     ++outcome.not_kept;
     outcome.no_room = true;
-    outcome.reason = "not gridded: " + why.message;
+    outcome.reason = "no grid was kept: " + why.message;
 }
 
 bool SiteGrids::has_place(const level2::Volume& volume, IngestOutcome& outcome) {
     if (level2::antenna_position(volume) && !volume.station.empty()) return true;
     outcome.ending = ended::NoPosition{};
-    outcome.reason = "neither the file nor the station table says where the radar stands";
+    outcome.reason = "neither the file nor the station table gives the radar's position";
     return false;
 }
 

@@ -58,7 +58,7 @@ class SiteGrids {
 
     cache::StoreWriter& store_;
     const IngestOptions& options_;
-    // A geometry of the default grid takes a few MiB.
+    // The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
     // one commit at a time for each grid file, by the hash of its path

@@ -117,8 +117,7 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
         visit_moment(take, sweep.moments.emplace_back());
         if (sweep.moments.size() > 1000) break;
     }
-    if (!reader.is_whole())
-        return fail(ErrorCode::corrupt, "a sweep that was put aside is damaged");
+    if (!reader.is_whole()) return fail(ErrorCode::corrupt, "a shelved sweep is damaged");
     return sweep;
 }
 
@@ -143,7 +142,8 @@ int nameless_file(const std::filesystem::path& directory) {
 
 Result<std::unique_ptr<SweepShelf>> SweepShelf::make_in(const std::filesystem::path& directory) {
     Descriptor descriptor{nameless_file(directory)};
-    if (!descriptor.is_open()) return system_failure("cannot make a file for the sweeps", errno);
+    if (!descriptor.is_open())
+        return system_failure("cannot make a file for the shelved sweeps", errno);
     return std::unique_ptr<SweepShelf>(new SweepShelf(std::move(descriptor)));
 }
 
@@ -163,7 +163,7 @@ Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
             ::pwrite(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
                      static_cast<off_t>(place.offset + done));
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return system_failure("cannot write sweeps", errno);
+        if (written < 0) return system_failure("cannot write shelved sweeps", errno);
         done += static_cast<std::uint64_t>(written);
     }
     end_ += place.packed_bytes;
@@ -177,8 +177,8 @@ Result<Sweep> SweepShelf::get(const Place& place) const {
             ::pread(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
                     static_cast<off_t>(place.offset + done));
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return system_failure("cannot read sweeps", errno);
-        if (got == 0) return fail(ErrorCode::io, "sweeps that were put aside are gone");
+        if (got < 0) return system_failure("cannot read shelved sweeps", errno);
+        if (got == 0) return fail(ErrorCode::io, "shelved sweeps are gone");
         done += static_cast<std::uint64_t>(got);
     }
     std::vector<char> bytes(place.bytes);
@@ -186,7 +186,7 @@ Result<Sweep> SweepShelf::get(const Place& place) const {
         LZ4_decompress_safe(packed.data(), bytes.data(), static_cast<int>(packed.size()),
                             static_cast<int>(bytes.size()));
     if (size < 0 || static_cast<std::uint64_t>(size) != place.bytes) {
-        return fail(ErrorCode::corrupt, "a sweep that was put aside is damaged");
+        return fail(ErrorCode::corrupt, "a shelved sweep is damaged");
     }
     return sweep_of(bytes);
 }

@@ -49,8 +49,8 @@ Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
         }
     }
     return fail(ErrorCode::unsupported,
-                "the frames that stand were merged by rules that are not known here (an overlap_km "
-                "of its own?), so none can be made between them");
+                "frames cannot be made between those in the cache: they were merged by rules that "
+                "are not known here (an overlap_km of its own?)");
 }
 
 Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const std::string& domain,
@@ -75,7 +75,7 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
         all.grids_.push_back(
             {entry.path, middle, newest->spec, !newest->provenance.sweeps.empty()});
     }
-    if (!newest) return fail(ErrorCode::not_found, "no grid of {} stands there", domain);
+    if (!newest) return fail(ErrorCode::not_found, "the cache has no grid of {}", domain);
     std::stable_sort(all.grids_.begin(), all.grids_.end(),
                      [](const Stored& a, const Stored& b) { return a.middle < b.middle; });
     if (newest->provenance.recipe == 0 && newest->sites.size() == 1) return all;
@@ -83,8 +83,8 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
     if (!sites) return pass_on(sites);
     if (sites->empty()) {
         return fail(ErrorCode::not_found,
-                    "the grids of the sites of {} are not in the cache, so no frame can be made "
-                    "between those that stand",
+                    "frames cannot be made between those in the cache: the cache does not have the "
+                    "grids of {}'s sites",
                     domain);
     }
     if (Status learnt = all.learn_rules(*newest); !learnt) return pass_on(learnt);

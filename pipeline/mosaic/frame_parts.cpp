@@ -114,7 +114,7 @@ Result<std::vector<grid::FramePart>> parts_of(const grid::GridSpec& domain,
         const cache::GridDescription& description = *partial->description;
         const auto window = grid::window_of(domain, description.spec);
         if (!window) {
-            return fail(ErrorCode::bad_argument, "the grid of {} is no window of the domain",
+            return fail(ErrorCode::bad_argument, "the grid of {} is not a window of the domain",
                         partial->site().icao);
         }
         parts.push_back(

@@ -23,7 +23,7 @@ namespace stormcellar::pipeline {
 
 class InstantCache {
   public:
-    // All that the cells depend on (pipeline/mosaic/frame_parts.h).
+    // Everything that the cells depend on (pipeline/mosaic/frame_parts.h).
     struct Key {
         std::uint64_t before = 0, after = 0;  // fingerprints of the two partials
         std::uint64_t recipe = 0;

@@ -32,7 +32,7 @@ class MappedPartials {
                                        level2::Moment moment, UtcTime from, UtcTime to,
                                        std::vector<std::string>& problems);
 
-    // Valid until one is dropped.
+    // Valid until a partial is dropped.
     [[nodiscard]] std::vector<PartialView> views() const;
     // Returns ok if the bytes read were those of the files.
     [[nodiscard]] Status check_whole() const;

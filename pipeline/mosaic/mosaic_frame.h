@@ -1,4 +1,4 @@
-// pipeline/mosaic/mosaic_frame.h -- what several sites saw, as one grid for an instant.
+// pipeline/mosaic/mosaic_frame.h -- merges what several sites saw into one grid for an instant.
 //
 // Each volume is gridded once, on its site's window of the domain's grid. This is its partial,
 // which the daemon keeps in the cache and the command line in memory. For each site, a frame takes

@@ -37,7 +37,7 @@ namespace stormcellar::pipeline {
 struct VolumeSource {
     const level2::Volume& volume;
     const grid::SitePosition& site;
-    std::string file;  // its name, without directories
+    std::string file;  // the file's name, without directories
     std::int64_t modified_ns = 0;
     bool partial = false;
     std::vector<std::string> notes = {};
@@ -93,7 +93,7 @@ class MosaicMaker {
     Result<MosaicFrame> frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                        const PreviousFrame* previous,
                                        std::vector<std::string>& problems);
-    // The mutex of the domain's frames must be held.
+    // The caller must hold the mutex of the domain's frames.
     Result<FrameMade> make(const FrameJob& job, MappedPartials& partials,
                            std::vector<std::string>& problems);
     Status keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,

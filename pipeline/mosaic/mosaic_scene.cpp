@@ -69,7 +69,7 @@ UtcTime instant_of_newest(std::span<const PartialView> partials,
 Result<MosaicScene> MosaicScene::make(std::vector<SceneVolume> volumes,
                                       const grid::GridSpec& domain, const accuracy::Chain& chain,
                                       const MosaicSceneOptions& options) {
-    if (volumes.empty()) return fail(ErrorCode::bad_argument, "a mosaic of no volume");
+    if (volumes.empty()) return fail(ErrorCode::bad_argument, "a mosaic needs at least one volume");
     MosaicScene scene;
     scene.domain_ = domain;
     scene.options_ = options;

@@ -26,7 +26,7 @@ namespace stormcellar::pipeline {
 struct SceneVolume {
     const level2::Volume* volume = nullptr;
     grid::SitePosition site;
-    std::string file;  // as errors name it; its last part goes into the provenance
+    std::string file;  // the name for errors; its last part goes into the provenance
     bool partial = false;
     std::vector<std::string> notes;
 };

@@ -105,7 +105,7 @@ bool is_known(const grid::Estimate& estimate) {
 }
 
 std::string text_of(const char* name, const grid::Estimate& estimate, const char* unit) {
-    if (!is_known(estimate)) return fmt::format("{} not told", name);
+    if (!is_known(estimate)) return fmt::format("{} unknown", name);
     return fmt::format("{} {:+.2f} +- {:.2f} {}", name, estimate.value, estimate.standard_error,
                        unit);
 }
@@ -156,13 +156,13 @@ std::optional<grid::UniformMotion> motion_between(const SiteLook& look) {
 Result<grid::SiteComparison> compare_looks(const SiteLook& a, const SiteLook& b, UtcTime instant) {
     for (const SiteLook* look : {&a, &b}) {
         if (look->nearest->description->moment == level2::Moment::ref) continue;
-        return fail(ErrorCode::bad_argument, "sites are compared by REF, not {}",
+        return fail(ErrorCode::bad_argument, "sites are compared by REF, not by {}",
                     level2::moment_name(look->nearest->description->moment));
     }
     const auto in_a = common_window(*a.nearest->view.spec, a.site(), b.site(), 0);
     const auto in_b = common_window(*b.nearest->view.spec, a.site(), b.site(), 1);
     if (!in_a || !in_b) {
-        return fail(ErrorCode::bad_argument, "{} and {} look at nothing in common", a.site().icao,
+        return fail(ErrorCode::bad_argument, "{} and {} see no cell in common", a.site().icao,
                     b.site().icao);
     }
     const auto cut_a = cut_out(*a.nearest, *in_a, instant);
@@ -182,8 +182,7 @@ Result<grid::SiteComparison> compare_looks(const SiteLook& a, const SiteLook& b,
 
 std::string describe(const grid::SiteComparison& comparison) {
     return fmt::format(
-        "{} against {}: {}, {}, {}, {} ({} cells, correlation {:.2f}, looks {:.0f} "
-        "s apart)",
+        "{} against {}: {}, {}, {}, {} ({} cells, correlation {:.2f}, seen {:.0f} s apart)",
         comparison.b, comparison.a, text_of("bias", comparison.bias_db, "dB"),
         text_of("azimuth", comparison.azimuth_deg, "degrees"),
         text_of("elevation", comparison.elevation_deg, "degrees"),

@@ -31,7 +31,7 @@ bool is_icao(std::string_view name) {
 void read_name(TomlTable& table, Domain& domain) {
     domain.name = table.text("name").value_or("");
     if (domain.name.empty()) {
-        table.complain("name", "every domain needs a name");
+        table.complain("name", "must be given");
     } else if (!cache::is_domain_name(domain.name) || domain.name.find('.') != std::string::npos) {
         table.complain("name", fmt::format("\"{}\": a name is up to 64 letters, digits, _ and -, "
                                            "and begins with a letter or digit",
@@ -63,13 +63,13 @@ void read_projection(TomlTable& table, GridSpec& spec) {
         if (projection) {
             spec.projection = *projection;
         } else {
-            table.complain("projection", fmt::format("\"{}\" is none of {}", printable(*name),
+            table.complain("projection", fmt::format("\"{}\" must be one of {}", printable(*name),
                                                      names_in(grid::projection_facts)));
         }
     }
     const auto parallels = read_numbers(table, "parallels_deg", 2, "[latitude, latitude]");
     if (!grid::facts_of(spec.projection).takes_parallels) {
-        if (parallels) table.complain("parallels_deg", "is for lambert_conformal");
+        if (parallels) table.complain("parallels_deg", "can be given only for lambert_conformal");
         return;
     }
     spec.parallels_deg = {spec.center_latitude_deg, spec.center_latitude_deg};
@@ -80,12 +80,13 @@ void read_spacing(TomlTable& table, GridSpec& spec) {
     const auto km = table.number("spacing_km", {0.05, 500});
     const auto degrees = table.number("spacing_deg", {0.0005, 10});
     if (spec.in_degrees()) {
-        if (km) table.complain("spacing_km", "a latitude_longitude domain takes spacing_deg");
+        if (km)
+            table.complain("spacing_km", "a latitude_longitude domain needs spacing_deg instead");
         spec.spacing_m = 0;
         spec.spacing_deg = degrees.value_or(0.01);
         return;
     }
-    if (degrees) table.complain("spacing_deg", "is for latitude_longitude");
+    if (degrees) table.complain("spacing_deg", "can be given only for latitude_longitude");
     spec.spacing_m = grid::metres_of_km(km.value_or(1));
 }
 
@@ -119,8 +120,10 @@ void size_by_extent(TomlTable& table, GridSpec& spec) {
     const auto km = read_numbers(table, "extent_km", 2, "[width, height]");
     const auto degrees = read_numbers(table, "extent_deg", 2, "[width, height]");
     const bool in_degrees = spec.in_degrees();
-    if (in_degrees && km) table.complain("extent_km", "latitude_longitude takes extent_deg");
-    if (!in_degrees && degrees) table.complain("extent_deg", "is for latitude_longitude");
+    if (in_degrees && km)
+        table.complain("extent_km", "a latitude_longitude domain needs extent_deg instead");
+    if (!in_degrees && degrees)
+        table.complain("extent_deg", "can be given only for latitude_longitude");
     const auto& extent = in_degrees ? degrees : km;
     if (!extent) {
         if (!km && !degrees) {
@@ -160,7 +163,8 @@ void read_place(TomlTable& table, GridSpec& spec) {
     read_spacing(table, spec);
     if (bounds) {
         for (const std::string_view key : {"extent_km", "extent_deg"}) {
-            if (table.numbers(key)) table.complain(key, "goes with center, not with bounds");
+            if (table.numbers(key))
+                table.complain(key, "can be given only with center, not with bounds");
         }
         size_by_bounds(table, *bounds, spec);
     } else {
@@ -176,7 +180,7 @@ void read_moments(TomlTable& table, Domain& domain) {
         const auto moment = read_moment(table, "moments", name);
         if (moment) domain.moments.push_back(*moment);
     }
-    if (names->empty()) table.complain("moments", "must name a moment");
+    if (names->empty()) table.complain("moments", "must name at least one moment");
 }
 
 void read_stations(TomlTable& table, Domain& domain) {
@@ -185,9 +189,10 @@ void read_stations(TomlTable& table, Domain& domain) {
     domain.stations = *names;
     for (const std::string& name : *names) {
         if (is_icao(name)) continue;
-        table.complain("stations", fmt::format("\"{}\" is no station: four capital letters, as in "
-                                               "\"KTLX\"",
-                                               printable(name)));
+        table.complain(
+            "stations",
+            fmt::format("\"{}\" is not a station: give four capital letters, as in \"KTLX\"",
+                        printable(name)));
     }
     if (names->empty()) table.complain("stations", "must name a station, or be left out");
 }
@@ -199,7 +204,7 @@ void read_frames(TomlTable& table, Domain& domain) {
     if (const auto name = table.text("overlap")) {
         domain.overlap = grid::overlap_from_name(*name);
         if (!domain.overlap) {
-            table.complain("overlap", fmt::format("\"{}\" is none of {}", printable(*name),
+            table.complain("overlap", fmt::format("\"{}\" must be one of {}", printable(*name),
                                                   names_in(grid::overlap_facts)));
         }
     }
@@ -211,7 +216,7 @@ void read_frames(TomlTable& table, Domain& domain) {
         if (method) {
             domain.time = *method;
         } else {
-            table.complain("time_method", fmt::format("\"{}\" is none of {}", printable(*name),
+            table.complain("time_method", fmt::format("\"{}\" must be one of {}", printable(*name),
                                                       names_in(grid::time_method_facts)));
         }
     }
@@ -281,7 +286,7 @@ std::optional<std::vector<double>> read_levels_m(TomlTable& table) {
     if (table.is_array("levels_km")) {
         const auto levels_km = table.numbers("levels_km");
         if (!levels_km) return std::nullopt;
-        if (levels_km->empty()) table.complain("levels_km", "must name a level");
+        if (levels_km->empty()) table.complain("levels_km", "must name at least one level");
         std::vector<double> levels_m;
         for (const double level : *levels_km)
             levels_m.push_back(grid::metres_of_km(level));
@@ -302,7 +307,7 @@ std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key
                                           const std::string& name) {
     const auto moment = level2::moment_from_name(name);
     if (!moment) {
-        table.complain(key, fmt::format("\"{}\" is no moment; one of {}", printable(name),
+        table.complain(key, fmt::format("\"{}\" is not a moment: give one of {}", printable(name),
                                         level2::moment_names(" ", " ")));
     }
     return moment;
@@ -314,7 +319,7 @@ std::vector<Domain> read_domains(TomlTable& root) {
     for (TomlTable& table : root.tables("domain")) {
         Domain domain = read_domain(table);
         if (!names.insert(domain.name).second && !domain.name.empty()) {
-            table.complain("name", fmt::format("\"{}\" is the name of another domain too",
+            table.complain("name", fmt::format("another domain has the name \"{}\" too",
                                                printable(domain.name)));
         }
         domains.push_back(std::move(domain));

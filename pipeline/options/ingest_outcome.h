@@ -15,8 +15,8 @@
 
 namespace stormcellar::pipeline {
 
-// The ways in which taking in a file can end, as they are counted and named; ended::X below holds
-// what belongs to one of them alone.
+// The ways in which ingesting a file can end, as they are counted and named; ended::X below holds
+// what belongs to only one of them.
 enum class IngestResult {
     gridded,      // registered, and every volume with the moment is in the cache, or too old for it
     no_moment,    // registered; has no sweep of the moment, so there is nothing to grid
@@ -41,37 +41,37 @@ struct Gridded {
 struct NoMoment {
     static constexpr IngestResult result = IngestResult::no_moment;
 };
-// Registered; neither the file nor the table says where the radar stands.
+// Registered; neither the file nor the station table gives the radar's position.
 struct NoPosition {
     static constexpr IngestResult result = IngestResult::no_position;
 };
-// Registered; of no station that is taken in, so nothing is gridded.
+// Registered; its station is not accepted, so nothing is gridded.
 struct OtherStation {
     static constexpr IngestResult result = IngestResult::other_station;
 };
-// Not settled: the volume has not ended and finish_as_is is false, or the file changed while it
-// was read, or an archive has more members than one turn takes. The file must be offered again.
+// Not settled: the volume has not ended and finish_as_is is false, or the file changed while it was
+// read, or an archive has more members than one turn takes. The file must be offered again.
 struct Incomplete {
     static constexpr IngestResult result = IngestResult::incomplete;
-    bool is_followed = false;    // what is appended will be read without the rest
-    bool has_next_turn = false;  // an archive of which more can be taken in at once
+    bool is_followed = false;    // only what is appended will be read
+    bool has_next_turn = false;  // an archive that can continue at once
 };
-// Registered as rejected: no volume, or none that can be gridded.
+// Registered as rejected: it holds no volume, or none that can be gridded.
 struct Rejected {
     static constexpr IngestResult result = IngestResult::rejected;
-    ErrorCode with = ErrorCode::internal;  // of what kind the reason is
+    ErrorCode with = ErrorCode::internal;  // the kind of the reason
 };
 // Settled before; nothing was done.
 struct Unchanged {
     static constexpr IngestResult result = IngestResult::unchanged;
 };
-// The file is gone; its rows, if any, are marked so. A file that is asked for again on behalf of a
-// volume of chunks ends as Incomplete instead, and must be offered again although it is gone.
+// The file is gone; its rows, if any, are marked. If the file represents a volume of chunks, the
+// result is Incomplete instead, and the file must be offered again although it is gone.
 struct Vanished {
     static constexpr IngestResult result = IngestResult::vanished;
 };
 // Registered, and nothing else is to be done: the Ingestor has no cache, or the file is a chunk of
-// a volume that goes on, and another of its chunks is offered again on behalf of all.
+// a growing volume that another chunk represents.
 struct Registered {
     static constexpr IngestResult result = IngestResult::registered;
 };
@@ -96,13 +96,14 @@ struct IngestOutcome {
     // It looks like one chunk of a volume, but its name is not that of a chunk.
     bool lone_chunk = false;
 
-    // What was made of it.
-    bool partial = false;  // some volume had not ended, or was damaged
+    // What was made from it.
+    bool partial = false;  // some volume was incomplete or damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic/mosaic_maker.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
-    bool no_room = false;  // some volume was not gridded: the cache's budgets left no room for it
-    int not_kept = 0;      // volumes that the cache's budgets do not keep: nothing was made of them
+    bool no_room =
+        false;         // some volume was not gridded because the cache's limits left no room for it
+    int not_kept = 0;  // volumes of which the cache's limits keep no grid: nothing was made of them
 
     // Where its volume grows, or grew.
     bool goes_on = false;  // the volume is followed, and a sweep of it has closed
@@ -112,17 +113,17 @@ struct IngestOutcome {
     // Growing volumes that made room for this one: their sweeps on disk are gone, and they are read
     // again from their files.
     std::uint64_t given_up = 0;
-    // The chunk that was to be offered again until this one came.
+    // The chunk that represented the volume until this one came.
     std::filesystem::path former_representative;
 
     // How long each step took.
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
 
-// What became of a file that was only noted, not read.
+// The result for a file that was only noted, not read.
 enum class Noted {
     stands,  // there is something to do: Ingestor::ingest()
-    gone,    // there is nothing left to do
+    gone,    // nothing is left to do
 };
 
 }  // namespace stormcellar::pipeline

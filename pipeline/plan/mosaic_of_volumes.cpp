@@ -14,7 +14,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A beam is as wide as the radar of this site has it.
+// Uses the beam width of this site's radar.
 MosaicChoice default_choice_at(const MosaicRequest& request, const grid::SitePosition& site) {
     return mosaic_choice(request.chain, default_mosaic_choice(request.chain, request.domain,
                                                               grid::beam_width_of(site.icao)));

@@ -19,7 +19,7 @@ constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
-// A mosaic's chain has each of the steps of merging.
+// The chain of a mosaic has each of the steps of merging.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -136,8 +136,8 @@ Result<TimedFrame> timed_frame(MosaicScene& scene, const MosaicChoice& choice) {
     return TimedFrame{std::move(*frame), scene.now_s() - start_s};
 }
 
-// One step from its exact rung downwards, every other step of merging exact; all frames are of
-// `gridding` in fine codes.
+// Measures one step from its exact rung downward, with every other step of merging exact; all
+// frames use `gridding` in fine codes.
 Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::SceneChoice& gridding,
                     std::string_view name, accuracy::Chain& chain) {
     const std::size_t index = accuracy::find_step(chain, name).value();
@@ -246,8 +246,8 @@ Status predict(MosaicScene& scene, const grid::PlanOptions& options, accuracy::C
     const level2::Moment moment = scene.options().partial.gridder.moment;
     if (level2::is_circular(moment)) {
         return fail(ErrorCode::bad_argument,
-                    "no plan is made for {} of several volumes: its values lie on a circle, and "
-                    "each radar has its own",
+                    "a plan cannot be made for {} of several volumes: its values lie on a circle, "
+                    "and each radar has its own",
                     level2::moment_name(moment));
     }
     if (auto done = GriddingSizes(scene, options, chain).predict_into(chain); !done) return done;

@@ -134,7 +134,7 @@ TEST_F(FullDiskTest, WhatABrokenDiskLeavesBehindIsCounted) {
     store.set_budgets(smaller);
     const RollReport report = store.roll();
     EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("cannot evict: ")));
-    EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("more than its budget")));
+    EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("more than its limit")));
     EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     store.set_budgets(budgets_);
     disk.broken = false;

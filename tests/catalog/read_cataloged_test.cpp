@@ -85,10 +85,10 @@ TEST_F(ReadCataloged, ALinkInPlaceOfADirectoryIsNotFollowed) {
 TEST_F(ReadCataloged, OtherContentsAreNotGiven) {
     std::ofstream(raw_) << "CONTENTS";
     expect_refused(ErrorCode::corrupt,
-                   "is not the file that was cataloged: it has the same size and other contents");
+                   "is not the file that was cataloged: it has the same size but other contents");
     std::ofstream(raw_) << "more contents";
     expect_refused(ErrorCode::corrupt,
-                   "is not the file that was cataloged: it has 13 bytes and not 8");
+                   "is not the file that was cataloged: it has 13 bytes, not 8");
 }
 
 // The drop directory itself may be reached through a link, as when an operator has moved it.
@@ -124,10 +124,10 @@ TEST_F(ReadCataloged, AFileThatGrowsIsComparedAsFarAsItsRowGoes) {
     EXPECT_FALSE(found->is_compared);
     EXPECT_EQ(found->bytes.size(), 8U);
     fs::create_hard_link(raw_, directory_ / "second-name");
-    expect_refused(ErrorCode::corrupt, "has 2 names now");
+    expect_refused(ErrorCode::corrupt, "now has 2 names");
     fs::remove(directory_ / "second-name");
     std::ofstream(raw_) << "abc";
-    expect_refused(ErrorCode::corrupt, "it has 3 bytes and not 4 or more");
+    expect_refused(ErrorCode::corrupt, "it has 3 bytes, not 4 or more");
     fs::rename(raw_, directory_ / "same");
     fs::create_symlink(directory_ / "same", raw_);
     expect_refused(ErrorCode::not_a_file, "symbolic link");

@@ -181,7 +181,7 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     fs::copy_file(raw(sequence[0]), directory_ / "ldm" / "KBGM" / sequence[0]);
     const auto drop = run_station({"--cache", (directory_ / "ldm").string()});
     EXPECT_EQ(drop.status, 2);
-    EXPECT_THAT(drop.err, HasSubstr("is no cache: it holds KBGM"));
+    EXPECT_THAT(drop.err, HasSubstr("is not a cache: it holds KBGM"));
     const auto no_catalog = testing::run_program(
         STORMCELLAR_PROGRAM,
         {"loop", "--catalog", (directory_ / "ldm").string(), "--stations", "KBGM", "--from",

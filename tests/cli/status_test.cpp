@@ -103,7 +103,7 @@ TEST(Status, TheDaemonStartsWithoutItsSocket) {
     RunningDaemon daemon;
     write_file(daemon.drop() / "junk", "no radar data");
     daemon.start("[status]\nsocket = \"none/status.sock\"\n");
-    EXPECT_TRUE(daemon.wait_for_log("the status cannot be asked for: ")) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("the status cannot be served: ")) << daemon.log();
     EXPECT_TRUE(daemon.wait_for_log("not ready: ")) << daemon.log();
     EXPECT_TRUE(daemon.wait_for_log("rejected ")) << daemon.log();
     EXPECT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "starting"; }));

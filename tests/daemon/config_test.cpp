@@ -102,13 +102,12 @@ TEST_F(ConfigFile, StationsAreKnownOrAnyOrAList) {
         return complaint(std::string(paths) + "[ingest]\nstations = " + value + "\n");
     };
     EXPECT_EQ(complaint_of("\"all\""),
-              "s.toml:6: [ingest] stations: \"all\" is neither known nor any, nor a list of "
-              "stations");
+              "s.toml:6: [ingest] stations: \"all\" must be known, any or a list of stations");
     EXPECT_EQ(complaint_of("[]"),
               "s.toml:6: [ingest] stations: must name a station, or be left out");
     EXPECT_EQ(complaint_of("[\"ktlx\"]"),
-              "s.toml:6: [ingest] stations: \"ktlx\" is no station: four capital letters or "
-              "digits, as in \"KTLX\"");
+              "s.toml:6: [ingest] stations: \"ktlx\" is not a station: give four capital letters "
+              "or digits, as in \"KTLX\"");
 }
 
 TEST_F(ConfigFile, StationsAreAddedToTheTable) {
@@ -124,16 +123,16 @@ TEST_F(ConfigFile, StationsAreAddedToTheTable) {
         return complaint(std::string(paths) + "[[station]]\n" + text);
     };
     EXPECT_EQ(complaint_of("icao = \"KTLX\"\n" + place),
-              "s.toml:6: [station] icao: KTLX stands in the station table already");
+              "s.toml:6: [station] icao: KTLX is already in the station table");
     EXPECT_EQ(complaint_of("icao = \"x\"\n" + place),
-              "s.toml:6: [station] icao: \"x\" is no station: four capital letters or digits, "
-              "as in \"KTLX\"");
-    EXPECT_EQ(complaint_of(place), "s.toml:5: [station] icao: the station must be named");
+              "s.toml:6: [station] icao: \"x\" is not a station: give four capital letters or "
+              "digits, as in \"KTLX\"");
+    EXPECT_EQ(complaint_of(place), "s.toml:5: [station] icao: must be given");
     EXPECT_EQ(complaint_of("icao = \"XABC\"\nlatitude_deg = 91\nlongitude_deg = 2\n"
                            "antenna_altitude_m = 3\n")
                   .substr(0, 34),
               "s.toml:7: [station] latitude_deg: ");
-    EXPECT_EQ(complaint_of("icao = \"XABC\"\n"), "s.toml:5: [station] latitude_deg: is needed");
+    EXPECT_EQ(complaint_of("icao = \"XABC\"\n"), "s.toml:5: [station] latitude_deg: must be given");
 }
 
 TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
@@ -174,9 +173,9 @@ TEST_F(ConfigFile, BudgetsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(complaint(p + "protect_hours = -1\n").substr(0, 9), "s.toml:6:");
     EXPECT_EQ(complaint(p + "byte = 1\n"), "s.toml:6: unknown key [cache] byte");
     EXPECT_EQ(complaint(p + "[[cache.domain]]\nbytes = 1\n"),
-              "s.toml:6: [cache.domain] name: the domain must be named");
+              "s.toml:6: [cache.domain] name: must be given");
     EXPECT_EQ(complaint(p + "[[cache.domain]]\nname = \"a.KBOX\"\n"),
-              "s.toml:7: [cache.domain] name: \"a.KBOX\" is no domain's name");
+              "s.toml:7: [cache.domain] name: \"a.KBOX\" is not a valid name of a domain");
     EXPECT_EQ(complaint(p + "[[cache.domain]]\nname = \"a\"\n[[cache.domain]]\nname = \"a\"\n"),
               "s.toml:9: [cache.domain] name: \"a\" is named twice");
 }
@@ -221,9 +220,10 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
               "s.toml:6: [ingest] quiet_seconds: nan is out of range, must be 1 to 86400");
     EXPECT_EQ(complaint(p + "[ingest]\nquiet_seconds = true\n"),
               "s.toml:6: [ingest] quiet_seconds: must be a number, is true or false");
-    EXPECT_EQ(complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
-              "s.toml:6: [ingest] moment: \"REFL\" is no moment; one of REF VEL SW ZDR PHI RHO "
-              "CFP");
+    EXPECT_EQ(
+        complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
+        "s.toml:6: [ingest] moment: \"REFL\" is not a moment: give one of REF VEL SW ZDR PHI RHO "
+        "CFP");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
               "s.toml:6: [ingest] extent_km: must be [width, height]");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),
@@ -232,11 +232,11 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
               "s.toml:6: [ingest] levels_km: \"16:0.5:1\" is not BOTTOM:TOP:STEP, as in "
               "\"0.5:16:0.5\"");
     EXPECT_EQ(complaint(p + "[ingest]\nlevels_km = []\n"),
-              "s.toml:6: [ingest] levels_km: must name a level");
+              "s.toml:6: [ingest] levels_km: must name at least one level");
     EXPECT_EQ(complaint(p + "[ingest]\nlevels_km = [1, \"2\"]\n"),
               "s.toml:6: [ingest] levels_km: must be an array of numbers, holds text");
     EXPECT_EQ(complaint(p + "[log]\nlevel = \"loud\"\n"),
-              "s.toml:6: [log] level: \"loud\" is none of debug, info, warning, error");
+              "s.toml:6: [log] level: \"loud\" must be one of debug, info, warning, error");
 }
 
 // What the grid room refuses is refused here, with the line.
@@ -259,19 +259,19 @@ TEST_F(ConfigFile, BrokenTomlNamesTheLine) {
 }
 
 TEST_F(ConfigFile, DropMustBeNamed) {
-    EXPECT_EQ(complaint(""), "s.toml: [paths] drop: the drop directory must be named");
+    EXPECT_EQ(complaint(""), "s.toml: [paths] drop: names the drop directory and must be given");
     EXPECT_EQ(complaint("\n[paths]\nstate = \"/s\"\n"),
-              "s.toml:2: [paths] drop: the drop directory must be named");
+              "s.toml:2: [paths] drop: names the drop directory and must be given");
     EXPECT_EQ(complaint("[paths]\ndrop = \"\"\n").substr(0, 10), "s.toml:2: ");
 }
 
 TEST_F(ConfigFile, PathsWithinOneAnotherAreRefused) {
     EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/s\"\ncache = \"/d/cache\"\n"),
-              "s.toml:4: [paths] cache: /d/cache is or lies within /d (drop); the three must be "
-              "apart");
+              "s.toml:4: [paths] cache: /d/cache is the same as or within /d (drop); the three "
+              "directories must be separate");
     EXPECT_EQ(complaint("[paths]\ndrop = \"/s/in\"\nstate = \"/s/\"\ncache = \"/c\"\n"),
-              "s.toml:2: [paths] drop: /s/in is or lies within /s (state); the three must be "
-              "apart");
+              "s.toml:2: [paths] drop: /s/in is the same as or within /s (state); the three "
+              "directories must be separate");
     EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/x\"\ncache = \"/x\"\n").substr(0, 9),
               "s.toml:3:");
     // A name that merely begins alike is apart.
@@ -333,7 +333,7 @@ TEST_F(ConfigFile, ScenesThatAreNotThereAreRefusedWhereTheyMustBe) {
     EXPECT_EQ(must_be("a.toml"), "");
     EXPECT_EQ(must_be("none.toml"), file().native() + ":7: [loop] scene: " + directory +
                                         "none.toml: No such file or directory");
-    EXPECT_EQ(must_be("."), file().native() + ":7: [loop] scene: " + directory + ": is no file");
+    EXPECT_EQ(must_be("."), file().native() + ":7: [loop] scene: " + directory + ": is not a file");
 }
 
 TEST_F(ConfigFile, TheStatusIsAskedForWhereItIsSaid) {
@@ -347,11 +347,11 @@ TEST_F(ConfigFile, TheStatusIsAskedForWhereItIsSaid) {
         return complaint(std::string(paths) + "[status]\n" + line + "\n");
     };
     EXPECT_EQ(status("socket = \"\""), "s.toml:6: [status] socket: must not be empty");
-    EXPECT_EQ(status("socket = \"/d/s\""), "s.toml:6: [status] socket: /d/s lies within /d");
-    EXPECT_EQ(status("socket = \"/c/x/s\""), "s.toml:6: [status] socket: /c/x/s lies within /c");
+    EXPECT_EQ(status("socket = \"/d/s\""), "s.toml:6: [status] socket: /d/s is within /d");
+    EXPECT_EQ(status("socket = \"/c/x/s\""), "s.toml:6: [status] socket: /c/x/s is within /c");
     EXPECT_EQ(status("socket = \"/s/s\""), "no complaint") << "the state directory is ours";
     EXPECT_EQ(status("socket = \"/" + std::string(107, 'x') + "\""),
-              "s.toml:6: [status] socket: is longer than 107 bytes");
+              "s.toml:6: [status] socket: has more than 107 bytes");
     EXPECT_EQ(status("http_port = 65536"),
               "s.toml:6: [status] http_port: 65536 is out of range, must be 0 to 65535");
     EXPECT_EQ(status("port = 1"), "s.toml:6: unknown key [status] port");
@@ -368,18 +368,18 @@ TEST_F(ConfigFile, LoopsThatMakeNoSenseAreRefused) {
     const auto loop = [&](const std::string& lines) {
         return complaint(std::string(paths) + "[[loop]]\n" + lines);
     };
-    EXPECT_EQ(loop("scene = \"a.toml\"\n"), "s.toml:5: [loop] name: the loop must be named");
+    EXPECT_EQ(loop("scene = \"a.toml\"\n"), "s.toml:5: [loop] name: must be given");
     EXPECT_EQ(loop("name = \"a/b\"\nscene = \"a.toml\"\n"),
-              "s.toml:6: [loop] name: \"a/b\" must be of letters, digits, - and _");
+              "s.toml:6: [loop] name: \"a/b\" must consist of letters, digits, - and _");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"a.toml\"\n[[loop]]\nname = \"a\"\nscene = \"b\"\n"),
               "s.toml:9: [loop] name: \"a\" is named twice");
     EXPECT_EQ(loop("name = \"a\"\ndomain = \"KTLX\"\n"),
-              "s.toml:5: [loop] outputs: is needed where no scene says it");
+              "s.toml:5: [loop] outputs: must be given if no scene is named");
     EXPECT_EQ(loop("name = \"a\"\noutputs = [\"a.webp\"]\n"),
-              "s.toml:5: [loop] domain: is needed where no scene says it");
+              "s.toml:5: [loop] domain: must be given if no scene is named");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"\"\n"), "s.toml:7: [loop] scene: must not be empty");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\ndomain = \"../x\"\n"),
-              "s.toml:8: [loop] domain: \"../x\" is no domain's name");
+              "s.toml:8: [loop] domain: \"../x\" is not a valid name of a domain");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nlast = 0\n"),
               "s.toml:8: [loop] last: 0 is out of range, must be 1 to 1000000");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nhours = 0\n").substr(0, 23),
@@ -389,7 +389,7 @@ TEST_F(ConfigFile, LoopsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = \"a.webp\"\n"),
               "s.toml:8: [loop] outputs: must be an array of texts, is text");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = [\"/d/x/a.webp\"]\n"),
-              "s.toml:8: [loop] outputs: /d/x/a.webp lies within /d");
+              "s.toml:8: [loop] outputs: /d/x/a.webp is within /d");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = [\"/o/f\", \"/o/f/\"]\n"),
               "s.toml:8: [loop] outputs: /o/f/ is named twice");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nfps = 8\n"), "s.toml:8: unknown key [loop] fps");

@@ -212,13 +212,14 @@ TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
     EXPECT_EQ(daemon.terminate(), 0);
     fs::remove(daemon.drop() / "a");
     daemon.start(quick);
-    ASSERT_TRUE(daemon.wait_for_log("1 file went while nobody watched")) << daemon.log();
+    ASSERT_TRUE(daemon.wait_for_log("marked 1 file as gone")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_EQ(rows(daemon, "KBGM").at(0).state, FileState::gone);
 
     // And forgotten where that is asked for, as its row is older than a tenth of a second.
     daemon.start(std::string{quick} + "[catalog]\ngone_days = 1e-6\n");
-    ASSERT_TRUE(daemon.wait_for_log("the rows of 1 file that went long ago were deleted"))
+    ASSERT_TRUE(
+        daemon.wait_for_log("deleted the catalog rows of 1 file marked as gone: they were older"))
         << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_TRUE(rows(daemon, "KBGM").empty());
@@ -272,16 +273,16 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
                "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"other\"\n"
                "[ingest]\nworkers = 3\n");
     daemon.signal(SIGHUP);
-    EXPECT_TRUE(daemon.wait_for_log("reloaded: 3 workers"));
-    EXPECT_TRUE(daemon.wait_for_log("[paths] cannot change"));
+    EXPECT_TRUE(daemon.wait_for_log("reloaded: the configuration now has 3 workers"));
+    EXPECT_TRUE(daemon.wait_for_log("the change of [paths] to take effect"));
     write_file(file,
                "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n"
                "[ingest]\nworkers = 2\n[catalog]\nbytes = \"8 GB\"\n");
     daemon.signal(SIGHUP);
-    EXPECT_TRUE(daemon.wait_for_log("the catalog's bytes change at a restart only"));
+    EXPECT_TRUE(daemon.wait_for_log("the catalog's bytes to take effect"));
     write_file(file, "[paths]\ndorp = \"drop\"\n");
     daemon.signal(SIGHUP);
-    EXPECT_TRUE(daemon.wait_for_log("the configuration stays as it was"));
+    EXPECT_TRUE(daemon.wait_for_log("the service keeps its previous configuration"));
     EXPECT_EQ(daemon.terminate(), 0) << "a bad file does not end it";
 }
 
@@ -347,9 +348,9 @@ TEST(EndToEnd, OneDaemonAStateDirectory) {
 TEST(EndToEnd, ASocketPathThatIsTooLongIsSaid) {
     RunningDaemon daemon;
     daemon.start({}, {{"RUNTIME_DIRECTORY", (daemon.root() / std::string(120, 's')).native()}});
-    EXPECT_TRUE(
-        daemon.wait_for_log(": a socket's path has 1 to 107 bytes; name another [status] "
-                            "socket and restart"))
+    EXPECT_TRUE(daemon.wait_for_log(
+        ": the path of a socket must have 1 to 107 bytes; name another [status] "
+        "socket and restart"))
         << daemon.log();
     EXPECT_EQ(daemon.log().find("trying again"), std::string::npos);
     EXPECT_EQ(daemon.terminate(), 0);
@@ -373,12 +374,12 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
         EXPECT_EQ(ran.status, 2);
         EXPECT_TRUE(ran.err.starts_with("stormcellard: " + why + "\nusage: ")) << ran.err;
     };
-    refused({"--config"}, "--config: no file is named");
-    refused({"--config", "x", "more"}, "more: there is no such option");
-    refused({"--bogus", "--config", "x"}, "--bogus: there is no such option");
-    refused({"--no-loops"}, "--config is needed");
+    refused({"--config"}, "--config: give a file");
+    refused({"--config", "x", "more"}, "more: is not an option");
+    refused({"--bogus", "--config", "x"}, "--bogus: is not an option");
+    refused({"--no-loops"}, "--config FILE must be given");
     refused({"--config", "x", "--loops-only", "--no-loops"},
-            "--no-loops and --loops-only exclude each other");
+            "--no-loops and --loops-only cannot be given together");
     EXPECT_EQ(testing::run_program(STORMCELLARD, {"--help"}).status, 0);
     EXPECT_TRUE(testing::run_program(STORMCELLARD, {"--version"}).out.starts_with("stormcellard "));
 
@@ -396,16 +397,16 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
                                    file.native()));
     const auto good = run("[paths]\ndrop = \"none\"\n", {"--check-config"});
     EXPECT_EQ(good.status, 0) << "the directories need not be there to be checked";
-    EXPECT_EQ(good.err, fmt::format("stormcellard: note: drop directory {}: No such file or "
-                                    "directory: the service waits for it\n",
+    EXPECT_EQ(good.err, fmt::format("stormcellard: note: cannot read the drop directory {}: No "
+                                    "such file or directory; the service will wait for it\n",
                                     (directory / "none").native()));
     fs::create_directory(directory / "there");
     EXPECT_EQ(run("[paths]\ndrop = \"there\"\n", {"--check-config"}).err, "");
     const auto blocked =
         run("[paths]\ndrop = \"there\"\nstate = \"c.toml/state\"\n", {"--check-config"});
     EXPECT_EQ(blocked.status, 0);
-    EXPECT_EQ(blocked.err, fmt::format("stormcellard: note: [paths] state: {} is no directory: the "
-                                       "service cannot start\n",
+    EXPECT_EQ(blocked.err, fmt::format("stormcellard: note: [paths] state: {} is not a directory, "
+                                       "so the service cannot start\n",
                                        file.native()));
     const auto unseen =
         run("[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\nscene = \"gone.toml\"\n",
@@ -425,7 +426,7 @@ TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
     ASSERT_TRUE(daemon.wait_for_log("not ready: drop directory " + daemon.drop().native() + ": "))
         << daemon.log();
     EXPECT_EQ(daemon.log().find(" ready: "), daemon.log().find("not ready: ") + 3);
-    EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() +
+    EXPECT_TRUE(daemon.wait_for_log("cannot read the drop directory " + daemon.drop().native() +
                                     ": No such file or directory; looking again every 1 s"));
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["drop_lost"].is_string(); }));
     EXPECT_EQ(daemon.status()["state"], "starting");
@@ -434,7 +435,8 @@ TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
         return s["drop_lost"].is_null() && s["ingested"] == 1;
     })) << daemon.log();
-    EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() + " is back"));
+    EXPECT_TRUE(
+        daemon.wait_for_log("the drop directory " + daemon.drop().native() + " can be read again"));
     EXPECT_EQ(daemon.terminate(), 0);
 }
 

@@ -40,7 +40,8 @@ TEST_F(HostileSizes, HugeSparseFilesAreRefusedBySize) {
     ASSERT_TRUE(wait_until_rejected(4)) << daemon_.log();
     for (const char* name : {"zeros", "KTLX_before", "20220317-000842-001-S", "KTLX_growing"}) {
         EXPECT_EQ(reason_of(name),
-                  "1099511627776 bytes, and a raw file may have 268435456: not read")
+                  "has 1099511627776 bytes, more than the 268435456 that a raw file may have; it "
+                  "was not read")
             << name;
     }
     expect_bounded("sparse files of 1 TiB");
@@ -182,7 +183,7 @@ TEST_F(HostileSizes, DeepAndWideDirectoriesAreBounded) {
     ::close(at);
     put(drop() / "wide/1999/KTLX_good", volume());
     ASSERT_TRUE(wait_until_gridded("KTLX_good")) << daemon_.log();
-    ASSERT_TRUE(was_said(": more than 16 directories deep, left out"));
+    ASSERT_TRUE(was_said(": is more than 16 directories deep, so it is not read"));
     const std::uint64_t scans = daemon_.status()["scans"];
     ASSERT_TRUE(daemon_.wait_for([&](const json& s) { return s["scans"] >= scans + 2; }));
     EXPECT_LT(daemon_.status()["directories"], 2000 + 2 * 20 + 20);

@@ -58,7 +58,7 @@ TEST_F(IntakeTest, ProblemsAreGivenOnceAsLongAsScansFindThem) {
     const auto first = scan(true);
     ASSERT_EQ(first.size(), 2U);
     EXPECT_EQ(first[0].code, ErrorCode::not_a_file);
-    EXPECT_EQ(first[0].message, at("link\n").native() + ": is a symbolic link: left out");
+    EXPECT_EQ(first[0].message, at("link\n").native() + ": is a symbolic link, so it is not read");
     EXPECT_TRUE(scan(true).empty());
     EXPECT_TRUE(scan(false).empty());
     EXPECT_EQ(scan(true).size(), 2U) << "they went and came again";

@@ -120,12 +120,14 @@ TEST_F(LogTest, AFloodIsSummedUpOnceAMinute) {
     now_ = t0 + seconds{60};
     log_held_back();
     EXPECT_EQ(socket_->receive_fields(),
-              (JournalFields{{"MESSAGE", "rejected KTLX: 1234 more of these in the last minute"},
-                             {"PRIORITY", "4"},
-                             {"SYSLOG_IDENTIFIER", "stormcellard"},
-                             {"STORMCELLAR_EVENT", "rejected"},
-                             {"STORMCELLAR_STATION", "KTLX"},
-                             {"STORMCELLAR_HELD_BACK", "1234"}}));
+              (JournalFields{
+                  {"MESSAGE",
+                   "rejected KTLX: 1234 more lines like this were not logged in the last minute"},
+                  {"PRIORITY", "4"},
+                  {"SYSLOG_IDENTIFIER", "stormcellard"},
+                  {"STORMCELLAR_EVENT", "rejected"},
+                  {"STORMCELLAR_STATION", "KTLX"},
+                  {"STORMCELLAR_HELD_BACK", "1234"}}));
     log_held_back();
     EXPECT_EQ(count(), 0);
 }

@@ -129,7 +129,7 @@ TEST_F(LoopsOnly, ADaemonThatKeepsThemTooSaysSo) {
     fs::create_directory_symlink(loops_.root() / "state", both.root() / "state");
     write_file(both.root() / "scene.toml", "[picture]\nproduct = \"composite\"\n");
     both.start(one_loop(), with_program());
-    EXPECT_TRUE(both.wait_for_log("another process keeps the loops, too")) << both.log();
+    EXPECT_TRUE(both.wait_for_log("another process runs the same loops")) << both.log();
     EXPECT_EQ(both.terminate(), 0) << both.log();
     EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
 }

@@ -44,7 +44,7 @@ class Loops : public ::testing::Test {
     // Returns the process of the loop that was started last.
     pid_t process() const {
         const std::string log = daemon_.log();
-        const std::size_t at = log.rfind("started, process ");
+        const std::size_t at = log.rfind("started as process ");
         return at == std::string::npos ? 0 : std::stoi(log.substr(at + 17));
     }
     static bool is_gone(pid_t process) {
@@ -92,7 +92,8 @@ TEST_F(Loops, ThatOneWaitsForItsFirstGridIsSaidOnce) {
 TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
     STORMCELLAR_NEED_DATA();
     daemon_.start(one_loop, {{"PATH", "/nowhere"}});
-    ASSERT_TRUE(daemon_.wait_for_log("loop binghamton: cannot be started: no program stormcellar"))
+    ASSERT_TRUE(
+        daemon_.wait_for_log("loop binghamton: cannot be started: there is no program stormcellar"))
         << daemon_.log();
     drop("KBGM20050822_024414.gz");
     EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 1; }));
@@ -102,7 +103,7 @@ TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
 
 TEST_F(Loops, ALoopThatDiesIsStartedAgain) {
     daemon_.start(one_loop, with_program());
-    ASSERT_TRUE(daemon_.wait_for_log("started, process")) << daemon_.log();
+    ASSERT_TRUE(daemon_.wait_for_log("started as process")) << daemon_.log();
     ::kill(process(), SIGKILL);
     EXPECT_TRUE(daemon_.wait_for_log("loop binghamton: ended with signal 9")) << daemon_.log();
     EXPECT_TRUE(daemon_.wait_for([](const json& s) {
@@ -189,7 +190,7 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
     refused(check("", "scene = \"scene.toml\"\noutputs = [\"a.webp\"]\n", path), "--domain");
     refused(check("", "domain = \"KBGM\"\noutputs = [\"a.xyz\"]\n", path),
             "the ending '.xyz' is not known");
-    refused(check("", loop, "/nowhere"), "no program stormcellar");
+    refused(check("", loop, "/nowhere"), "there is no program stormcellar");
 }
 
 }  // namespace

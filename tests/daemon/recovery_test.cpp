@@ -101,7 +101,7 @@ TEST_F(Recovery, ADeletedStateDirectoryIsMadeAgain) {
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 3; }))
         << daemon_.log();
     EXPECT_TRUE(daemon_.wait_for_log("state directory " + (daemon_.root() / "state").native() +
-                                     " was deleted: it is made again"));
+                                     " was deleted; the service made it again"));
     EXPECT_TRUE(fs::exists(daemon_.root() / "state/stormcellard.lock"));
     const fs::path socket = daemon_.root() / "state/status.sock";
     for (int i = 0; i < 3000 && !fs::is_socket(socket); ++i)
@@ -119,7 +119,8 @@ TEST_F(Recovery, AWipedCacheAndADamagedGridAreMadeAgainAtTheStart) {
     ASSERT_EQ(grids().size(), 2U);
     fs::resize_file(grids()[0].path, 10'000);
     daemon_.start("[ingest]\nspacing_km = 4\n");
-    EXPECT_TRUE(daemon_.wait_for_log("dropped, and made again from")) << daemon_.log();
+    EXPECT_TRUE(daemon_.wait_for_log("the service removed it and made it again from"))
+        << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     fs::remove_all(daemon_.cache() / "KBGM");
     daemon_.start("[ingest]\nspacing_km = 4\n");
@@ -153,16 +154,17 @@ TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
     fs::resize_file(list("north").at(0).path, 5000);
     fs::resize_file(list("north.KBGM").at(1).path, 5000);
     daemon_.start(domain);
-    EXPECT_TRUE(daemon_.wait_for_log("dropped, and made again from the partials of KBGM"))
+    EXPECT_TRUE(
+        daemon_.wait_for_log("the service removed it and made it again from the partials of KBGM"))
         << daemon_.log();
-    EXPECT_TRUE(daemon_.wait_for_log(std::string{"dropped, and made again from "} +
+    EXPECT_TRUE(daemon_.wait_for_log(std::string{"the service removed it and made it again from "} +
                                      (daemon_.drop() / second).native()))
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
 
     fs::remove_all(daemon_.cache() / "north");
     daemon_.start(domain);
-    EXPECT_TRUE(daemon_.wait_for_log("missing frame north 2005-08-22T02:50:00Z: made again"))
+    EXPECT_TRUE(daemon_.wait_for_log("missing frame north 2005-08-22T02:50:00Z was made again"))
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     fs::remove_all(daemon_.cache() / "north");
@@ -197,7 +199,7 @@ TEST_F(Recovery, AMosaicThatNobodyConfiguresAnyMoreIsDroppedWithTheReason) {
     fs::resize_file(frames[0].path, 5000);
     daemon_.start("[ingest]\nspacing_km = 4\n");
     EXPECT_TRUE(
-        daemon_.wait_for_log("it cannot be made again: no REF of north is configured any more"))
+        daemon_.wait_for_log("cannot make it again: the configuration no longer has REF of north"))
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_FALSE(fs::exists(frames[0].path));

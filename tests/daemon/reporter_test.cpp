@@ -27,8 +27,8 @@ TEST(LogLine, OfAGriddedFileNamesStationVolumeAndLatency) {
     made.taken->ingest.grid_s = 0.02;
     made.taken->ingest.commit_s = 0.008;
     EXPECT_EQ(describe(made),
-              "gridded KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 85 ms after close, read 2 decode 50 "
-              "grid 20 commit 8 ms");
+              "gridded KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 85 ms after close; read 2 ms, decode "
+              "50 ms, grid 20 ms, commit 8 ms");
 }
 
 TEST(LogLine, OfAFileWhoseCloseNobodySawSaysHowLongItTook) {
@@ -36,8 +36,8 @@ TEST(LogLine, OfAFileWhoseCloseNobodySawSaysHowLongItTook) {
     made.taken->ingest.reason = "ends\nearly";
     made.taken->ingest.partial = true;
     EXPECT_EQ(describe(made),
-              "gridded partial KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 80 ms, read 0 decode 0 grid 0 "
-              "commit 0 ms (ends\\x0aearly)");
+              "gridded partial KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 80 ms; read 0 ms, decode 0 "
+              "ms, grid 0 ms, commit 0 ms (ends\\x0aearly)");
 }
 
 TEST(LogLine, OfARejectedFileSaysWhy) {
@@ -61,7 +61,8 @@ TEST(LogLine, OfASweepThatEnteredAGrowingVolumesGrid) {
     Finished made = finished(IngestResult::incomplete);
     made.job.closed_at = made.started - milliseconds{5};
     made.taken->ingest.living = {"/c/grid.scg"};
-    EXPECT_EQ(describe(made), "sweep of KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 85 ms after close");
+    EXPECT_EQ(describe(made),
+              "sweep of KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: gridded 85 ms after close");
     const About subject = about(made);
     EXPECT_EQ(subject.event, Event::living);
     EXPECT_DOUBLE_EQ(subject.latency_s.value_or(0), 0.085);

@@ -85,17 +85,21 @@ TEST_F(RowKeeperTest, ForgetsOnceAnHour) {
     look(1, hours{48});
     EXPECT_EQ(sink_.deletions, 1);
     EXPECT_NEAR(std::chrono::duration<double>(sink_.kept.load()).count(), 48 * 3600, 60);
-    EXPECT_EQ(next_line(), "the rows of 12 files that went long ago were deleted");
+    EXPECT_EQ(next_line(),
+              "deleted the catalog rows of 12 files marked as gone: they were older than [catalog] "
+              "gone_days");
     now_ += RowKeeper::between_deletions - seconds{1};
     look(2, hours{48});
     EXPECT_EQ(sink_.deletions, 1);
     now_ += seconds{2};
     look(3, hours{48});
     EXPECT_EQ(sink_.deletions, 2);
-    EXPECT_EQ(next_line(), "the rows of 12 files that went long ago were deleted");
+    EXPECT_EQ(next_line(),
+              "deleted the catalog rows of 12 files marked as gone: they were older than [catalog] "
+              "gone_days");
     now_ += RowKeeper::between_deletions;
     look(4, hours{48});
-    EXPECT_EQ(next_line(), "cannot delete rows of files that went: disk full");
+    EXPECT_EQ(next_line(), "cannot delete the catalog rows of files that are gone: disk full");
 }
 
 TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
@@ -118,7 +122,7 @@ TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
 TEST_F(RowKeeperTest, GoesOnWhenALookFails) {
     sink_.throws = true;
     keeper_.look(now_, {});
-    EXPECT_EQ(next_line(), "cannot look for files that went: no memory");
+    EXPECT_EQ(next_line(), "cannot check which cataloged files are gone: no memory");
     sink_.throws = false;
     now_ += hours{1};
     look(1);

@@ -45,8 +45,8 @@ TEST(SilentFileSystems, AreNamedByTheEvents) {
     const auto name = silent_file_system_of(directory.path());
     ASSERT_EQ(silence.has_value(), name.has_value());
     if (name) {
-        EXPECT_EQ(*silence, directory.path().native() + ": lies on " + std::string{*name} +
-                                ", where the kernel does not tell of all changes");
+        EXPECT_EQ(*silence, directory.path().native() + ": is on " + std::string{*name} +
+                                ", where the kernel does not report every change");
     }
     EXPECT_EQ(no_events()->silence(directory.path()), "") << "blind, and that was said";
 }

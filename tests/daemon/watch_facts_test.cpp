@@ -42,12 +42,13 @@ TEST_F(FewWatches, WithoutWatchesTheRestIsPolled) {
     for (const char* name : {"a", "b", "c"})
         fs::create_directory(drop() / name);
     daemon_.start(polled);
-    ASSERT_TRUE(was_said(
-        "no inotify watches left; raise the sysctl user.max_inotify_watches (2 now); the drop "
-        "directory is polled"));
+    ASSERT_TRUE(
+        was_said("no inotify watch is left; raise the sysctl user.max_inotify_watches (now 2); the "
+                 "service polls the drop directory"));
     expect_polling();
     const std::string log = daemon_.log();
-    EXPECT_EQ(log.find("no inotify watches"), log.rfind("no inotify watches")) << "said once";
+    EXPECT_EQ(log.find("no inotify watch is left"), log.rfind("no inotify watch is left"))
+        << "said once";
 }
 
 TEST_F(FewWatches, WithoutAnInstanceEverythingIsPolled) {

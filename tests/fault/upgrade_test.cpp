@@ -53,12 +53,15 @@ class Upgrade : public HostileCases {
 TEST_F(Upgrade, AnOldStateKeepsWorkingAndTheLogSaysWhatIsOfNoStation) {
     make_state_of_before();
     start();
-    EXPECT_TRUE(daemon_.wait_for_log("1 database of stations of which no data are taken in (" +
-                                     std::string{own_radar} + "): left alone"))
+    EXPECT_TRUE(
+        daemon_.wait_for_log("1 database of stations that [ingest] stations does not accept (" +
+                             std::string{own_radar} + "): the service does not open"))
         << daemon_.log();
     expect_gridded("KTLX", put_good("KTLX", 60));
     const UtcTime second = put_own(60);
-    EXPECT_TRUE(daemon_.wait_for_log("of XABC, of which no data are taken in")) << log_end();
+    EXPECT_TRUE(
+        daemon_.wait_for_log("is of XABC, a station that [ingest] stations does not accept"))
+        << log_end();
     EXPECT_TRUE(rests(10 * testing::slow_down)) << log_end();
     EXPECT_EQ(daemon_.status()["catalog"]["left_alone"], 1);
     EXPECT_FALSE(has_whole_grid(daemon_.cache(), own_radar, second));

@@ -251,7 +251,7 @@ TEST_F(BetweenMosaics, WithoutTheSitesGridsThereIsNothingBetween) {
     std::filesystem::remove_all(directory_ / "cache" / "north.KBGM");
     const auto between = BetweenGrids::open(store_, "north", moment, {}, problems_);
     ASSERT_FALSE(between);
-    EXPECT_THAT(between.error().message, HasSubstr("the grids of the sites"));
+    EXPECT_THAT(between.error().message, HasSubstr("does not have the grids of north's sites"));
 }
 
 }  // namespace

@@ -117,7 +117,8 @@ TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
     ASSERT_TRUE(without) << without.error().message;
     EXPECT_EQ(without->bytes, whole->bytes);
     ASSERT_EQ(without->notes.size(), 1U);
-    EXPECT_EQ(without->notes[0], further.native() + ": is not in the catalog, and left out");
+    EXPECT_EQ(without->notes[0],
+              further.native() + ": is left out because it is not in the catalog");
     fs::remove(further);
 
     fs::rename(paths_[5], directory_ / "elsewhere");

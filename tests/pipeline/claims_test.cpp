@@ -97,7 +97,8 @@ TEST_F(Claims, AFileOfAnotherStationIsCatalogedAndNotGridded) {
     ASSERT_EQ(entries.size(), 1U);
     EXPECT_EQ(entries[0].state, FileState::complete);
     EXPECT_EQ(entries[0].volume.sweep_count, 2);
-    EXPECT_TRUE(entries[0].reason.starts_with("of XAAA, of which no data are taken in"))
+    EXPECT_TRUE(entries[0].reason.starts_with(
+        "is of XAAA, a station that [ingest] stations does not accept"))
         << entries[0].reason;
     EXPECT_FALSE(fs::exists(directory_ / "catalog/XAAA.sqlite"));
     EXPECT_EQ(ingestor.ingest(drop() / "KTLX20220317_010000", false)->result(),

@@ -125,7 +125,8 @@ TEST(Domain, BoundsOfAPlaneAreWithinTheGrid) {
 TEST(Domain, WhatMakesNoSenseIsNamed) {
     const std::string good = "name = \"a\"\ncenter = [35, -97]\nextent_km = [100, 100]\n";
     EXPECT_EQ(complaint(good), "");
-    EXPECT_THAT(complaint("center = [35, -97]\nextent_km = [9, 9]\n"), HasSubstr("needs a name"));
+    EXPECT_THAT(complaint("center = [35, -97]\nextent_km = [9, 9]\n"),
+                HasSubstr("name: must be given"));
     EXPECT_THAT(complaint("name = \"a.b\"\ncenter = [35, -97]\nextent_km = [9, 9]\n"),
                 HasSubstr("letters, digits"));
     EXPECT_THAT(complaint("name = \"KTLX\"\ncenter = [35, -97]\nextent_km = [9, 9]\n"),
@@ -139,8 +140,8 @@ TEST(Domain, WhatMakesNoSenseIsNamed) {
     EXPECT_THAT(complaint(good + "parallels_deg = [1, 2]\n"), HasSubstr("lambert_conformal"));
     EXPECT_THAT(complaint(good + "levels_km = \"1:2\"\n"), HasSubstr("BOTTOM:TOP:STEP"));
     EXPECT_THAT(complaint(good + "levels_km = [2, 1]\n"), HasSubstr("level"));
-    EXPECT_THAT(complaint(good + "moments = [\"DBZ\"]\n"), HasSubstr("no moment"));
-    EXPECT_THAT(complaint(good + "moments = []\n"), HasSubstr("name a moment"));
+    EXPECT_THAT(complaint(good + "moments = [\"DBZ\"]\n"), HasSubstr("not a moment"));
+    EXPECT_THAT(complaint(good + "moments = []\n"), HasSubstr("at least one moment"));
     EXPECT_THAT(complaint(good + "stations = [\"ktlx\"]\n"), HasSubstr("four capital"));
     EXPECT_THAT(complaint(good + "overlap = \"min\"\n"), HasSubstr("maximum"));
     EXPECT_THAT(complaint(good + "time_method = \"now\"\n"), HasSubstr("advected"));

@@ -129,7 +129,8 @@ constexpr std::uintmax_t tebibyte = std::uintmax_t{1} << 40U;
 // Refused by their size, whatever they look like; nobody reads a tebibyte of zeros.
 TEST_F(Hostile, HugeSparseFilesAreRefusedUnread) {
     const std::string why =
-        "rejected: 1099511627776 bytes, and a raw file may have 268435456: not read";
+        "rejected: has 1099511627776 bytes, more than the 268435456 that a raw file may have; it "
+        "was not read";
     const auto record = wire::ldm_record(wire::radial_messages(1, 360));
     const auto begun = wire::join({wire::archive_header(), record});
     for (const char* name : {"plain", "KTLX20220317_000842_V06", "KTLX/1/20220317-000842-001-S"}) {
@@ -147,7 +148,7 @@ TEST_F(Hostile, AFileOfManyVolumesIsRefused) {
     for (int i = 0; i < 65; ++i)
         many.insert(many.end(), one.begin(), one.end());
     EXPECT_EQ(take(put(drop() / "KTLX_many", many)),
-              "rejected: holds 65 volumes, and a raw file may hold 64");
+              "rejected: holds 65 volumes, more than the 64 that a raw file may hold");
     many.resize(many.size() - one.size());
     EXPECT_EQ(take(put(drop() / "KTLX_fewer", many)), "gridded");
 }
@@ -191,7 +192,7 @@ TEST_F(Hostile, AFollowedFileThatBecomesHugeIsGivenUp) {
         put(drop() / "KTLX20220317_000842_V06", wire::join({wire::archive_header(), record}));
     EXPECT_EQ(take(path, false), "incomplete");
     fs::resize_file(path, tebibyte);
-    EXPECT_EQ(take(path, false).substr(0, 23), "rejected: 1099511627776");
+    EXPECT_TRUE(take(path, false).starts_with("rejected: has 1099511627776 bytes"));
 }
 
 // Each of 90 bytes unpacks to 45 MB.

@@ -52,8 +52,8 @@ TEST_F(IngestArchiveTest, ItsVolumesAreGriddedAndCatalogedByTheirNames) {
         ASSERT_EQ(volumes().size(), 2U);
         EXPECT_EQ(volumes()[0].path, member_path(path, "order/KBGM20050822_024414.gz"));
         EXPECT_EQ(volumes()[0].state, FileState::complete);
-        EXPECT_THAT(outcome->reason, HasSubstr(kind == archive::Kind::tar ? "2 taken in, 1 rejected"
-                                                                          : "3 known already"));
+        EXPECT_THAT(outcome->reason, HasSubstr(kind == archive::Kind::tar ? "2 ingested, 1 rejected"
+                                                                          : "3 already known"));
     }
     EXPECT_EQ(ingestor_.ingest(directory_ / "order.bin", false)->result(), IngestResult::unchanged);
 }

@@ -116,7 +116,7 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
     EXPECT_EQ(old->not_kept, 1);
     EXPECT_TRUE(old->grids.empty());
     EXPECT_EQ(old->grid_s, 0);
-    EXPECT_EQ(old->reason, "older than what the cache keeps");
+    EXPECT_EQ(old->reason, "no grid was kept: it would be older than all that the cache keeps");
     EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false)->result(),
               IngestResult::unchanged);
 }
@@ -195,7 +195,7 @@ TEST_F(IngestTest, AWholeGridIsNotReplacedByAPartOfIt) {
     const auto of_cut = ingestor_.ingest(put("KTLX_cut", cut), true);
     ASSERT_TRUE(of_cut);
     EXPECT_TRUE(of_cut->partial);
-    EXPECT_EQ(of_cut->reason, "a grid of the whole volume stands in the cache");
+    EXPECT_EQ(of_cut->reason, "not replaced: the cache has a grid of the whole volume");
     ASSERT_EQ(grids("KTLX").size(), 1U);
     EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_whole");
 }
@@ -231,7 +231,7 @@ TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheNewerOneCounts) {
     fs::last_write_time(older, fs::file_time_type::clock::now() - std::chrono::hours(1));
     ASSERT_TRUE(ingestor_.ingest(put("KTLX_newer", bytes), false));
     const auto outcome = ingestor_.ingest(older, false);
-    EXPECT_EQ(outcome->reason, "a grid of a newer file of this volume stands in the cache");
+    EXPECT_EQ(outcome->reason, "not replaced: the cache has a grid of a newer file of this volume");
     EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_newer");
 }
 

@@ -352,7 +352,7 @@ TEST_F(MendMosaic, WhatCannotBeMadeAgainIsDroppedWithTheReason) {
         fs::remove(directory_ /
                    fmt::format("KBGM{:%Y%m%d_%H%M%S}.gz",
                                std::chrono::floor<std::chrono::seconds>(partial.time)));
-        EXPECT_EQ(dropped(partial), "no raw file of it is left");
+        EXPECT_EQ(dropped(partial), "its raw file is gone or has changed");
     }
     EXPECT_EQ(dropped(frame), "no site has a volume within 15 minutes of 2005-08-22T02:55:00Z");
     Ingestor without(catalog_, store_, {});
@@ -360,7 +360,7 @@ TEST_F(MendMosaic, WhatCannotBeMadeAgainIsDroppedWithTheReason) {
     const auto stray = frames().at(0);
     fs::resize_file(stray.path, 5000);
     EXPECT_EQ(other.mend(stray, MendDepth::header)->why_not,
-              "no REF of north is configured any more");
+              "the configuration no longer has REF of north");
     EXPECT_TRUE(all().empty());
 }
 
