@@ -44,8 +44,9 @@ class Loops : public ::testing::Test {
     // Returns the process of the loop that was started last.
     pid_t process() const {
         const std::string log = daemon_.log();
-        const std::size_t at = log.rfind("started as process ");
-        return at == std::string::npos ? 0 : std::stoi(log.substr(at + 17));
+        const std::string before = "started as process ";
+        const std::size_t at = log.rfind(before);
+        return at == std::string::npos ? 0 : std::stoi(log.substr(at + before.size()));
     }
     static bool is_gone(pid_t process) {
         std::ifstream stat("/proc/" + std::to_string(process) + "/stat");

@@ -56,7 +56,7 @@ TEST_F(Recovery, ADamagedDatabaseIsSetAsideAtTheStartAndFilledAgain) {
     fs::resize_file(daemon_.catalog() / "KBGM.sqlite",
                     fs::file_size(daemon_.catalog() / "KBGM.sqlite") - 100);
     run_until_ingested(1);
-    EXPECT_TRUE(daemon_.wait_for_log("KBGM.sqlite: damaged (")) << daemon_.log();
+    EXPECT_TRUE(daemon_.wait_for_log("KBGM.sqlite: was damaged (")) << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     ASSERT_EQ(rows().size(), 2U) << daemon_.log();
     EXPECT_EQ(rows()[0].state, catalog::FileState::gone);
@@ -77,7 +77,7 @@ TEST_F(Recovery, ADatabaseDamagedAtRunTimeDoesNotStopItsStation) {
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_EQ(rows().size(), 2U);
-    EXPECT_NE(daemon_.log().find("KBGM.sqlite: damaged ("), std::string::npos) << daemon_.log();
+    EXPECT_NE(daemon_.log().find("KBGM.sqlite: was damaged ("), std::string::npos) << daemon_.log();
 }
 
 TEST_F(Recovery, ADeletedDatabaseIsFilledAgain) {

@@ -54,7 +54,7 @@ TEST_F(FewWatches, WithoutWatchesTheRestIsPolled) {
 TEST_F(FewWatches, WithoutAnInstanceEverythingIsPolled) {
     if (!limit("instances", 0)) GTEST_SKIP() << "limits of instances cannot be set here";
     daemon_.start(polled);
-    ASSERT_TRUE(was_said("raise the sysctl user.max_inotify_instances (0 now)"));
+    ASSERT_TRUE(was_said("raise the sysctl user.max_inotify_instances (now 0)"));
     expect_polling();
 }
 
