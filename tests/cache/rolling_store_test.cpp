@@ -168,7 +168,7 @@ TEST_F(RollingStoreTest, ABudgetBelowOneGridIsAnError) {
     EXPECT_EQ(refused.error().code, ErrorCode::over_budget);
     EXPECT_TRUE(refused.error().message.starts_with(path("A", 2).native()))
         << refused.error().message;
-    EXPECT_THAT(refused.error().message, HasSubstr("budget"));
+    EXPECT_THAT(refused.error().message, HasSubstr("limits leave no room"));
     EXPECT_EQ(store.usage().bytes, 0U) << "the reservation was given back";
 
     Budgets larger = budgets_;
