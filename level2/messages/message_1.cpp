@@ -41,6 +41,24 @@ bool add_moment(RadialMessage& message, MomentBlock block, const Gates& gates,
     return !reader.failed() && message.add(block);
 }
 
+// Returns how REF, VEL and SW are coded. Velocity comes in steps of 0.5 m/s (resolution 2) or 1 m/s
+// (4).
+std::array<MomentBlock, 3> moment_blocks(std::uint16_t velocity_resolution, float threshold_db) {
+    std::array<MomentBlock, 3> blocks;
+    blocks[0].moment = Moment::ref;
+    blocks[1].moment = Moment::vel;
+    blocks[2].moment = Moment::sw;
+    blocks[0].scale = 2;
+    blocks[0].offset = 66;
+    blocks[1].scale = velocity_resolution == 4 ? 1.0F : 2.0F;
+    blocks[1].offset = 129;
+    blocks[2].scale = 2;
+    blocks[2].offset = 129;
+    for (MomentBlock& block : blocks)
+        block.folding_threshold_db = threshold_db;
+    return blocks;
+}
+
 }  // namespace
 
 RadialResult read_message_1(std::span<const std::byte> body, Framing framing) {
@@ -79,18 +97,7 @@ RadialResult read_message_1(std::span<const std::byte> body, Framing framing) {
     radial.spot_blanking = static_cast<std::uint8_t>(reader.u16());
     if (reader.failed()) return tl::unexpected(std::string_view{"message 1 is too short"});
 
-    // Velocity comes in steps of 0.5 m/s (resolution 2) or 1 m/s (4).
-    const float velocity_scale = velocity_resolution == 4 ? 1.0F : 2.0F;
-    std::array<MomentBlock, 3> blocks;
-    blocks[0].moment = Moment::ref;
-    blocks[1].moment = Moment::vel;
-    blocks[2].moment = Moment::sw;
-    blocks[0].scale = 2;
-    blocks[0].offset = 66;
-    blocks[1].scale = velocity_scale;
-    blocks[1].offset = 129;
-    blocks[2].scale = 2;
-    blocks[2].offset = 129;
+    const std::array<MomentBlock, 3> blocks = moment_blocks(velocity_resolution, threshold_db);
     std::array<Extent, 3> extents;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         const std::size_t gates = i == 0 ? surveillance.count : doppler.count;
@@ -99,7 +106,6 @@ RadialResult read_message_1(std::span<const std::byte> body, Framing framing) {
         }
     }
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-        blocks.at(i).folding_threshold_db = threshold_db;
         const Gates& gates = i == 0 ? surveillance : doppler;
         if (add_moment(message, blocks.at(i), gates, extents, i, body)) continue;
         constexpr std::string_view reason = "gates do not lie in message 1, or in one another";
