@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "level2/containers/archive_header.h"
+#include "level2/messages/message_2.h"
 #include "level2/messages/message_5.h"
 #include "level2/messages/radial_compression.h"
 #include "level2/messages/radial_message.h"
