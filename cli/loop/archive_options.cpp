@@ -10,6 +10,7 @@
 #include "base/name_list.h"
 #include "base/number_list.h"
 #include "cli/grid/grid_mosaic.h"
+#include "cli/shared/query_options.h"
 #include "grid/cells/level_range.h"
 #include "stormcellar/base/station_table.h"
 
