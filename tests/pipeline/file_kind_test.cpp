@@ -35,7 +35,7 @@ class FileKindTest : public ::testing::Test {
     // Nothing but the header of a volume: it must grow.
     std::filesystem::path put(const std::string& name, std::size_t more_bytes = 0) {
         std::filesystem::create_directories(at(name).parent_path());
-        const wire::Bytes header = wire::archive_header();
+        const level2::wire::Bytes header = level2::wire::archive_header();
         std::ofstream file(at(name), std::ios::binary);
         file.write(reinterpret_cast<const char*>(header.data()),
                    static_cast<std::streamsize>(header.size()));
