@@ -37,11 +37,11 @@ struct GovernorOptions {
 [[nodiscard]] Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& measure,
                                   const GovernorOptions& options = {});
 
-// The plan of one choice as it is, met and not measured: what a caller without a budget gets of its
-// default. Sizes and costs are the chain's predictions.
+// Returns the plan of one choice without measuring it, for a caller without a budget. Sizes and
+// costs are the predictions of the chain.
 [[nodiscard]] Plan plan_of_default(const Chain& chain, Choice choice);
 
-// With a budget what govern() finds, without one the plan of `by_default`.
+// Returns govern() if there is a budget, else the plan of `by_default`.
 [[nodiscard]] Result<Plan> govern_or_default(const Chain& chain,
                                              const std::optional<Budget>& budget,
                                              const Choice& by_default, const Measure& measure);

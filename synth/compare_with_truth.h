@@ -1,8 +1,8 @@
 // synth/compare_with_truth.h -- how far grids are from the truth of a simulated scene.
 //
-// That is sampling error: what the radar did not see, and what the storm did meanwhile. The truth
-// is taken at each cell's center, in the middle of the volume's time; cells count that hold a value
-// where the truth has echo above the weakest shown (-20 dBZ).
+// The difference is sampling error: what the radar did not see, and what the storm did during the
+// volume. The truth is taken at each cell's center, in the middle of the volume's time. A cell
+// counts if it holds a value and the truth there is above the weakest echo (-20 dBZ).
 // Thread contract: one thread; it starts as many threads as the scene has.
 #pragma once
 

@@ -5,15 +5,15 @@
 // the highest, beside a lost cut) at most one counts: beam_alone(). A beam is anything with
 // `height_m`, `lower_edge_m` and `upper_edge_m`.
 //
-// Threads: pure functions.
+// Threads   Pure functions.
 #pragma once
 
 namespace stormcellar::grid {
 
-// The beam that counts alone at a height: the nearer of those within whose edges the height lies;
-// of two at the same distance the lower. Null where there is none: the height is not seen. `below`
-// is the highest beam that lies at the height or below it, `above` the lowest beam above it; each
-// is null where there is none.
+// Returns the beam that counts alone at a height: of the beams whose edges enclose the height, the
+// nearer one, and the lower one if both are equally near. Returns null if there is none, so the
+// height is not seen. `below` is the highest beam at or below the height, `above` the lowest beam
+// above it; either is null if there is no such beam.
 template <class Beam>
 [[nodiscard]] const Beam* beam_alone(const Beam* below, const Beam* above, float height_m) {
     const bool in_below = below != nullptr && height_m <= below->upper_edge_m;
@@ -25,9 +25,9 @@ template <class Beam>
     return in_below ? below : in_above ? above : nullptr;
 }
 
-// How much the upper of two adjacent beams counts where a height lies at the fraction `linear` of
-// the way from the lower one to it: as much as that, or where `nearest` the nearer beam alone. The
-// lower beam has the rest.
+// Returns the share of the upper of two adjacent beams, 0 to 1; the lower beam has the rest.
+// `linear` is the fraction of the way from the lower beam to the upper one. With `nearest`, the
+// nearer beam has the whole share.
 [[nodiscard]] inline float upper_share(float linear, bool nearest) {
     if (!nearest) return linear;
     return linear > 0.5F ? 1.0F : 0.0F;

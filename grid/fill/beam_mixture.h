@@ -1,6 +1,7 @@
 // grid/fill/beam_mixture.h -- one sweep over one column as a mixture of gates, by any method.
 //
-// Threads: pure functions.
+// Units     Meters above mean sea level for heights, degrees for angles.
+// Threads   Pure functions.
 #pragma once
 
 #include "grid/place/footprint.h"
@@ -9,8 +10,8 @@
 
 namespace stormcellar::grid {
 
-// What one sweep gives to a column. Heights rise, or stay equal, from each sweep of a column to the
-// next.
+// What one sweep contributes to a column. Within a column, heights rise or stay equal from each
+// sweep to the next.
 struct BeamMixture {
     Mixture mixture;
     float height_m = 0;
@@ -20,14 +21,15 @@ struct BeamMixture {
     bool adjacent_to_next = true;
 };
 
-// The gates of the sweep that the method takes at an azimuth and arc. `footprint` is that of a cell
-// with an extent, null of a point; a cell that holds no gate's center is taken as a point.
+// Returns the mixture of gates that the method takes from the sweep at an azimuth and arc.
+// `footprint` is the outline of a cell with an extent, and null for a point. A cell that holds no
+// gate's center is taken as a point.
 [[nodiscard]] Mixture mixture_over(const PolarSweep& sweep, const Method& method,
                                    float beam_width_deg, float azimuth_deg, ArcPlace place,
                                    const Footprint* footprint);
 
-// Where the beam passes over an azimuth and arc, by the elevation of its nearest radial where the
-// method says so; its mixture is empty.
+// Returns the heights of the beam over an azimuth and arc, with an empty mixture. The beam has the
+// elevation of its nearest radial if the method uses measured elevations, else that of the sweep.
 [[nodiscard]] BeamMixture beam_over(const PolarSweep& sweep, const Method& method,
                                     float azimuth_deg, ArcPlace place);
 

@@ -14,18 +14,18 @@
 
 namespace stormcellar::grid {
 
-// One volume of a sequence, and what it is called.
+// One volume of a sequence, and the name under which it is reported.
 struct TimedVolume {
     level2::Volume volume;
     SitePosition site;
     std::string name;
 };
 
-// To hold one out takes a neighbor before it and one after it.
+// Holding a volume out takes a neighbor before it and one after it.
 inline constexpr std::size_t least_sequence = 3;
 
-// The repeated cuts (SAILS, MRLE) of a volume's lowest elevation, each as a volume of its own.
-// Errors: not_found when there are fewer than three.
+// Returns the repeated cuts (SAILS, MRLE) of a volume's lowest elevation, each as a volume of its
+// own. Errors: not_found if there are fewer than three.
 [[nodiscard]] Result<std::vector<TimedVolume>> repeats_of(const level2::Volume& volume,
                                                           const SitePosition& site,
                                                           level2::Moment moment);

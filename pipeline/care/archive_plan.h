@@ -26,15 +26,15 @@ struct ArchivePlan {
     std::vector<LeftOut> left_out;  // stations without a known position
 };
 
-// The positions of the stations, from their files or the station table. A station without a
-// position is added to `left_out` with the reason.
+// Returns the positions of the stations, from their files or the station table. Adds each station
+// without a position to `left_out`, with the reason.
 [[nodiscard]] std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
-// A directory below $XDG_CACHE_HOME or else ~/.cache. Its name holds a hash of everything that
-// determines the plan's grids: catalog, stations, grid, moment, rules and the version of this
-// software. Errors: bad_argument if the environment names no such place.
+// Returns a directory below $XDG_CACHE_HOME, or else below ~/.cache. Its name contains a hash of
+// everything that determines the plan's grids: catalog, stations, grid, moment, rules and the
+// version of this software. Errors: bad_argument if the environment names no such place.
 [[nodiscard]] Result<std::filesystem::path> private_cache(const std::filesystem::path& catalog,
                                                           level2::Moment moment,
                                                           const ArchivePlan& plan);

@@ -34,24 +34,24 @@ struct MosaicOfVolumes {
     double plan_s = 0, grid_s = 0, merge_s = 0;
 };
 
-// The provenance's notes name each volume that was left out because its middle is more than
-// `greatest_gap` from the instant. Errors: those of make_partials(), make_frame() and
-// plan_mosaic().
+// Grids the volumes and merges them. The notes of the provenance name each volume that was left out
+// because its middle is more than `greatest_gap` from the instant. Errors: those of
+// make_partials(), make_frame() and plan_mosaic().
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request);
 
-// One for each volume, gridded as the chain's settings say, and by default where they say nothing.
-// Errors: those of make_partials().
+// Returns one partial for each volume. The chain's settings decide how it is gridded, the defaults
+// decide the rest. Errors: those of make_partials().
 [[nodiscard]] Result<std::vector<MadePartial>> grid_volumes(const std::vector<SceneVolume>& volumes,
                                                             const MosaicRequest& request,
                                                             GeometryCache& geometries);
 
-// What the accuracy planner measures on. The volumes must outlive it. Errors: those of
-// MosaicScene::make().
+// Returns the scene on which the accuracy planner measures. The volumes must outlive it. Errors:
+// those of MosaicScene::make().
 [[nodiscard]] Result<MosaicScene> scene_of(const std::vector<SceneVolume>& volumes,
                                            const MosaicRequest& request);
 
-// How many geometries of sites one call keeps.
+// One call caches this many geometries of sites.
 inline constexpr std::size_t mosaic_geometries = 4;
 
 }  // namespace stormcellar::pipeline
