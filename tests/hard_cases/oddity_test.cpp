@@ -310,7 +310,7 @@ INSTANTIATE_TEST_SUITE_P(Volumes, OddityTest,
                          ::testing::Values("KLBB20160601_150025_V06", "KLOT20220317_000842_V06",
                                            "Level2_TSTL_20220213_2357.ar2v",
                                            "KTLX19990503_235621.gz", "KBBX20060113_170337.gz"),
-                         [](const auto& info) { return testing::test_name(info.param); });
+                         [](const auto& each) { return testing::test_name(each.param); });
 
 }  // namespace
 }  // namespace stormcellar::level2
