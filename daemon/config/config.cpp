@@ -152,14 +152,25 @@ int processors() {
     return std::max(1, static_cast<int>(count));
 }
 
+// `moment` is the key of the time when there was one.
+void read_moments(TomlTable& ingest, GridConfig& config) {
+    const auto one = ingest.text("moment");
+    const auto several = pipeline::read_moments(ingest, "moments");
+    if (one && several) {
+        ingest.complain("moment", "is the same as moments with one name; give one of the two");
+        return;
+    }
+    if (several && !several->empty()) config.moments = *several;
+    if (!one) return;
+    if (const auto moment = pipeline::read_moment(ingest, "moment", *one)) {
+        config.moments = {*moment};
+    }
+}
+
 void read_grid(TomlTable& ingest, GridConfig& config) {
     config.threads = ingest.whole_number("threads", {0, 256}).value_or(0);
     if (config.threads == 0) config.threads = processors();
-    if (const auto name = ingest.text("moment")) {
-        if (const auto moment = pipeline::read_moment(ingest, "moment", *name)) {
-            config.moment = *moment;
-        }
-    }
+    read_moments(ingest, config);
     read_size(ingest, config);
     read_levels(ingest, config);
     check_grid(ingest, config);

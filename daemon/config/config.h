@@ -55,7 +55,7 @@ struct PathsConfig {
 
 // What is gridded, and by how many threads. The defaults are those of pipeline::IngestOptions.
 struct GridConfig {
-    level2::Moment moment = level2::Moment::ref;
+    std::vector<level2::Moment> moments = {level2::Moment::ref};
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32

@@ -26,14 +26,14 @@ IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store
       catalog_(std::move(catalog)),
       store_(std::move(store)),
       ingestor_(catalog_, store_, options_of(config)),
-      mender_(catalog_, store_, ingestor_, config.grid.moment),
+      mender_(catalog_, store_, ingestor_, config.grid.moments),
       site_watch_(store_, config.grid.domains) {
     if (auto left = catalog_.left_alone()) left_alone_ = std::move(*left);
 }
 
 pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const {
     pipeline::IngestOptions options;
-    options.moment = config.grid.moment;
+    options.moments = config.grid.moments;
     options.spacing_m = config.grid.spacing_m;
     options.nx = config.grid.nx;
     options.ny = config.grid.ny;

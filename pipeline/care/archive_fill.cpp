@@ -27,7 +27,7 @@ constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
 
 IngestOptions ingest_options(const ArchiveOptions& options) {
     IngestOptions ingest;
-    ingest.moment = options.moment;
+    ingest.moments = {options.moment};
     ingest.spacing_m = options.spacing_m;
     ingest.nx = options.nx;
     ingest.ny = options.ny;

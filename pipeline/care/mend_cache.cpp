@@ -85,8 +85,8 @@ std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
 }  // namespace
 
 CacheMender::CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
-                         Ingestor& ingestor, level2::Moment moment)
-    : catalog_(catalog), store_(store), ingestor_(ingestor), moment_(moment) {}
+                         Ingestor& ingestor, std::vector<level2::Moment> moments)
+    : catalog_(catalog), store_(store), ingestor_(ingestor), moments_(std::move(moments)) {}
 
 Result<std::optional<fs::path>> CacheMender::raw_of(const std::string& station, UtcTime time) {
     if (!is_icao(station)) return std::optional<fs::path>{};
@@ -109,8 +109,8 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
     const bool part = cache::is_part(entry.domain);
     const std::string station = part ? entry.domain.substr(group.size() + 1) : entry.domain;
     const Domain* domain = part ? mosaics.find(group, entry.moment) : nullptr;
-    const bool wanted =
-        part ? domain != nullptr && domain->takes(station) : entry.moment == moment_;
+    const bool wanted = part ? domain != nullptr && domain->takes(station)
+                             : std::ranges::find(moments_, entry.moment) != moments_.end();
     if (!is_damage(*found, wanted)) {
         return MendedGrid{GridCondition::left_alone, found->error.message, {}, {}};
     }
@@ -197,7 +197,9 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
 // Returns the grids that the ingestor makes of this station's volumes; partials only where the
 // station is known to reach.
 std::vector<CacheMender::Series> CacheMender::series_of(const std::string& station) const {
-    std::vector<Series> all = {{station, moment_}};
+    std::vector<Series> all;
+    for (const level2::Moment moment : moments_)
+        all.push_back({station, moment});
     const auto place = find_station(station);
     if (!place) return all;
     const grid::SitePosition site{station, place->latitude_deg, place->longitude_deg,

@@ -57,9 +57,9 @@ enum class MendDepth {
 
 class CacheMender {
   public:
-    // All must outlive the object. `moment` is the one that the ingestor grids.
+    // All must outlive the object. `moments` are those that the ingestor grids.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
-                Ingestor& ingestor, level2::Moment moment);
+                Ingestor& ingestor, std::vector<level2::Moment> moments);
 
     // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
@@ -104,7 +104,7 @@ class CacheMender {
     const catalog::CatalogReader& catalog_;
     cache::StoreWriter& store_;
     Ingestor& ingestor_;
-    level2::Moment moment_;
+    std::vector<level2::Moment> moments_;
     std::set<cache::GridName> failed_;  // not tried again
 };
 

@@ -56,7 +56,7 @@ std::unique_ptr<ShelvedVolume> kept_volume_in(const fs::path& directory) {
 }  // namespace
 
 ChunkVolume::ChunkVolume(const FollowedFile::Options& options, const level2::LiveOptions& live)
-    : moment_(options.moment),
+    : moments_(options.moments),
       beneath_(options.beneath),
       kept_(kept_volume_in(options.scratch)),
       depot_(kept_ ? std::make_unique<ShelfDepot>(*kept_->shelf) : nullptr),
@@ -192,13 +192,10 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     const auto place = kept_->shelf->put(sweep);
     if (!place) return;
     const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
-    const bool has_moment = sweep.find(moment_) != nullptr;
+    const MomentSet moments = moments_in(sweep, moments_);
     kept_->places.insert_or_assign(cut, *place);
-    kept_->sweeps.insert_or_assign(cut,
-                                   ShelvedVolume::Kept{has_moment, sweep.mean_elevation_deg()});
-    if (!has_moment) return;
-    news_.any = true;
-    news_.low = news_.low || kept_->is_lowest(sweep.mean_elevation_deg());
+    kept_->sweeps.insert_or_assign(cut, ShelvedVolume::Kept{moments, sweep.mean_elevation_deg()});
+    if (moments.any()) news_.add(moments, kept_->is_lowest(sweep.mean_elevation_deg()));
 }
 
 void ChunkVolume::shelve_new_sweeps() {

@@ -105,7 +105,7 @@ class ChunkVolume {
 
     bool is_loaded_ = false;  // the chunks in the directory of the first chunk were added
     bool is_closed_ = false;
-    level2::Moment moment_;
+    std::vector<level2::Moment> moments_;
     std::filesystem::path beneath_;
     std::unique_ptr<ShelvedVolume> kept_;
     std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_

@@ -107,9 +107,16 @@ bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) 
 
 }  // namespace
 
+MomentSet moments_in(const level2::Sweep& sweep, const std::vector<level2::Moment>& moments) {
+    MomentSet found;
+    for (const level2::Moment moment : moments)
+        found.set(static_cast<std::size_t>(moment), sweep.find(moment) != nullptr);
+    return found;
+}
+
 bool ShelvedVolume::is_lowest(double elevation_deg) const {
     return std::none_of(sweeps.begin(), sweeps.end(), [&](const auto& entry) {
-        return entry.second.has_moment &&
+        return entry.second.moments.any() &&
                entry.second.elevation_deg < elevation_deg - same_elevation_deg;
     });
 }
@@ -147,7 +154,7 @@ bool FollowedFile::has_ended(const fs::path& path, const Growing& growing,
 FollowedFile::FollowedFile(fs::path path, const Options& options)
     : path_(std::move(path)),
       beneath_(options.beneath),
-      moment_(options.moment),
+      moments_(options.moments),
       growing_(level2::DecodeOptions{.threads = 1,
                                      .output_limit_bytes = most_unpacked_bytes,
                                      .array_limit_bytes = most_array_bytes(options.selection),
@@ -212,19 +219,16 @@ Status FollowedFile::shelve_new_sweeps() {
         const auto place = kept_->shelf->put(live.sweep);
         if (!place) return pass_on(place);
         kept_->places.insert_or_assign(live.index, *place);
-        const bool has_moment = live.sweep.find(moment_) != nullptr;
+        const MomentSet moments = moments_in(live.sweep, moments_);
         kept_->sweeps.insert_or_assign(
-            live.index, ShelvedVolume::Kept{has_moment, live.sweep.mean_elevation_deg()});
+            live.index, ShelvedVolume::Kept{moments, live.sweep.mean_elevation_deg()});
         std::size_t& radials = radials_of_[live.index];
         radials_ += live.sweep.radials.size() - radials;
         radials = live.sweep.radials.size();
         if (level2::is_plausible(live.sweep.radials.back().time)) {
             newest_ = std::max(newest_.value_or(UtcTime{}), live.sweep.radials.back().time);
         }
-        if (has_moment) {
-            news_.any = true;
-            news_.low = news_.low || kept_->is_lowest(live.sweep.mean_elevation_deg());
-        }
+        if (moments.any()) news_.add(moments, kept_->is_lowest(live.sweep.mean_elevation_deg()));
     }
     for (; dropped_ < growing_.droppable_sweeps(); ++dropped_) {
         if (!kept_->places.contains(dropped_)) break;
@@ -271,42 +275,62 @@ Result<level2::Decoded> FollowedFile::finish() {
         if (!place) break;  // it is then missing only in the next volume's living grids
         kept_->places.insert_or_assign(index, *place);
         kept_->sweeps.insert_or_assign(
-            index, ShelvedVolume::Kept{sweep.find(moment_) != nullptr, sweep.mean_elevation_deg()});
+            index, ShelvedVolume::Kept{moments_in(sweep, moments_), sweep.mean_elevation_deg()});
     }
     return decoded;
 }
 
-Result<level2::Volume> volume_for_living_grid(const ShelvedVolume& growing,
-                                              const ShelvedVolume* last, std::size_t* standing) {
-    level2::Volume volume = growing.facts;
-    const auto add = [&volume](const ShelvedVolume& from, std::size_t index) -> Status {
-        auto sweep = from.shelf->get(from.places.at(index));
-        if (!sweep) return pass_on(sweep);
-        volume.sweeps.push_back(std::move(*sweep));
-        return {};
+Status LivingSweeps::add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
+                         bool stands) {
+    if (moments.none()) return {};
+    auto sweep = from.shelf->get(from.places.at(key));
+    if (!sweep) return pass_on(sweep);
+    sweeps_.push_back({std::move(*sweep), moments, stands});
+    return {};
+}
+
+Result<LivingSweeps> LivingSweeps::read(const ShelvedVolume& growing, const ShelvedVolume* last,
+                                        MomentSet moments) {
+    LivingSweeps read;
+    read.volume_ = growing.facts;
+    // The moments of which a sweep near this elevation has come.
+    const auto come_again = [&growing](double elevation_deg) {
+        MomentSet come;
+        for (const auto& [key, kept] : growing.sweeps) {
+            if (std::abs(kept.elevation_deg - elevation_deg) < same_elevation_deg)
+                come |= kept.moments;
+        }
+        return come;
     };
-    const auto has_come_again = [&growing](double elevation_deg) {
-        return std::any_of(growing.sweeps.begin(), growing.sweeps.end(), [&](const auto& entry) {
-            return entry.second.has_moment &&
-                   std::abs(entry.second.elevation_deg - elevation_deg) < same_elevation_deg;
-        });
-    };
-    std::size_t stands = 0;
     const auto start = growing.facts.start_time();
     const auto last_start = last == nullptr ? std::nullopt : last->facts.start_time();
     if (start && last_start && *start > *last_start && *start - *last_start <= longest_standing) {
-        for (const auto& [index, kept] : last->sweeps) {
-            if (!kept.has_moment || has_come_again(kept.elevation_deg)) continue;
-            if (Status added = add(*last, index); !added) return pass_on(added);
-            ++stands;
+        for (const auto& [key, kept] : last->sweeps) {
+            const MomentSet stand = kept.moments & moments & ~come_again(kept.elevation_deg);
+            if (Status added = read.add(*last, key, stand, true); !added) return pass_on(added);
         }
     }
-    for (const auto& [index, kept] : growing.sweeps) {
-        if (!kept.has_moment) continue;
-        if (Status added = add(growing, index); !added) return pass_on(added);
+    for (const auto& [key, kept] : growing.sweeps) {
+        const MomentSet counts = kept.moments & moments;
+        if (Status added = read.add(growing, key, counts, false); !added) return pass_on(added);
     }
-    if (standing != nullptr) *standing = stands;
-    return volume;
+    return read;
+}
+
+const level2::Volume& LivingSweeps::volume_of(level2::Moment moment) {
+    for (std::size_t i = 0; i < lent_.size(); ++i)
+        sweeps_[lent_[i]].sweep = std::move(volume_.sweeps[i]);
+    lent_.clear();
+    volume_.sweeps.clear();
+    standing_ = 0;
+    for (std::size_t i = 0; i < sweeps_.size(); ++i) {
+        One& one = sweeps_[i];
+        if (!one.moments.test(static_cast<std::size_t>(moment))) continue;
+        volume_.sweeps.push_back(std::move(one.sweep));
+        lent_.push_back(i);
+        if (one.stands) ++standing_;
+    }
+    return volume_;
 }
 
 }  // namespace stormcellar::pipeline

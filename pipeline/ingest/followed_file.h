@@ -8,6 +8,7 @@
 // be read as a whole. Inside the pipeline room only. Thread contract: one thread at a time.
 #pragma once
 
+#include <bitset>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -26,6 +27,11 @@
 
 namespace stormcellar::pipeline {
 
+using MomentSet = std::bitset<level2::moment_count>;
+// Returns those of the moments that the sweep has.
+[[nodiscard]] MomentSet moments_in(const level2::Sweep& sweep,
+                                   const std::vector<level2::Moment>& moments);
+
 // The sweeps of a volume on the shelf; const once the volume has ended.
 struct ShelvedVolume {
     level2::Volume facts;  // without sweeps
@@ -37,25 +43,33 @@ struct ShelvedVolume {
     using SweepKey = std::size_t;
     std::map<SweepKey, SweepShelf::Place> places;  // on the shelf
     struct Kept {
-        bool has_moment = false;
+        MomentSet moments;         // of those that are gridded
         double elevation_deg = 0;  // mean
     };
     std::map<SweepKey, Kept> sweeps;
 
-    // Returns true if no sweep that has come is lower: the lowest cut and its repetitions.
+    // Returns true if no sweep that has come and is gridded is lower: the lowest cut and its
+    // repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;
 };
 
 // Sweeps that no living grid shows yet.
 struct UnshownSweeps {
     bool any = false, low = false;
+    MomentSet moments;  // of which they have something new
+
+    void add(MomentSet of_sweep, bool is_low) {
+        any = true;
+        low = low || is_low;
+        moments |= of_sweep;
+    }
 };
 
 class FollowedFile {
   public:
     struct Options {
         level2::Selection selection;
-        level2::Moment moment = level2::Moment::ref;  // of living grids
+        std::vector<level2::Moment> moments = {level2::Moment::ref};  // of living grids
         std::string fallback_station;
         std::filesystem::path scratch;
         std::filesystem::path beneath = {};  // all files must be below it (IngestOptions)
@@ -115,7 +129,7 @@ class FollowedFile {
     Status is_as_followed() const;
 
     std::filesystem::path path_, beneath_;
-    level2::Moment moment_;
+    std::vector<level2::Moment> moments_;
     level2::GrowingVolume growing_;
     std::unique_ptr<ShelvedVolume> kept_;
     std::size_t dropped_ = 0;  // sweeps below this index are only on the shelf
@@ -128,11 +142,36 @@ class FollowedFile {
     bool is_whole_ = true;
 };
 
-// The sweeps of a growing volume, and before them those sweeps of the site's last volume whose
-// elevation has not come again (within 0.2 degrees). The last volume's sweeps are left out if it is
-// more than 20 minutes older. Only sweeps with the moment count.
-[[nodiscard]] Result<level2::Volume> volume_for_living_grid(const ShelvedVolume& growing,
-                                                            const ShelvedVolume* last,
-                                                            std::size_t* standing = nullptr);
+// The sweeps of which the living grids of a growing volume are made, unpacked once for all moments.
+class LivingSweeps {
+  public:
+    // Reads the sweeps of the growing volume that have one of these moments, and those of the
+    // site's last volume that still stand for one. The volumes need not outlive the object. Errors:
+    // those of the shelf.
+    [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
+                                                   const ShelvedVolume* last, MomentSet moments);
+
+    // Returns the sweeps of the growing volume, and before them those of the last volume whose
+    // elevation has not come again (within 0.2 degrees). Only sweeps with the moment count, so a
+    // Doppler sweep stands until a Doppler sweep has come. The last volume's sweeps are left out if
+    // it is more than 20 minutes older. It is valid until the next call.
+    [[nodiscard]] const level2::Volume& volume_of(level2::Moment moment);
+    // How many sweeps of that volume are those of the last one.
+    [[nodiscard]] std::size_t standing() const { return standing_; }
+
+  private:
+    struct One {
+        level2::Sweep sweep;
+        MomentSet moments;  // for which it counts
+        bool stands = false;
+    };
+    Status add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
+               bool stands);
+
+    std::vector<One> sweeps_;        // in the order of the volume
+    std::vector<std::size_t> lent_;  // those whose sweeps are in volume_
+    level2::Volume volume_;
+    std::size_t standing_ = 0;
+};
 
 }  // namespace stormcellar::pipeline

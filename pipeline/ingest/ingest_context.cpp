@@ -17,7 +17,7 @@ constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
 // All moments of which something is made.
 std::vector<level2::Moment> moments_of(const IngestOptions& options) {
-    std::vector<level2::Moment> moments = {options.moment};
+    std::vector<level2::Moment> moments = options.moments;
     for (const Domain& domain : options.domains)
         moments.insert(moments.end(), domain.moments.begin(), domain.moments.end());
     std::sort(moments.begin(), moments.end());
@@ -28,7 +28,7 @@ std::vector<level2::Moment> moments_of(const IngestOptions& options) {
 FollowedFile::Options follow_options(const IngestOptions& options) {
     return {
         .selection = {moments_of(options), {}},
-        .moment = options.moment,
+        .moments = options.moments,
         .fallback_station = {},
         .scratch = options.living.scratch,
         .beneath = options.beneath,

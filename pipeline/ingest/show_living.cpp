@@ -20,17 +20,23 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
         return false;
     }
     const auto last = context.living->last_of(kept.facts.station);
-    std::size_t standing = 0;
-    const auto volume = volume_for_living_grid(kept, last.get(), &standing);
-    // Its grid would have another time in its name than that of the whole volume, and stay beside
-    // it.
-    if (!volume || volume->start_time() != kept.facts.header->time()) return true;
-    GridSource source{file, modified_ns, true};
-    source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",
-                                       living_note, volume->sweeps.size() - standing, standing));
+    auto sweeps = LivingSweeps::read(kept, last.get(), news.moments);
+    if (!sweeps) return true;
     const int threads = context.share_of(options.grid_threads);
-    const Status shown = context.site_grids->keep_living(*volume, source, threads, outcome);
-    if (!shown && shown.error().cause() != Cause::data) return pass_on(shown);
+    for (const level2::Moment moment : options.moments) {
+        if (!news.moments.test(static_cast<std::size_t>(moment))) continue;
+        const level2::Volume& volume = sweeps->volume_of(moment);
+        // Its grid would have another time in its name than that of the whole volume, and stay
+        // beside it.
+        if (volume.start_time() != kept.facts.header->time()) continue;
+        GridSource source{file, modified_ns, true};
+        source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",
+                                           living_note, volume.sweeps.size() - sweeps->standing(),
+                                           sweeps->standing()));
+        const Status shown =
+            context.site_grids->keep_living(volume, moment, source, threads, outcome);
+        if (!shown && shown.error().cause() != Cause::data) return pass_on(shown);
+    }
     return true;
 }
 

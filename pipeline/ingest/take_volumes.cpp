@@ -146,13 +146,14 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
     return settle();
 }
 
-// Makes the site's own grid, if such grids are made and the volume has the moment.
+// Makes the site's own grids, if such grids are made and the volume has one of the moments.
 Status TakeVolumes::grid(const level2::Volume& volume) {
     if (!context_.options.own_grids) {
         (void)SiteGrids::has_place(volume, outcome_);
         return {};
     }
-    if (!level2::holds(volume, context_.options.moment)) return {};
+    const auto has = [&](level2::Moment moment) { return level2::holds(volume, moment); };
+    if (std::ranges::none_of(context_.options.moments, has)) return {};
     const GridSource source{facts_.path.filename().string(), believed_ns(facts_.modified_ns),
                             is_partial(volume), troubles_of(volume.station)};
     return context_.site_grids->keep(volume, source,

@@ -6,6 +6,7 @@
 #include "base/steady_time.h"
 #include "grid/judge/audit.h"
 #include "grid/plan/position_error.h"
+#include "level2/decode/volume_checks.h"
 #include "pipeline/keep/keep_rule.h"
 #include "stormcellar/cache/budget.h"
 #include "stormcellar/grid/brick_grid.h"
@@ -50,8 +51,8 @@ bool SiteGrids::has_place(const level2::Volume& volume, IngestOutcome& outcome) 
     return false;
 }
 
-Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, const GridSource& source,
-                                        int threads) {
+Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, level2::Moment moment,
+                                        const GridSource& source, int threads) {
     const auto antenna = level2::antenna_position(volume);
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
                                   antenna->altitude_m};
@@ -63,7 +64,7 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, const Grid
     const auto geometry = geometries_.get(site, spec);
     if (!geometry) return of_gridding(geometry.error());
     Made made;
-    made.gridder.moment = options_.moment;
+    made.gridder.moment = moment;
     made.gridder.threads = threads;
     auto gridded = grid::make_grid(volume, site, **geometry, made.gridder);
     if (!gridded) return of_gridding(gridded.error());
@@ -87,8 +88,8 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, boo
     const std::string& domain = grid.sites.front().icao;
     auto path = store_.path_of(domain, grid.moment, grid.time);
     if (!path) return of_gridding(path.error());
-    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(options_.moment),
-                                              made.gridder.threads);
+    const auto bricks =
+        grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), made.gridder.threads);
     if (!is_living) {
         const auto audited = grid::audit(bricks.view(), volume, grid.sites.front(), made.gridder);
         if (audited) grid.provenance.audit = audited->rows;
@@ -103,16 +104,25 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, boo
         is_living ? cache::Durability::until_a_crash : cache::Durability::power_cut);
 }
 
+// Moments are independent: one that the cache does not keep leaves the others alone.
 Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
                        IngestOutcome& outcome) {
     if (!has_place(volume, outcome)) return {};
-    if (!store_.would_keep(volume.station, options_.moment,
-                           volume.start_time().value_or(UtcTime{}))) {
+    for (const level2::Moment moment : options_.moments) {
+        if (!level2::holds(volume, moment)) continue;
+        if (Status kept = keep_moment(volume, moment, source, threads, outcome); !kept) return kept;
+    }
+    return {};
+}
+
+Status SiteGrids::keep_moment(const level2::Volume& volume, level2::Moment moment,
+                              const GridSource& source, int threads, IngestOutcome& outcome) {
+    if (!store_.would_keep(volume.station, moment, volume.start_time().value_or(UtcTime{}))) {
         note_not_kept(volume.station, outcome);
         return {};
     }
     const auto start = Clock::now();
-    auto made = make(volume, source, threads);
+    auto made = make(volume, moment, source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
     outcome.partial = outcome.partial || source.partial;
@@ -128,23 +138,23 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     if (path->empty()) {
         note_not_kept(volume.station, outcome);
     } else {
-        remove_other_times(store_, volume.station, options_.moment, volume, source.file);
-        keep_to_an_hours_volumes(store_, volume.station, options_.moment,
+        remove_other_times(store_, volume.station, moment, volume, source.file);
+        keep_to_an_hours_volumes(store_, volume.station, moment,
                                  volume.start_time().value_or(UtcTime{}));
         outcome.grids.push_back(std::move(*path));
     }
     return {};
 }
 
-Status SiteGrids::keep_living(const level2::Volume& volume, const GridSource& source, int threads,
-                              IngestOutcome& outcome) {
+Status SiteGrids::keep_living(const level2::Volume& volume, level2::Moment moment,
+                              const GridSource& source, int threads, IngestOutcome& outcome) {
     const bool has_place = level2::antenna_position(volume) && !volume.station.empty();
-    if (!has_place || !store_.would_keep(volume.station, options_.moment,
-                                         volume.start_time().value_or(UtcTime{}))) {
+    if (!has_place ||
+        !store_.would_keep(volume.station, moment, volume.start_time().value_or(UtcTime{}))) {
         return {};
     }
     const auto start = Clock::now();
-    auto made = make(volume, source, threads);
+    auto made = make(volume, moment, source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
     const auto commit_start = Clock::now();

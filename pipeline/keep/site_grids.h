@@ -37,22 +37,26 @@ class SiteGrids {
     // Returns true if the position of the radar is known; if not, the outcome says so.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids a volume, audits the grid and commits it, unless a better one exists or the budgets do
-    // not keep it, which the outcome then says. Adds to its grids and times.
+    // Grids each of the moments that the volume holds, audits the grids and commits them, unless
+    // better ones exist or the budgets do not keep them, which the outcome then says. Adds to its
+    // grids and times.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
-    // Does the same fast for a volume that is still growing: the grid is neither audited nor
-    // synced, because it will be replaced in seconds and made again after a crash. Adds to the
-    // outcome's `living`.
-    Status keep_living(const level2::Volume& volume, const GridSource& source, int threads,
-                       IngestOutcome& outcome);
+    // Does the same fast for one moment of a volume that is still growing: the grid is neither
+    // audited nor synced, because it will be replaced in seconds and made again after a crash. Adds
+    // to the outcome's `living`.
+    Status keep_living(const level2::Volume& volume, level2::Moment moment,
+                       const GridSource& source, int threads, IngestOutcome& outcome);
 
   private:
     struct Made {
         grid::Grid grid;
         grid::GridderOptions gridder;
     };
-    Result<Made> make(const level2::Volume& volume, const GridSource& source, int threads);
+    Status keep_moment(const level2::Volume& volume, level2::Moment moment,
+                       const GridSource& source, int threads, IngestOutcome& outcome);
+    Result<Made> make(const level2::Volume& volume, level2::Moment moment, const GridSource& source,
+                      int threads);
     Result<std::filesystem::path> commit(Made& made, const level2::Volume& volume, bool is_living,
                                          IngestOutcome& outcome);
 

@@ -172,17 +172,6 @@ void read_place(TomlTable& table, GridSpec& spec) {
     }
 }
 
-void read_moments(TomlTable& table, Domain& domain) {
-    const auto names = table.texts("moments");
-    if (!names) return;
-    domain.moments.clear();
-    for (const std::string& name : *names) {
-        const auto moment = read_moment(table, "moments", name);
-        if (moment) domain.moments.push_back(*moment);
-    }
-    if (names->empty()) table.complain("moments", "must name at least one moment");
-}
-
 void read_stations(TomlTable& table, Domain& domain) {
     const auto names = table.texts("stations");
     if (!names) return;
@@ -228,7 +217,7 @@ Domain read_domain(TomlTable& table) {
     domain.spec = grid::default_spec(0, 0);
     read_place(table, domain.spec);
     if (const auto levels_m = read_levels_m(table)) domain.spec.levels_m = *levels_m;
-    read_moments(table, domain);
+    if (auto moments = read_moments(table, "moments")) domain.moments = std::move(*moments);
     read_stations(table, domain);
     read_frames(table, domain);
     if (const Status valid = grid::validate(domain.spec); !valid) {
@@ -311,6 +300,19 @@ std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key
                                         level2::moment_names(" ", " ")));
     }
     return moment;
+}
+
+std::optional<std::vector<level2::Moment>> read_moments(TomlTable& table, std::string_view key) {
+    const auto names = table.texts(key);
+    if (!names) return std::nullopt;
+    std::vector<level2::Moment> moments;
+    for (const std::string& name : *names) {
+        const auto moment = read_moment(table, key, name);
+        const bool is_new = moment && std::ranges::find(moments, *moment) == moments.end();
+        if (is_new) moments.push_back(*moment);
+    }
+    if (names->empty()) table.complain(key, "must name at least one moment");
+    return moments;
 }
 
 std::vector<Domain> read_domains(TomlTable& root) {

@@ -59,6 +59,10 @@ using Bounds = std::array<double, 4>;
 // Reads the name of one moment; none with a complaint.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,
                                                         const std::string& name);
+// Reads a list of moments, each once. Returns none if the key is absent; names that are none are
+// recorded as complaints and left out.
+[[nodiscard]] std::optional<std::vector<level2::Moment>> read_moments(TomlTable& table,
+                                                                      std::string_view key);
 
 // Reads all [[domain]] tables. Those that make no sense are recorded as complaints and left out.
 [[nodiscard]] std::vector<Domain> read_domains(TomlTable& root);

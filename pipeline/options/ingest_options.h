@@ -64,7 +64,8 @@ struct IngestOptions {
     // The stations whose data are accepted; null: all that have a name. Data of all other stations
     // are cataloged with those of no known station, and neither followed nor gridded.
     std::shared_ptr<StationRule> stations;
-    level2::Moment moment = level2::Moment::ref;
+    // Of each site's own grids: one decoding and one geometry serve all of them. Not empty.
+    std::vector<level2::Moment> moments = {level2::Moment::ref};
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32

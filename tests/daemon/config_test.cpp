@@ -78,7 +78,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->fixed.storage.refill, std::chrono::minutes{30});
     EXPECT_EQ(config->fixed.storage.packing, cache::Packing::lz4);
     EXPECT_EQ(config->reloadable.gone_rows_kept_for, std::chrono::hours{36});
-    EXPECT_EQ(config->fixed.grid.moment, level2::Moment::vel);
+    EXPECT_EQ(config->fixed.grid.moments, std::vector{level2::Moment::vel});
     EXPECT_EQ(config->fixed.grid.spacing_m, 500);
     EXPECT_EQ(config->fixed.grid.nx, 200);
     EXPECT_EQ(config->fixed.grid.ny, 100);
@@ -87,6 +87,26 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->reloadable.poll, std::chrono::seconds{2});
     EXPECT_EQ(config->fixed.queue_limit, 99U);
     EXPECT_EQ(config->reloadable.log_level, "debug");
+}
+
+TEST_F(ConfigFile, MomentsAreAListOrTheOldKeyWithOneName) {
+    using level2::Moment;
+    EXPECT_EQ(load(paths)->fixed.grid.moments, std::vector{Moment::ref});
+    const auto moments_of = [&](const std::string& line) {
+        return load(std::string(paths) + "[ingest]\n" + line + "\n")->fixed.grid.moments;
+    };
+    EXPECT_EQ(moments_of("moment = \"VEL\""), std::vector{Moment::vel});
+    EXPECT_EQ(moments_of("moments = [\"VEL\", \"REF\", \"VEL\"]"),
+              (std::vector{Moment::vel, Moment::ref}));
+    const auto refused = [&](const std::string& lines) {
+        const auto config = load(std::string(paths) + "[ingest]\n" + lines);
+        return config ? std::string{} : config.error().message;
+    };
+    EXPECT_NE(refused("moments = []\n").find("must name at least one moment"), std::string::npos);
+    EXPECT_NE(refused("moments = [\"REF\", \"REFL\"]\n").find("\"REFL\" is not a moment"),
+              std::string::npos);
+    EXPECT_NE(refused("moment = \"REF\"\nmoments = [\"REF\"]\n").find("give one of the two"),
+              std::string::npos);
 }
 
 TEST_F(ConfigFile, StationsAreKnownOrAnyOrAList) {

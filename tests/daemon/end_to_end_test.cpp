@@ -13,8 +13,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/daemon/notify_socket.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
@@ -89,6 +94,54 @@ void take_in_one_volume(RunningDaemon& daemon) {
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
         return s["ingested"] == 1 && everything_is_done(s);
     })) << daemon.log();
+}
+
+// What `stormcellar grid` makes of the file, as the cache holds it.
+grid::BrickGrid gridded_alone(const fs::path& raw, level2::Moment moment) {
+    level2::DecodeOptions options;
+    options.selection.moments = {moment};
+    const auto volume = level2::decode(*read_file(raw), options)->volume;
+    const auto antenna = level2::antenna_position(volume);
+    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    const auto geometry =
+        grid::make_column_geometry(site, grid::default_spec(site.latitude_deg, site.longitude_deg));
+    grid::GridderOptions gridder;
+    gridder.moment = moment;
+    return grid::BrickGrid::from(*grid::make_grid(volume, site, **geometry, gridder),
+                                 grid::default_quantization(moment));
+}
+
+TEST(EndToEnd, AllMomentsOfAVolumeComeOutOfOneDecoding) {
+    STORMCELLAR_NEED_DATA();
+    RunningDaemon daemon;
+    const fs::path raw = *testing::data_directory() / "volumes/KLOT20220317_000842_V06";
+    fs::copy_file(raw, daemon.drop() / raw.filename());
+    daemon.start(
+        "[ingest]\nquiet_seconds = 2\n"
+        "moments = [\"REF\", \"VEL\", \"SW\", \"ZDR\", \"PHI\", \"RHO\"]\n");
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 1 && everything_is_done(s);
+    })) << daemon.log();
+    EXPECT_EQ(rows(daemon, "KLOT").size(), 1U);
+    const json status = daemon.status();
+    EXPECT_EQ(status["grids"], 6) << status.dump(1);
+    EXPECT_EQ(status["latest"].size(), 1U) << "one volume was taken in, once";
+    EXPECT_EQ(verified_grids(daemon.cache()), 6U);
+    const auto store = cache::StoreReader::open(daemon.cache());
+    ASSERT_TRUE(store);
+    for (const level2::Moment moment : level2::all_moments) {
+        const auto entries = store->list("KLOT", moment, std::nullopt, std::nullopt);
+        ASSERT_EQ(entries->size(), moment == level2::Moment::cfp ? 0U : 1U);
+        if (entries->empty()) continue;
+        const auto file = cache::GridFile::open(entries->front().path);
+        ASSERT_TRUE(file);
+        const grid::BrickGrid expected = gridded_alone(raw, moment);
+        EXPECT_TRUE(std::ranges::equal(file->view().codes, expected.view().codes))
+            << level2::moment_name(moment);
+        EXPECT_TRUE(std::ranges::equal(file->view().states, expected.view().states))
+            << level2::moment_name(moment);
+    }
 }
 
 TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {

@@ -188,7 +188,7 @@ class LivingMemory : public Claims {
         return file;
     }
     FollowedFile::Options options_{
-        {{level2::Moment::ref}, {}}, level2::Moment::ref, {}, directory_.path()};
+        {{level2::Moment::ref}, {}}, {level2::Moment::ref}, {}, directory_.path()};
 };
 
 // 2026-11-25: an open sweep counted as nothing, and a hundred such files took 5 GiB.

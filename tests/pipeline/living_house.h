@@ -50,10 +50,12 @@ inline void date(const fs::path& path) {
 }
 
 struct House {
-    explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {}) {
+    explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {},
+                   std::vector<level2::Moment> moments = {level2::Moment::ref}) {
         catalog.emplace(*catalog::CatalogWriter::open(where / "catalog"));
         store.emplace(*cache::StoreWriter::open(real_file_system(), where / "cache", true));
         IngestOptions options = small_grid();
+        options.moments = std::move(moments);
         if (living) {
             options.living.scratch = where;
             options.living.has_time = std::move(has_time);
@@ -61,8 +63,9 @@ struct House {
         }
         ingestor.emplace(*catalog, *store, options);
     }
-    std::vector<cache::StoreEntry> grids(const std::string& domain) const {
-        return *store->list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
+    std::vector<cache::StoreEntry> grids(const std::string& domain,
+                                         level2::Moment moment = level2::Moment::ref) const {
+        return *store->list(domain, moment, std::nullopt, std::nullopt);
     }
     std::optional<catalog::CatalogWriter> catalog;
     std::optional<cache::StoreWriter> store;

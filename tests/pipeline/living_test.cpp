@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +62,58 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     EXPECT_EQ(rows->at(0).state, same->at(0).state);
     EXPECT_EQ(rows->at(0).volume.sweep_count, same->at(0).volume.sweep_count);
     EXPECT_EQ(rows->at(0).volume.radial_count, same->at(0).volume.radial_count);
+}
+
+// Each moment's grids are those of a house that makes this moment alone, at every record of two
+// volumes: also while sweeps of the first stand for moments that have not come again.
+TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
+    using level2::Moment;
+    const std::vector<Moment> moments = {Moment::ref, Moment::vel, Moment::rho};
+    House together(directory_ / "together", true, {}, moments);
+    std::vector<std::unique_ptr<House>> alone;
+    for (const Moment moment : moments) {
+        alone.push_back(
+            std::make_unique<House>(directory_ / std::string(level2::moment_name(moment)), true,
+                                    std::function<bool()>{}, std::vector{moment}));
+    }
+    const std::vector<std::byte> first = real_bytes(busy);
+    const auto encoded =
+        level2::encode(later(level2::decode(first)->volume, std::chrono::minutes{12}));
+    ASSERT_TRUE(encoded) << encoded.error().message;
+    const std::vector<std::byte> second = encoded->joined();
+    std::size_t shown_together = 0;
+    std::size_t shown_alone = 0;
+    const auto compare = [&](const fs::path& path) {
+        auto outcome = together.ingestor->ingest(path, false);
+        ASSERT_TRUE(outcome) << outcome.error().message;
+        shown_together += outcome->living.size();
+        for (std::size_t i = 0; i < moments.size(); ++i) {
+            auto one = alone[i]->ingestor->ingest(path, false);
+            ASSERT_TRUE(one) << one.error().message;
+            shown_alone += one->living.size();
+            EXPECT_EQ(one->result(), outcome->result());
+            const auto expected = alone[i]->grids("KLOT", moments[i]);
+            const auto made = together.grids("KLOT", moments[i]);
+            ASSERT_EQ(made.size(), expected.size());
+            if (made.empty()) continue;
+            EXPECT_EQ(*read_file(made.back().path), *read_file(expected.back().path))
+                << level2::moment_name(moments[i]);
+        }
+    };
+    for (const auto& [name, bytes] :
+         {std::pair{"KLOT20220317_000842_V06", &first}, {"KLOT20220317_002042_V06", &second}}) {
+        std::size_t from = 0;
+        for (const std::size_t end : synth::piece_ends(*bytes)) {
+            append_to(directory_ / name, std::span{*bytes}.subspan(from, end - from));
+            from = end;
+            date(directory_ / name);
+            ASSERT_NO_FATAL_FAILURE(compare(directory_ / name));
+        }
+    }
+    EXPECT_GT(shown_together, 20U);
+    EXPECT_EQ(shown_together, shown_alone) << "a moment is shown only when it has news";
+    for (const Moment moment : moments)
+        EXPECT_EQ(together.grids("KLOT", moment).size(), 2U);
 }
 
 // By hand: the last volume's sweeps in front, and the new ones behind them.
@@ -185,7 +240,7 @@ TEST_F(Living, AVolumeThatStopsIsWhatItIsWhenReadWhole) {
 }
 
 TEST_F(Living, WhereNoPlaceIsLeftANewcomerIsNotFollowed) {
-    FollowedFiles files(FollowedFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
+    FollowedFiles files(FollowedFile::Options{{}, {level2::Moment::ref}, {}, directory_ / "living"},
                         GrowingLimits{.count = 3, .station_count = 2});
     const auto a = files.begin("/drop/a", "KTLX", "KTLX");
     const auto b = files.begin("/drop/b", "KTLX", "KTLX");
@@ -215,7 +270,7 @@ TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
     };
     const auto a = last_of("KAAA", 5);
     const std::uint64_t of_one = a->shelf->bytes();
-    FollowedFiles files(FollowedFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
+    FollowedFiles files(FollowedFile::Options{{}, {level2::Moment::ref}, {}, directory_ / "living"},
                         GrowingLimits{.shelf_bytes = 2 * of_one});
     files.keep_last(a);
     files.keep_last(last_of("KBBB", 1));

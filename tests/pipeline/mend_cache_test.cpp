@@ -48,7 +48,7 @@ class MendCache : public SmallHouse {
             .write(reinterpret_cast<const char*>(bytes.data()),
                    static_cast<std::streamsize>(bytes.size()));
     }
-    CacheMender mender_{catalog_, store_, ingestor_, level2::Moment::ref};
+    CacheMender mender_{catalog_, store_, ingestor_, {level2::Moment::ref}};
 };
 
 TEST_F(MendCache, AGridThatWasCutIsMadeAgainFromItsFile) {
@@ -64,6 +64,38 @@ TEST_F(MendCache, AGridThatWasCutIsMadeAgainFromItsFile) {
     EXPECT_EQ(mended->from, directory_ / "KBGM20050822_024414.gz");
     EXPECT_EQ(*read_file(grid.path), good) << "to the byte";
     EXPECT_EQ(catalog_.list("KBGM", {})->at(0).state, catalog::FileState::complete);
+}
+
+TEST_F(MendCache, EachOfSeveralMomentsIsMadeAgain) {
+    STORMCELLAR_NEED_DATA();
+    IngestOptions options = small_grid();
+    options.moments = {level2::Moment::ref, level2::Moment::vel};
+    Ingestor both(catalog_, store_, options);
+    CacheMender mender(catalog_, store_, both, options.moments);
+    const fs::path raw = directory_ / "KLOT20220317_000842_V06";
+    fs::copy_file(*testing::data_directory() / "volumes/KLOT20220317_000842_V06", raw);
+    fs::permissions(raw, fs::perms::owner_write, fs::perm_options::add);
+    ASSERT_EQ(both.ingest(raw, true)->grids.size(), 2U);
+    const auto velocities = [&] {
+        return *store_.list("KLOT", level2::Moment::vel, std::nullopt, std::nullopt);
+    };
+    ASSERT_EQ(velocities().size(), 1U);
+    const cache::StoreEntry velocity = velocities().front();
+    const auto good = *read_file(velocity.path);
+    fs::resize_file(velocity.path, good.size() / 2);
+    EXPECT_EQ(mender.mend(velocity, MendDepth::header)->condition, GridCondition::made_again);
+    EXPECT_EQ(*read_file(velocity.path), good);
+    fs::remove(velocity.path);
+    const auto missing = mender.missing(hours{6});
+    ASSERT_TRUE(missing);
+    ASSERT_EQ(missing->size(), 1U);
+    EXPECT_EQ(missing->front().names,
+              (std::vector<cache::GridName>{{"KLOT", level2::Moment::vel, velocity.time}}));
+    ASSERT_TRUE(mender.make(missing->front()));
+    EXPECT_EQ(*read_file(velocity.path), good);
+    // A configuration without the moment drops what is damaged.
+    fs::resize_file(velocity.path, good.size() / 2);
+    EXPECT_EQ(mender_.mend(velocity, MendDepth::header)->condition, GridCondition::dropped);
 }
 
 TEST_F(MendCache, AnAlteredCodeIsFoundWhenAllIsRead) {
@@ -235,7 +267,7 @@ class MendMosaic : public ::testing::Test {
     // As after a restart: nothing is left in memory of what was made before.
     Result<MendedGrid> mend_afresh(const cache::StoreEntry& entry, MendDepth depth) {
         Ingestor ingestor(catalog_, store_, with_domain());
-        return CacheMender(catalog_, store_, ingestor, level2::Moment::ref).mend(entry, depth);
+        return CacheMender(catalog_, store_, ingestor, {level2::Moment::ref}).mend(entry, depth);
     }
     static IngestOptions with_domain() {
         IngestOptions options;
@@ -256,7 +288,7 @@ class MendMosaic : public ::testing::Test {
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     Ingestor ingestor_{catalog_, store_, with_domain()};
-    CacheMender mender_{catalog_, store_, ingestor_, level2::Moment::ref};
+    CacheMender mender_{catalog_, store_, ingestor_, {level2::Moment::ref}};
     std::map<fs::path, std::vector<std::byte>> good_;
 };
 
@@ -356,7 +388,7 @@ TEST_F(MendMosaic, WhatCannotBeMadeAgainIsDroppedWithTheReason) {
     }
     EXPECT_EQ(dropped(frame), "no site has a volume within 15 minutes of 2005-08-22T02:55:00Z");
     Ingestor without(catalog_, store_, {});
-    CacheMender other(catalog_, store_, without, level2::Moment::ref);
+    CacheMender other(catalog_, store_, without, {level2::Moment::ref});
     const auto stray = frames().at(0);
     fs::resize_file(stray.path, 5000);
     EXPECT_EQ(other.mend(stray, MendDepth::header)->why_not,
