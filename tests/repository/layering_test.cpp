@@ -265,7 +265,8 @@ TEST(LayeringCheck, SeesIncludesInEveryForm) {
               Rooms{});
 }
 
-// Every folder with C++ in it is a room of the list, or one of those that may use all; docs has examples.
+// Every folder with C++ in it is a room of the list, or one of those that may use all; docs has
+// examples.
 TEST(LayeringCheck, KnowsEveryRoom) {
     const Rooms free = {"tests", "bench", "build", "docs", "include", "out"};
     for (const auto& entry : fs::directory_iterator(testing::source_directory())) {
