@@ -1,13 +1,24 @@
-# The CMake package: find_package(stormcellar) gives stormcellar::level2, stormcellar::grid, ...
+# The CMake package: find_package(stormcellar COMPONENTS level2) gives stormcellar::level2 and what it uses.
 include(CMakePackageConfigHelpers)
 set(STORMCELLAR_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stormcellar)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/stormcellarConfig.cmake.in
   ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake INSTALL_DESTINATION ${STORMCELLAR_CMAKE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
-install(EXPORT stormcellarTargets NAMESPACE stormcellar:: DESTINATION ${STORMCELLAR_CMAKE_DIR}
-  COMPONENT development)
+# The rooms in the order in which they link, and what each links.
+get_property(rooms GLOBAL PROPERTY STORMCELLAR_ROOMS)
+set(facts "set(stormcellar_rooms ${rooms})\n")
+foreach(room IN LISTS rooms)
+  get_property(links GLOBAL PROPERTY STORMCELLAR_LINKS_OF_${room})
+  # Debian's module for GeographicLib gives a path, not a target.
+  list(TRANSFORM links REPLACE "^.*/libGeographic.*$" GeographicLib)
+  string(APPEND facts "set(stormcellar_links_of_${room} ${links})\n")
+  install(EXPORT stormcellar-${room} NAMESPACE stormcellar:: DESTINATION ${STORMCELLAR_CMAKE_DIR}
+    COMPONENT development)
+endforeach()
+file(WRITE ${PROJECT_BINARY_DIR}/stormcellarRooms.cmake "${facts}")
 install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
+  ${PROJECT_BINARY_DIR}/stormcellarRooms.cmake
   ${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
   DESTINATION ${STORMCELLAR_CMAKE_DIR} COMPONENT development)

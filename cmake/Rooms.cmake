@@ -34,8 +34,11 @@ function(stormcellar_room name)
   if(STORMCELLAR_PRECOMPILE AND ARG_BATCHES)
     stormcellar_batches(${target})
   endif()
-  install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  # Each room is a component of the installed package (cmake/Install.cmake).
+  install(TARGETS ${target} EXPORT stormcellar-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     COMPONENT development)
+  set_property(GLOBAL APPEND PROPERTY STORMCELLAR_ROOMS ${name})
+  set_property(GLOBAL PROPERTY STORMCELLAR_LINKS_OF_${name} ${ARG_PUBLIC} ${ARG_PRIVATE})
   if(EXISTS ${PROJECT_SOURCE_DIR}/include/stormcellar/${name} AND NOT ARG_WITHOUT_HEADERS)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/stormcellar/${name}
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/ranges.h>
+
 #include "base/steady_time.h"
 #include "cli/shared/problem_notes.h"
 #include "level2/decode/volume_checks.h"
@@ -78,10 +80,16 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     auto decoded = read_and_decode(*inputs, *named, request, source);
     if (!decoded) return pass_on(decoded);
     source.partial = !decoded->report.complete;
+    std::vector<std::string> troubles;
+    if (decoded->report.rda_status) troubles = level2::rda_troubles(*decoded->report.rda_status);
     source.notes = notes_of(decoded->report);
     source.volume = take_volume(std::move(*decoded), request.moments(), source);
     if (Status applied = apply_site(request.site, source.volume); !applied) {
         return fail(applied.error().code, "{}: {}", file, applied.error().message);
+    }
+    if (!troubles.empty()) {
+        source.radar_troubles = {
+            fmt::format("{}: {}", source.volume.station, fmt::join(troubles, ", "))};
     }
     const auto antenna = level2::antenna_position(source.volume);
     if (!antenna) {

@@ -16,6 +16,8 @@ struct SourceVolume {
     grid::SitePosition site;
     bool partial = false;
     std::vector<std::string> notes;  // what readers of the result should know
+    // What the radar reported to be wrong, as grids store it: "KTLX: standby, ...".
+    std::vector<std::string> radar_troubles = {};
     double read_s = 0, decode_s = 0;
 };
 
