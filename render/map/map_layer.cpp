@@ -137,12 +137,14 @@ class Tracer {
           most_bent_m_(most_bent_px * finest_m),
           strokes_(strokes) {}
 
-    void trace(MapKind kind, const std::vector<grid::GeoPoint>& line) {
+    // `at` has the ground of each point.
+    void trace(MapKind kind, const std::vector<grid::GeoPoint>& line,
+               const std::vector<GroundPoint>& at) {
         kind_ = kind;
         break_off();
-        Vertex last{line.front(), ground_.ground(line.front())};
+        Vertex last{line.front(), at.front()};
         for (std::size_t i = 1; i < line.size(); ++i) {
-            const Vertex next{line[i], ground_.ground(line[i])};
+            const Vertex next{line[i], at[i]};
             if (is_area(kind) && is_tile_edge(last.place, next.place)) {
                 break_off();
             } else {
@@ -277,12 +279,13 @@ class WaterPainter {
           mask_(mask_over(box, finest_m)),
           area_(mask_.width, mask_.height) {}
 
-    // Adds a ring that is straight in degrees. The edges of tiles are long, so they are divided, and
-    // at the same places in both tiles.
-    void add(const std::vector<grid::GeoPoint>& ring) {
+    // Adds a ring that is straight in degrees, with the ground of each point. The edges of tiles are
+    // long, so they are divided, and at the same places in both tiles.
+    void add(MapKind kind, const std::vector<grid::GeoPoint>& ring,
+             const std::vector<GroundPoint>& at) {
         std::vector<Point> cells;
         for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-            put(ring[i], cells);
+            put(at[i], cells);
             if (!is_tile_edge(ring[i], ring[i + 1])) continue;
             const bool upright = std::abs(ring[i].longitude_deg - ring[i + 1].longitude_deg) < 1e-7;
             const auto along = [&](const grid::GeoPoint& p) {
@@ -291,19 +294,28 @@ class WaterPainter {
             const double from = along(ring[i]);
             const double to = along(ring[i + 1]);
             const double step = to > from ? 1 : -1;
-            for (double at = step > 0 ? std::floor(from) + 1 : std::ceil(from) - 1;
-                 step * at < step * to; at += step) {
+            for (double part = step > 0 ? std::floor(from) + 1 : std::ceil(from) - 1;
+                 step * part < step * to; part += step) {
                 grid::GeoPoint between = ring[i];
-                (upright ? between.latitude_deg : between.longitude_deg) = at * most_tile_edge_deg;
-                put(between, cells);
+                (upright ? between.latitude_deg : between.longitude_deg) =
+                    part * most_tile_edge_deg;
+                put(ground_.ground(between), cells);
             }
         }
-        if (cells.size() >= 3) area_.add(cells);
+        if (cells.size() < 3) return;
+        if (kind == MapKind::lake) {
+            lakes_.push_back(std::move(cells));
+        } else {
+            area_.add(cells);
+        }
     }
-    void put_land() { area_.put(true); }
-    void put_lakes() { area_.put(false); }
 
+    // Land first, then the lakes in it.
     WaterMask finish() {
+        area_.put(true);
+        for (const std::vector<Point>& lake : lakes_)
+            area_.add(lake);
+        area_.put(false);
         mask_.water = area_.cells();
         for (std::uint8_t& cell : mask_.water)
             cell = static_cast<std::uint8_t>(255 - cell);
@@ -323,8 +335,7 @@ class WaterPainter {
         mask.height = std::max(1, mask.height);
         return mask;
     }
-    void put(const grid::GeoPoint& place, std::vector<Point>& cells) const {
-        const GroundPoint at = ground_.ground(place);
+    void put(GroundPoint at, std::vector<Point>& cells) const {
         if (!std::isfinite(at.x_m) || !std::isfinite(at.y_m)) return;
         const Point cell = {(at.x_m - mask_.west_m) / mask_.metres_per_cell,
                             (mask_.north_m - at.y_m) / mask_.metres_per_cell};
@@ -335,24 +346,8 @@ class WaterPainter {
     const GroundMap& ground_;
     WaterMask mask_;
     AreaMask area_;
+    std::vector<std::vector<Point>> lakes_;
 };
-
-// Land first, then the lakes in it.
-Status paint_water(const BaseMap& map, const Box& degrees, double most_thinned_m,
-                   WaterPainter& painter) {
-    for (const MapKind kind : {MapKind::coast, MapKind::lake}) {
-        const MapSet* set = best_set(map, kind, most_thinned_m);
-        if (set == nullptr) continue;
-        for (const MapLine& line : set->lines) {
-            if (!touches(line, degrees)) continue;
-            const auto points = map.points_of(line);
-            if (!points) return pass_on(points);
-            painter.add(*points);
-        }
-        kind == MapKind::coast ? painter.put_land() : painter.put_lakes();
-    }
-    return {};
-}
 
 struct Look {
     double width;
@@ -387,6 +382,7 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
     const double finest_m = finest_metres_per_pixel(geometry);
     Tracer tracer(ground, geometry, box, finest_m, layer.strokes);
     WaterPainter painter(ground, box, finest_m);
+    std::vector<GroundPoint> at;
     for (const MapKind kind :
          {MapKind::county, MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
         if (kind == MapKind::county && county_m / finest_m < least_county_px * scale) continue;
@@ -396,11 +392,12 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
             if (!touches(line, degrees)) continue;
             const auto points = map.points_of(line);
             if (!points) return pass_on(points);
-            tracer.trace(kind, *points);
+            at.clear();
+            for (const grid::GeoPoint& place : *points)
+                at.push_back(ground.ground(place));
+            tracer.trace(kind, *points, at);
+            if (is_area(kind)) painter.add(kind, *points, at);
         }
-    }
-    if (auto painted = paint_water(map, degrees, most_thinned_px * finest_m, painter); !painted) {
-        return pass_on(painted);
     }
     layer.water = painter.finish();
     add_cities(map, ground, geometry, box_of_cities(geometry, box), degrees, layer);

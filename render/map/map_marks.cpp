@@ -282,7 +282,7 @@ class Planner {
             const double level = city.at.y + 0.36 * size;
             const double middle = city.at.x - width / 2;
             std::vector<Point> corners = {Point{right, level}, Point{left, level},
-                                          Point{middle, city.at.y - scaled(5)},
+                                          Point{middle, city.at.y - scaled(3.5) - 0.3 * size},
                                           Point{middle, city.at.y + 0.8 * size + scaled(5)}};
             // A name across the edge of the grid looks cut by it, so such places come last.
             std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
