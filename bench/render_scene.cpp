@@ -116,7 +116,7 @@ double RenderScene::footprint() const {
 }
 
 render::Image finished(const render::Layer& layer, int threads) {
-    render::Image picture(layer.width, layer.height, render::shades::page);
+    render::Image picture(layer.width, layer.height, render::shades::dark.page);
     render::composite_over(layer, picture, 0, 0, threads);
     return picture;
 }
@@ -142,7 +142,7 @@ PictureError compare(const ReferencePixels& reference, const render::Image& pict
         const auto& ray = reference.rays[i];
         render::Rgba8 exact{0, 0, 0, 255};
         for (std::size_t c = 0; c < 3; ++c) {
-            const double level = 255 * ray[c] + (1 - ray[3]) * render::shades::page[c];
+            const double level = 255 * ray[c] + (1 - ray[3]) * render::shades::dark.page[c];
             exact[c] = static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0)));
         }
         const int x = static_cast<int>(i % across) * ReferencePixels::stride;

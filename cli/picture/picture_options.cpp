@@ -56,6 +56,11 @@ Status check_product(const std::string& name) {
     return product ? Status{} : pass_on(product);
 }
 
+Status check_theme(const std::string& name) {
+    const auto theme = render::theme_from_name(name);
+    return theme ? Status{} : pass_on(theme);
+}
+
 std::string known_moments() {
     return level2::moment_names(", ", " or ");
 }
@@ -131,6 +136,13 @@ constexpr std::array option_rows{
                                        .range = limits::echo_top_dbz},
                   .used_by = by_echo_top,
                   .help = "Threshold of echo tops in dBZ, {} to {}"},
+    PictureOption{.option = "--theme",
+                  .section = "picture",
+                  .key = "theme",
+                  .value = TextValue{.field = [](To to) { return &to.options.theme; },
+                                     .check = check_theme,
+                                     .known = render::themes_for_help},
+                  .help = "The page on which the picture is drawn: {}"},
     PictureOption{.option = "--width",
                   .section = "picture",
                   .key = "width",

@@ -158,6 +158,9 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
         return fail(ErrorCode::bad_argument, "there is no moment '{}'", options.moment);
     }
     scene.moment = *moment;
+    const auto theme = render::theme_from_name(options.theme);
+    if (!theme) return pass_on(theme);
+    scene.theme = *theme;
     if (scene.product == render::Product::section && !scene.section) {
         return fail(ErrorCode::bad_argument,
                     "a section needs its two ends; give {} LAT,LON,LAT,LON, or {} in a scene file",

@@ -26,6 +26,7 @@ inline constexpr NumberRange thread_range{0, 1024};
 struct SceneOptions {
     std::string product = "volume";
     std::string moment{level2::moment_name(level2::Moment::ref)};
+    std::string theme{render::theme_name(render::Theme::dark)};
     std::string colours;    // empty: those of the product or the moment
     std::string time_zone;  // IANA; empty: that of the machine
     bool no_labels = false;

@@ -1,79 +1,12 @@
 #include "stormcellar/render/render.h"
 
-#include "render/frame/frame_cache.h"
-#include "render/image/canvas.h"
+#include "render/frame/view_picture.h"
 #include "render/image/shades.h"
-#include "render/map/draw_marks.h"
 #include "render/map/labels.h"
-#include "render/map/map_layer.h"
 #include "render/map/map_lines.h"
-#include "render/products/column_summary.h"
-#include "render/products/flat_field.h"
-#include "render/products/ground.h"
-#include "render/products/section.h"
-#include "render/volume/haze.h"
+#include "render/volume/ray_packet.h"
 
 namespace stormcellar::render {
-namespace {
-
-// Where the picture is, and how its lines and letters are drawn.
-struct Frame {
-    LabelLayout layout;
-    MapLines lines;
-    Fonts fonts;
-    MapMarks marks;
-};
-
-// Draws the picture with its lines, but without the labels around it.
-Result<Image> draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
-                           const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
-                           int threads, FrameCache& cache) {
-    const double scale = frame.layout.scale;
-    const bool volume = view_of(scene.product) == View::volume;
-    const ColourTable& colours = colours_of(scene);
-    Image base;
-    if (volume) {
-        const auto tells = scene.haze ? GroundTells::whether_seen : GroundTells::how_low;
-        base = paint_ground(*view.spec, columns, geometry, tells, scale, threads);
-    } else {
-        const auto field = map_field(view, scene, columns, threads);
-        if (!field) return pass_on(field);
-        base = paint_field(*view.spec, *field, colours, geometry, scale, threads);
-    }
-    Canvas canvas(base);
-    draw_border(canvas, frame.lines);
-    if (scene.labels) {
-        draw_map(canvas, *frame.lines.map, scale);
-        draw_rings(canvas, frame.lines);
-        draw_ground_marks(canvas, frame.fonts, frame.lines, frame.marks);
-    }
-    Image picture = canvas.image();
-    if (volume) {
-        if (scene.haze) draw_haze(view, geometry, threads, picture);
-        const VolumeSlicer slicer(
-            colours, view.quantization, geometry,
-            {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light},
-            &cache.transfer);
-        slicer.prepare(view, threads, cache.room);
-        slicer.cast(view, threads, cache.room);
-        composite_over(cache.room.layer, picture, 0, 0, threads);
-    }
-    return picture;
-}
-
-Result<Image> draw_section_picture(const grid::BrickView& view, const Scene& scene,
-                                   const Frame& frame, int threads) {
-    const LabelLayout& layout = frame.layout;
-    const SectionPlace place =
-        section_place(layout.width, layout.height, layout.scale, scene.labels);
-    const Section section =
-        cut_section(view, scene.moment, *scene.section, place.width, place.height, threads);
-    if (auto in_grid = check_in_grid(section, *view.spec); !in_grid) return pass_on(in_grid);
-    return draw_section(section, colours_of(scene), place, layout.width, layout.height,
-                        layout.scale, scene.labels ? &frame.fonts : nullptr);
-}
-
-}  // namespace
 
 Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
     if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "there is no grid to draw");
@@ -102,46 +35,33 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                            int threads, FrameCache* kept) {
     if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto columns = summarize_columns(view, threads);
-    Frame frame;
-    frame.lines.ring_spacing_m = drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m);
-    frame.layout.width = scene.width;
-    frame.layout.height = scene.height;
-    if (scene.labels) {
-        auto fonts = Fonts::load();
-        if (!fonts) return pass_on(fonts);
-        frame.fonts = *fonts;
-        auto layout = lay_out_labels(
-            frame.fonts, scene, facts,
-            {legend_of(scene), frame.lines.ring_spacing_m, coverage_of(columns, *view.spec)});
-        if (!layout) return pass_on(layout);
-        frame.layout = *layout;
-    }
-    const ViewGeometry geometry =
-        picture_geometry(*view.spec, scene, frame.layout.width, frame.layout.height);
-    frame.lines.geometry = &geometry;
-    frame.lines.spec = view.spec;
-    frame.lines.sites = &facts.sites;
-    frame.lines.heights = view_of(scene.product) == View::volume;
-    frame.lines.scale = frame.layout.scale;
+    const DrawnView drawn{view, facts, scene, columns};
     FrameCache own;
     FrameCache& cache = kept != nullptr ? *kept : own;
-    if (scene.labels) {
-        const auto map = cache.map.get(*view.spec, geometry, frame.layout.scale);
-        if (!map) return pass_on(map);
-        frame.lines.map = *map;
-        frame.marks = plan_marks(frame.fonts, frame.lines);
+    if (!scene.labels) {
+        return draw_view(drawn, {scene.width, scene.height, 1}, nullptr, threads, cache);
     }
-
-    const bool section = view_of(scene.product) == View::section;
-    auto picture = section ? draw_section_picture(view, scene, frame, threads)
-                           : draw_picture(view, columns, scene, geometry, frame, threads, cache);
-    if (!picture || !scene.labels) return picture;
-    Canvas canvas(scene.width, scene.height, shades::page);
-    canvas.place(*picture, frame.layout.left, frame.layout.top);
-    frame.lines.left = frame.layout.left;
-    frame.lines.top = frame.layout.top;
-    if (!section) draw_marks(canvas, frame.fonts, frame.lines, frame.marks);
-    draw_labels(canvas, frame.fonts, frame.layout);
+    const auto fonts = Fonts::load();
+    if (!fonts) return pass_on(fonts);
+    const auto layout = lay_out_labels(
+        *fonts, scene, facts,
+        {legend_of(scene), drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m),
+         coverage_of(columns, *view.spec)});
+    if (!layout) return pass_on(layout);
+    const auto picture = draw_view(drawn, {layout->width, layout->height, layout->scale}, &*fonts,
+                                   threads, cache);
+    if (!picture) return picture;
+    Canvas canvas(scene.width, scene.height, layout->shades->page);
+    canvas.place(*picture, layout->left, layout->top);
+    if (layout->inset) {
+        const Rect& box = *layout->inset;
+        const PictureSize size{static_cast<int>(box.width), static_cast<int>(box.height),
+                               layout->scale};
+        const auto inset = draw_section_inset(drawn, size, *fonts, threads, cache);
+        if (!inset) return inset;
+        canvas.place(*inset, static_cast<int>(box.x), static_cast<int>(box.y));
+    }
+    draw_labels(canvas, *fonts, *layout);
     return canvas.image();
 }
 

@@ -1,35 +1,90 @@
-// render/image/shades.h -- the quiet colors behind and around the echo.
+// render/image/shades.h -- the quiet colors behind and around the echo, for each theme.
 //
-// They are dark and nearly gray, so that none can be taken for a reflectivity.
+// Those of the ground are nearly gray, and far from the lightness of echo, so that none can be
+// taken for a reflectivity. Letters have a contrast of 4.5 and more against everything that they may
+// stand on but echo, and there their halo does the same; lines of the map have less, so that they
+// stay behind the echo (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
+#include "stormcellar/render/theme.h"
 
-namespace stormcellar::render::shades {
+namespace stormcellar::render {
 
-inline constexpr Rgba8 page = {11, 14, 19, 255};
-inline constexpr Rgba8 seen = {32, 38, 47, 255};        // ground, seen from low down
-inline constexpr Rgba8 seen_aloft = {22, 26, 33, 255};  // ground, seen only from higher up
-inline constexpr Rgba8 not_seen = {16, 18, 22, 255};
-inline constexpr Rgba8 hatch = {74, 78, 88, 255};    // the lines over not_seen
-inline constexpr Rgba8 haze = {104, 110, 122, 255};  // for air that was not seen
-inline constexpr Rgba8 border = {108, 120, 138, 255};
-inline constexpr Rgba8 ring = {150, 165, 185, 120};
-// The lines of the map: readable on echo over their casing, and too gray to be taken for echo.
-inline constexpr Rgba8 county = {104, 112, 122, 150};
-inline constexpr Rgba8 state = {150, 158, 170, 230};
-inline constexpr Rgba8 country = {188, 192, 200, 240};
-inline constexpr Rgba8 coast = {140, 160, 182, 235};
-inline constexpr Rgba8 casing = {8, 10, 14, 90};
-inline constexpr Rgba8 city = {206, 210, 216, 255};
-inline constexpr Rgba8 separator = {40, 48, 60, 255};
-inline constexpr Rgba8 text = {232, 236, 242, 255};
-inline constexpr Rgba8 quiet_text = {160, 172, 188, 255};
-inline constexpr Rgba8 warning_text = {255, 190, 90, 255};
-inline constexpr Rgba8 halo = {8, 10, 14, 220};
+// The ground, as it was seen. What was not seen has thin diagonal lines over it.
+struct GroundShades {
+    Rgba8 seen;        // from low down
+    Rgba8 seen_aloft;  // only from higher up
+    Rgba8 not_seen;
+    Rgba8 beyond;  // outside the grid
+};
 
-// Returns the color of what was not seen at a pixel of the whole picture: not_seen under thin
+struct Shades {
+    Rgba8 page;
+    GroundShades land, water;
+    Rgba8 hatch;  // the lines over what was not seen
+    Rgba8 haze;   // for air that was not seen
+    Rgba8 border, ring;
+    Rgba8 county, state, country, coast;
+    Rgba8 casing;  // a darker or lighter edge that parts lines from echo
+    Rgba8 city, small_city;
+    Rgba8 text, quiet_text, warning_text;
+    Rgba8 halo;  // around letters and marks
+};
+
+namespace shades {
+
+inline constexpr Shades dark = {
+    .page = {11, 14, 19, 255},
+    .land = {{40, 44, 50, 255}, {29, 32, 37, 255}, {23, 25, 29, 255}, {25, 28, 33, 255}},
+    .water = {{22, 31, 46, 255}, {17, 24, 36, 255}, {15, 20, 28, 255}, {14, 19, 29, 255}},
+    .hatch = {78, 82, 92, 255},
+    .haze = {104, 110, 122, 255},
+    .border = {120, 130, 146, 255},
+    .ring = {160, 174, 194, 110},
+    .county = {118, 124, 132, 130},
+    .state = {164, 170, 180, 235},
+    .country = {200, 203, 208, 245},
+    .coast = {138, 158, 182, 240},
+    .casing = {8, 10, 14, 90},
+    .city = {232, 234, 238, 255},
+    .small_city = {200, 205, 212, 255},
+    .text = {234, 238, 243, 255},
+    .quiet_text = {166, 177, 192, 255},
+    .warning_text = {255, 190, 90, 255},
+    .halo = {8, 10, 14, 225},
+};
+
+inline constexpr Shades light = {
+    .page = {250, 250, 248, 255},
+    .land = {{236, 234, 228, 255}, {219, 217, 211, 255}, {211, 209, 204, 255}, {243, 242, 238, 255}},
+    .water = {{212, 224, 235, 255}, {196, 208, 220, 255}, {190, 201, 212, 255}, {226, 234, 241, 255}},
+    .hatch = {158, 160, 164, 255},
+    .haze = {150, 154, 162, 255},
+    .border = {112, 118, 128, 255},
+    .ring = {70, 82, 100, 120},
+    .county = {124, 124, 124, 120},
+    .state = {88, 90, 98, 235},
+    .country = {52, 54, 60, 245},
+    .coast = {58, 92, 128, 240},
+    .casing = {255, 255, 255, 90},
+    .city = {20, 22, 28, 255},
+    .small_city = {52, 56, 64, 255},
+    .text = {22, 26, 32, 255},
+    .quiet_text = {70, 77, 88, 255},
+    .warning_text = {146, 60, 0, 255},
+    .halo = {255, 255, 255, 225},
+};
+
+}  // namespace shades
+
+[[nodiscard]] const Shades& shades_of(Theme theme);
+
+// Returns the color between two, all of the second at a share of 1.
+[[nodiscard]] Rgba8 mixed(Rgba8 one, Rgba8 other, double share);
+
+// Returns the color of ground that was not seen, at a pixel of the whole picture: under thin
 // diagonal lines, at `scale` times the usual distance.
-[[nodiscard]] Rgba8 hatched(int x, int y, double scale);
+[[nodiscard]] Rgba8 hatched(Rgba8 ground, const Shades& shades, int x, int y, double scale);
 
-}  // namespace stormcellar::render::shades
+}  // namespace stormcellar::render

@@ -1,6 +1,7 @@
 #include "render/map/base_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -10,7 +11,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr std::string_view magic = "SCBASMAP";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t head_bytes = 24;
 
 template <class Number>
@@ -143,6 +144,28 @@ Status check_head(std::span<const std::byte> bytes) {
 }
 
 }  // namespace
+
+bool is_area(MapKind kind) {
+    switch (kind) {
+        case MapKind::lake:
+        case MapKind::coast:
+            return true;
+        case MapKind::county:
+        case MapKind::state:
+        case MapKind::country:
+            break;
+    }
+    return false;
+}
+
+bool is_tile_edge(const grid::GeoPoint& from, const grid::GeoPoint& to) {
+    const auto on_edge = [](double one, double other) {
+        const double tiles = one / map_tile_deg;
+        return std::abs(one - other) < 1e-7 && std::abs(tiles - std::nearbyint(tiles)) < 1e-7;
+    };
+    return on_edge(from.longitude_deg, to.longitude_deg) ||
+           on_edge(from.latitude_deg, to.latitude_deg);
+}
 
 Result<BaseMap> BaseMap::read(std::span<const std::byte> bytes) {
     if (Status sound = check_head(bytes); !sound) return pass_on(sound);

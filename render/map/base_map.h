@@ -4,12 +4,12 @@
 // the weather radars of the United States can see. Lines come in three levels of detail; a picture
 // uses one of them.
 //
-// Format, version 1. Little-endian; `v` is an unsigned LEB128 number of at most 32 bits, `z` a
+// Format, version 2. Little-endian; `v` is an unsigned LEB128 number of at most 32 bits, `z` a
 // zigzag one (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U degrees on WGS84.
 //
 //   offset size
 //        0    8  magic "SCBASMAP"
-//        8    4  version, 1
+//        8    4  version, 2
 //       12    4  CRC-32 of all bytes from 24 on
 //       16    8  size of the whole file, including this header
 //       24       v U, v number of sets, the sets, v number of cities, the cities
@@ -18,6 +18,9 @@
 //   line         v number of points (at least 2), z west, z south, v width, v height, v bytes of
 //                its points; the first as v east of west, v north of south, each other as z, z
 //                relative to the one before it
+//                Lakes and coasts are areas: each of their lines is a closed ring with water (of a
+//                lake) or land (of a coast) to its left, and lies within a tile of 2 by 2 degrees.
+//                Where it runs along the edge of the tile, there is no shore.
 //   city         v bytes of the name, the name in UTF-8, v population, z latitude, z longitude; the
 //                largest first
 //
@@ -41,6 +44,12 @@ namespace stormcellar::render {
 // These are numbers of the format, so they do not change. The kinds are in the order of drawing.
 enum class MapKind : std::uint8_t { county = 1, state = 2, lake = 3, country = 4, coast = 5 };
 inline constexpr int map_detail_count = 3;
+inline constexpr double map_tile_deg = 2;
+
+// Returns true for the kinds whose lines are the rings of areas.
+[[nodiscard]] bool is_area(MapKind kind);
+// Returns true if a segment runs along the edge of a tile, where an area goes on.
+[[nodiscard]] bool is_tile_edge(const grid::GeoPoint& from, const grid::GeoPoint& to);
 
 struct MapCity {
     std::string name;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "render/image/round_step.h"
-#include "render/image/shades.h"
 
 namespace stormcellar::render {
 namespace {
@@ -21,7 +20,8 @@ void add_block(ColourBar& bar, const Rect& box, double low_y, double high_y, Rgb
     bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, colour});
 }
 
-ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_tick) {
+ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_tick,
+                      Rgba8 ground) {
     ColourBar bar;
     const std::size_t classes = table.stops.size();
     const double height = box.height / static_cast<double>(classes);
@@ -34,7 +34,7 @@ ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_ti
         if (low > high) {
             // Neighboring classes of one color stay separate, so that each class is shown.
             bar.blocks.push_back(
-                {{box.x, high, box.width, low - high}, over(table.stops[i].colour, shades::seen)});
+                {{box.x, high, box.width, low - high}, over(table.stops[i].colour, ground)});
         }
         const bool reaches_far = i == 0 && table.bar_begin;
         if (i % every == 0 && !reaches_far)
@@ -43,7 +43,7 @@ ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_ti
     return bar;
 }
 
-ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tick) {
+ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tick, Rgba8 ground) {
     ColourBar bar;
     const double lowest = static_cast<double>(table.bar_begin.value_or(table.lowest()));
     const double span = std::max(1e-6, static_cast<double>(table.end) - lowest);
@@ -54,7 +54,7 @@ ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tic
         const double value = lowest + span * (row + 0.5) / rows;
         const auto colour = colour_of(table, static_cast<float>(value));
         add_block(bar, box, bottom - row, bottom - row - 1,
-                  over(colour.value_or(table.stops.front().colour), shades::seen));
+                  over(colour.value_or(table.stops.front().colour), ground));
     }
     const double step =
         round_step(span, std::max(1, static_cast<int>(box.height / std::max(1.0, least_tick))));
@@ -69,9 +69,35 @@ ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tic
 
 }  // namespace
 
-ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick) {
-    return is_stepped(table) ? stepped_bar(table, box, least_tick)
-                             : smooth_bar(table, box, least_tick);
+ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick, Rgba8 ground) {
+    return is_stepped(table) ? stepped_bar(table, box, least_tick, ground)
+                             : smooth_bar(table, box, least_tick, ground);
+}
+
+ColourBar lying_bar(const ColourTable& table, const Rect& box,
+                    const std::function<double(const std::string&)>& width_of, double gap,
+                    Rgba8 ground) {
+    // A bar that stands on its left end, with fewer numbers until none touches the next.
+    const Rect upright = {0, 0, box.height, box.width};
+    const auto crowded = [&](const std::vector<BarTick>& ticks) {
+        for (std::size_t i = 1; i < ticks.size(); ++i) {
+            const double apart = std::abs(ticks[i].at - ticks[i - 1].at);
+            if (apart < (width_of(ticks[i].text) + width_of(ticks[i - 1].text)) / 2 + gap) return true;
+        }
+        return false;
+    };
+    double least_tick = gap;
+    ColourBar bar = colour_bar(table, upright, least_tick, ground);
+    while (crowded(bar.ticks) && least_tick < 2 * box.width) {
+        least_tick *= 1.25;
+        bar = colour_bar(table, upright, least_tick, ground);
+    }
+    for (BarBlock& block : bar.blocks) {
+        block.box = {box.x + box.width - block.box.bottom(), box.y, block.box.height, box.height};
+    }
+    for (BarTick& tick : bar.ticks)
+        tick.at = box.x + box.width - tick.at;
+    return bar;
 }
 
 }  // namespace stormcellar::render

@@ -1,8 +1,9 @@
-// render/map/colour_bar.h -- how a color table is shown as an upright bar.
+// render/map/colour_bar.h -- how a color table is shown as a bar, upright or lying.
 //
 // Threads   Plain values and a pure function.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct BarBlock {
 };
 
 struct BarTick {
-    double y = 0;
+    double at = 0;  // y in an upright bar, x in a lying one
     std::string text;
 };
 
@@ -30,6 +31,13 @@ struct ColourBar {
 // at their lower bounds (at every second, third ... if there is no room). For tables with blends,
 // the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
 // with fewer pixels than classes loses classes, but not its ends.
-[[nodiscard]] ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick);
+// Translucent colors show the `ground` below.
+[[nodiscard]] ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick,
+                                   Rgba8 ground);
+// The same bar, lying: it rises to the right. The numbers, of this width each, are at least `gap`
+// apart.
+[[nodiscard]] ColourBar lying_bar(const ColourTable& table, const Rect& box,
+                                  const std::function<double(const std::string&)>& width_of,
+                                  double gap, Rgba8 ground);
 
 }  // namespace stormcellar::render

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/degree.h"
-#include "render/image/shades.h"
+#include "render/view/length_text.h"
 
 namespace stormcellar::render {
 namespace {
@@ -14,10 +14,10 @@ Point moved(const MapLines& lines, Point p) {
 }
 
 void draw_texts(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
-                const std::vector<MarkText>& texts, Rgba8 halo = shades::halo) {
+                const std::vector<MarkText>& texts) {
     for (const MarkText& text : texts) {
         canvas.text(fonts, text.text, moved(lines, text.left_baseline), text.size, text.bold,
-                    text.colour, halo);
+                    text.colour, lines.shades->halo);
     }
 }
 
@@ -35,13 +35,13 @@ void draw_heights(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
     if (!marks.heights) return;
     const HeightScale& heights = *marks.heights;
     canvas.line({moved(lines, heights.bottom), moved(lines, heights.top)}, lines.scale,
-                shades::border, false);
+                lines.shades->border, false);
     for (const Point& tick : heights.ticks) {
         const Point at = moved(lines, tick);
         canvas.line({at, {at.x + heights.side * 4 * lines.scale, at.y}}, lines.scale,
-                    shades::border, false);
+                    lines.shades->border, false);
     }
-    draw_texts(canvas, fonts, lines, marks.height_texts, {0, 0, 0, 0});
+    draw_texts(canvas, fonts, lines, marks.height_texts);
 }
 
 // How directions on the ground look in the middle of the picture: a unit circle of the ground
@@ -96,18 +96,18 @@ void draw_north(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const
     circle.reserve(72);
     for (int i = 0; i < 72; ++i)
         circle.push_back(towards(i * 5.0, radius));
-    Rgba8 disc = shades::page;
+    Rgba8 disc = lines.shades->page;
     disc[3] = 170;
     canvas.fill(circle, disc);
-    canvas.line(circle, lines.scale, shades::border, true);
+    canvas.line(circle, lines.scale, lines.shades->border, true);
     canvas.fill({towards(0, radius), towards(150, 0.55 * radius), towards(180, 0.2 * radius),
                  towards(210, 0.55 * radius)},
-                shades::text);
+                lines.shades->text);
     const double size = 11 * lines.scale;
     const Point n = towards(0, radius + 9 * lines.scale);
     const double apart = n.y < middle.y ? std::min(n.y, middle.y - 9 * lines.scale) : n.y;
     canvas.text(fonts, "N", {n.x - fonts.width("N", size, true) / 2, apart + 0.36 * size}, size,
-                true, shades::text, shades::halo);
+                true, lines.shades->text, lines.shades->halo);
 }
 
 void draw_scale_bar(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
@@ -116,39 +116,35 @@ void draw_scale_bar(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
     const Point right = {left.x + bar.length, left.y};
     const double up = 4 * lines.scale;
     const std::vector<Point> shape = {{left.x, left.y - up}, left, right, {right.x, right.y - up}};
-    canvas.line(shape, 3.4 * lines.scale, shades::halo, false);
-    canvas.line(shape, 1.2 * lines.scale, shades::text, false);
+    canvas.line(shape, 3.4 * lines.scale, lines.shades->halo, false);
+    canvas.line(shape, 1.2 * lines.scale, lines.shades->text, false);
     const double size = 10 * lines.scale;
     canvas.text(fonts, distance_text(bar.metres),
-                {left.x + 3 * lines.scale, left.y - 4 * lines.scale}, size, false, shades::text,
-                shades::halo);
+                {left.x + 3 * lines.scale, left.y - 4 * lines.scale}, size, false, lines.shades->text,
+                lines.shades->halo);
 }
 
 }  // namespace
 
-void draw_ground_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
-                       const MapMarks& marks) {
+void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks) {
     clip_to_picture(canvas, lines);
     draw_heights(canvas, fonts, lines, marks);
     for (const Point& city : marks.cities) {
-        canvas.fill(circle_about(moved(lines, city), 2.6 * lines.scale), shades::halo);
-        canvas.fill(circle_about(moved(lines, city), 1.6 * lines.scale), shades::city);
+        canvas.fill(circle_about(moved(lines, city), 2.6 * lines.scale), lines.shades->halo);
+        canvas.fill(circle_about(moved(lines, city), 1.6 * lines.scale), lines.shades->city);
     }
-    draw_texts(canvas, fonts, lines, marks.ground_texts);
-    canvas.unclip();
-}
-
-void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks) {
-    clip_to_picture(canvas, lines);
+    // Where there are many sites, their marks are smaller.
+    const double size = marks.sites.size() > 1 ? 0.75 : 1;
     for (const Point& site : marks.sites) {
         const Point at = moved(lines, site);
         for (const auto& [half, colour] :
-             {std::pair{3.5, shades::halo}, std::pair{2.2, shades::text}}) {
-            const double r = half * lines.scale;
+             {std::pair{3.8, lines.shades->halo}, std::pair{2.4, lines.shades->text}}) {
+            const double r = size * half * lines.scale;
             canvas.fill({{at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y}},
                         colour);
         }
     }
+    draw_texts(canvas, fonts, lines, marks.ground_texts);
     draw_texts(canvas, fonts, lines, marks.site_texts);
     draw_north(canvas, fonts, lines, marks.north);
     if (marks.scale_bar) draw_scale_bar(canvas, fonts, lines, *marks.scale_bar);

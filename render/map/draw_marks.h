@@ -7,10 +7,7 @@
 
 namespace stormcellar::render {
 
-// Draws cities, distances and heights, with the map, before a volume.
-void draw_ground_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
-                       const MapMarks& marks);
-// Draws sites, north arrow and scale bar, over everything.
+// Draws all marks, over everything. Letters have a halo, so that echo below does not hide them.
 void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks);
 
 }  // namespace stormcellar::render

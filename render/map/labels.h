@@ -1,11 +1,10 @@
 // render/map/labels.h -- the frame around the picture: title, time, color bar, legend and notes.
 //
-// The picture lies below a header and above a footer; a panel at its right holds the color bar and
-// the legend. The place of the picture depends on the scene alone, so that it does not move from
-// frame to frame of a loop. Layout and drawing are separate, so that tests can check that nothing
-// overlaps. Text without enough room becomes smaller, down to three quarters, and then ends in an
-// ellipsis. In the color bar, a stepped table has classes of equal height, labeled at their lower
-// bounds; a table with blends has an axis that is linear in the value, labeled at round values.
+// The picture lies below a header and above a footer; the color bar and the legend stand at its
+// right or below it (render/map/picture_space.h). The place of the picture depends on the scene
+// alone, so that it does not move from frame to frame of a loop. Layout and drawing are separate, so
+// that tests can check that nothing overlaps. Text without enough room becomes smaller, down to
+// three quarters, and then ends in an ellipsis.
 //
 // Threads   Plain values and pure functions; Fonts may be used by one thread at a time.
 #pragma once
@@ -16,7 +15,9 @@
 
 #include "render/image/canvas.h"
 #include "render/map/coverage.h"
+#include "render/map/label_builder.h"
 #include "render/map/legend.h"
+#include "render/map/picture_space.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/frame_facts.h"
 
@@ -26,24 +27,11 @@ namespace stormcellar::render {
 inline constexpr int smallest_labelled_width = 400;
 inline constexpr int smallest_labelled_height = 300;
 
-struct LabelText {
-    Rect box;  // the text lies inside
-    double baseline = 0;
-    double size = 0;
-    bool bold = false;
-    Rgba8 colour{};
-    std::string text;
-};
-
-struct LabelBlock {
-    Rect box;
-    Rgba8 colour{};
-    bool hatched = false;
-};
-
 struct LabelLayout {
     double scale = 1;                              // of text and lines; 1 for 796 x 532 pixels
     int left = 0, top = 0, width = 0, height = 0;  // the picture
+    std::optional<Rect> inset;                     // of a section: the small map of its line
+    const Shades* shades = &shades::dark;
     std::vector<LabelBlock> blocks;                // color bar and legend
     std::vector<LabelText> texts;
 };
@@ -59,6 +47,24 @@ struct PictureFacts {
 [[nodiscard]] Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene,
                                                  const FrameFacts& facts,
                                                  const PictureFacts& picture);
+
+// The texts of a header: what, where, when.
+struct HeaderTexts {
+    std::string title, product, time, local_time, warnings;
+};
+[[nodiscard]] HeaderTexts header_of(const FrameFacts& facts, const std::string& product);
+// Places the header of a picture of this shape over its whole width, in pixels.
+void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
+                    const HeaderTexts& texts);
+// Places the lines of small print at the bottom of a picture of this size: two texts begin at the
+// left, two end at the right.
+struct FooterTexts {
+    std::string view, age, seen, credit;
+};
+[[nodiscard]] FooterTexts footer_of(const Scene& scene, const FrameFacts& facts,
+                                    double ring_spacing_m,
+                                    const std::optional<Coverage>& coverage);
+void lay_out_footer(LabelBuilder& builder, double width, double height, const FooterTexts& texts);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);
 

@@ -5,6 +5,7 @@
 #include "render/colour/built_in_tables.h"
 #include "render/image/shades.h"
 #include "render/products/ground.h"
+#include "render/view/length_text.h"
 #include "render/volume/haze.h"
 #include "stormcellar/render/product.h"
 
@@ -24,34 +25,36 @@ std::string clear_words(const Scene& scene, std::string_view between) {
 }
 
 void add_volume_rows(const Scene& scene, Legend& legend) {
-    const std::string height = fmt::format("{:g} km", low_coverage_m / 1000);
+    const std::string height = distance_text(low_coverage_m);
+    const Shades& shades = shades_of(scene.theme);
     if (scene.haze) {
         legend.heading = "Coverage";
-        legend.rows = {{"air seen", shades::seen, false},
-                       {"air not seen", veiled(shades::seen, most_haze), false},
-                       {"nothing seen", shades::not_seen, true}};
+        legend.rows = {{"air seen", shades.land.seen, false},
+                       {"air not seen", veiled(shades.land.seen, shades.haze, most_haze), false},
+                       {"nothing seen", shades.land.not_seen, true}};
     } else {
         legend.heading = "Coverage (ground)";
-        legend.rows = {{"seen below " + height, shades::seen, false},
-                       {"seen above " + height, shades::seen_aloft, false},
-                       {"not seen", shades::not_seen, true}};
+        legend.rows = {{"seen below " + height, shades.land.seen, false},
+                       {"seen above " + height, shades.land.seen_aloft, false},
+                       {"not seen", shades.land.not_seen, true}};
     }
     legend.notes = {clear_words(scene, "and"), "are clear"};
 }
 
 void add_flat_rows(const Scene& scene, Legend& legend) {
     const ProductFacts& facts = facts_of(scene.product);
+    const Shades& shades = shades_of(scene.theme);
     if (facts.threshold_dbz != nullptr) {
-        legend.rows.push_back({"dotted: at least", shades::page, false});
+        legend.rows.push_back({"dotted: at least", shades.page, false});
         legend.rows.push_back({fmt::format("no echo or < {:g} dBZ", scene.*facts.threshold_dbz),
-                               shades::seen, false});
+                               shades.land.seen, false});
     } else if (facts.has_echo_states) {
-        legend.rows.push_back({clear_words(scene, "or"), shades::seen, false});
+        legend.rows.push_back({clear_words(scene, "or"), shades.land.seen, false});
     }
     if (facts.has_echo_states) {
         legend.rows.push_back({"range folded", colours_of(scene).range_folded, false});
     }
-    legend.rows.push_back({"not seen", shades::not_seen, true});
+    legend.rows.push_back({"not seen", shades.land.not_seen, true});
 }
 
 }  // namespace

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "render/image/shades.h"
+#include "render/image/area_mask.h"
 #include "render/map/map_ground.h"
+#include "render/products/ground.h"
 
 namespace stormcellar::render {
 namespace {
@@ -18,15 +19,19 @@ constexpr double county_m = 45e3;
 constexpr double least_county_px = 30;
 // Cairo's numbers end beyond this; such a point is not visible.
 constexpr double farthest_px = 1e6;
+constexpr double most_mask_cells = 4096;  // along a side
+constexpr double most_tile_edge_deg = 0.25;
 
 struct Box {
     double west = 0, south = 0, east = 0, north = 0;
 };
 
-// Returns the part of the ground that both the grid and the picture hold.
+// Returns the part of the ground that the picture shows: that of the grid, and what lies beyond it
+// (reach_beyond_m()).
 Box visible_ground(const ViewGeometry& geometry) {
-    const Box grid = {-geometry.half_x_m(), -geometry.half_y_m(), geometry.half_x_m(),
-                      geometry.half_y_m()};
+    const double reach = reach_beyond_m(geometry);
+    const Box grid = {-geometry.half_x_m() - reach, -geometry.half_y_m() - reach,
+                      geometry.half_x_m() + reach, geometry.half_y_m() + reach};
     Box seen = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     const double w = geometry.width();
     const double h = geometry.height();
@@ -132,13 +137,19 @@ class Tracer {
           most_bent_m_(most_bent_px * finest_m),
           strokes_(strokes) {}
 
-    void trace(MapKind kind, const std::vector<grid::GeoPoint>& line) {
+    // `at` has the ground of each point.
+    void trace(MapKind kind, const std::vector<grid::GeoPoint>& line,
+               const std::vector<GroundPoint>& at) {
         kind_ = kind;
         break_off();
-        Vertex last{line.front(), ground_.ground(line.front())};
+        Vertex last{line.front(), at.front()};
         for (std::size_t i = 1; i < line.size(); ++i) {
-            const Vertex next{line[i], ground_.ground(line[i])};
-            divide(last, next, 0);
+            const Vertex next{line[i], at[i]};
+            if (is_area(kind) && is_tile_edge(last.place, next.place)) {
+                break_off();
+            } else {
+                divide(last, next, 0);
+            }
             last = next;
         }
         break_off();
@@ -230,6 +241,13 @@ const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) 
     return best;
 }
 
+// Seen at a slant, places beyond the grid would stand in the fading ground.
+Box box_of_cities(const ViewGeometry& geometry, const Box& shown) {
+    if (is_from_above(geometry)) return shown;
+    return {std::max(shown.west, -geometry.half_x_m()), std::max(shown.south, -geometry.half_y_m()),
+            std::min(shown.east, geometry.half_x_m()), std::min(shown.north, geometry.half_y_m())};
+}
+
 void add_cities(const BaseMap& map, const GroundMap& ground, const ViewGeometry& geometry,
                 const Box& box, const Box& degrees, MapLayer& layer) {
     for (const MapCity& city : map.cities()) {
@@ -248,30 +266,108 @@ void add_cities(const BaseMap& map, const GroundMap& ground, const ViewGeometry&
         if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) continue;
         if (pixel.x >= 0 && pixel.y >= 0 && pixel.x <= geometry.width() &&
             pixel.y <= geometry.height()) {
-            layer.cities.push_back({{pixel.x, pixel.y}, city.name});
+            layer.cities.push_back({{pixel.x, pixel.y}, city.name, city.population});
         }
     }
 }
+
+// Puts the rings of areas on a raster of the ground.
+class WaterPainter {
+  public:
+    WaterPainter(const GroundMap& ground, const Box& box, double finest_m)
+        : ground_(ground),
+          mask_(mask_over(box, finest_m)),
+          area_(mask_.width, mask_.height) {}
+
+    // Adds a ring that is straight in degrees, with the ground of each point. The edges of tiles are
+    // long, so they are divided, and at the same places in both tiles.
+    void add(MapKind kind, const std::vector<grid::GeoPoint>& ring,
+             const std::vector<GroundPoint>& at) {
+        std::vector<Point> cells;
+        for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+            put(at[i], cells);
+            if (!is_tile_edge(ring[i], ring[i + 1])) continue;
+            const bool upright = std::abs(ring[i].longitude_deg - ring[i + 1].longitude_deg) < 1e-7;
+            const auto along = [&](const grid::GeoPoint& p) {
+                return (upright ? p.latitude_deg : p.longitude_deg) / most_tile_edge_deg;
+            };
+            const double from = along(ring[i]);
+            const double to = along(ring[i + 1]);
+            const double step = to > from ? 1 : -1;
+            for (double part = step > 0 ? std::floor(from) + 1 : std::ceil(from) - 1;
+                 step * part < step * to; part += step) {
+                grid::GeoPoint between = ring[i];
+                (upright ? between.latitude_deg : between.longitude_deg) =
+                    part * most_tile_edge_deg;
+                put(ground_.ground(between), cells);
+            }
+        }
+        if (cells.size() < 3) return;
+        if (kind == MapKind::lake) {
+            lakes_.push_back(std::move(cells));
+        } else {
+            area_.add(cells);
+        }
+    }
+
+    // Land first, then the lakes in it.
+    WaterMask finish() {
+        area_.put(true);
+        for (const std::vector<Point>& lake : lakes_)
+            area_.add(lake);
+        area_.put(false);
+        mask_.water = area_.cells();
+        for (std::uint8_t& cell : mask_.water)
+            cell = static_cast<std::uint8_t>(255 - cell);
+        return std::move(mask_);
+    }
+
+  private:
+    static WaterMask mask_over(const Box& box, double finest_m) {
+        const double side = std::max(box.east - box.west, box.north - box.south);
+        WaterMask mask;
+        mask.metres_per_cell = std::max(finest_m, side / most_mask_cells);
+        mask.west_m = box.west;
+        mask.north_m = box.north;
+        mask.width = static_cast<int>(std::ceil((box.east - box.west) / mask.metres_per_cell));
+        mask.height = static_cast<int>(std::ceil((box.north - box.south) / mask.metres_per_cell));
+        mask.width = std::max(1, mask.width);
+        mask.height = std::max(1, mask.height);
+        return mask;
+    }
+    void put(GroundPoint at, std::vector<Point>& cells) const {
+        if (!std::isfinite(at.x_m) || !std::isfinite(at.y_m)) return;
+        const Point cell = {(at.x_m - mask_.west_m) / mask_.metres_per_cell,
+                            (mask_.north_m - at.y_m) / mask_.metres_per_cell};
+        cells.push_back({std::clamp(cell.x, -farthest_px, farthest_px),
+                         std::clamp(cell.y, -farthest_px, farthest_px)});
+    }
+
+    const GroundMap& ground_;
+    WaterMask mask_;
+    AreaMask area_;
+    std::vector<std::vector<Point>> lakes_;
+};
 
 struct Look {
     double width;
     Rgba8 colour;
 };
 
-Look look_of(MapKind kind) {
+Look look_of(MapKind kind, const Shades& shades) {
     switch (kind) {
         case MapKind::county:
-            return {0.6, shades::county};
+            return {0.6, shades.county};
         case MapKind::state:
-            return {0.9, shades::state};
+            return {0.9, shades.state};
         case MapKind::lake:
-            return {0.8, shades::coast};
+            return {0.8, shades.coast};
         case MapKind::country:
-            return {1.2, shades::country};
+            return {1.2, shades.country};
         case MapKind::coast:
             break;
     }
-    return {1.0, shades::coast};
+    return {1.0, shades.coast};
 }
 
 }  // namespace
@@ -285,6 +381,8 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
     const Box degrees = degrees_of(ground, box);
     const double finest_m = finest_metres_per_pixel(geometry);
     Tracer tracer(ground, geometry, box, finest_m, layer.strokes);
+    WaterPainter painter(ground, box, finest_m);
+    std::vector<GroundPoint> at;
     for (const MapKind kind :
          {MapKind::county, MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
         if (kind == MapKind::county && county_m / finest_m < least_county_px * scale) continue;
@@ -294,10 +392,15 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
             if (!touches(line, degrees)) continue;
             const auto points = map.points_of(line);
             if (!points) return pass_on(points);
-            tracer.trace(kind, *points);
+            at.clear();
+            for (const grid::GeoPoint& place : *points)
+                at.push_back(ground.ground(place));
+            tracer.trace(kind, *points, at);
+            if (is_area(kind)) painter.add(kind, *points, at);
         }
     }
-    add_cities(map, ground, geometry, box, degrees, layer);
+    layer.water = painter.finish();
+    add_cities(map, ground, geometry, box_of_cities(geometry, box), degrees, layer);
     return layer;
 }
 
@@ -328,14 +431,15 @@ Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeom
     return &layer_;
 }
 
-void draw_map(Canvas& canvas, const MapLayer& layer, double scale, Point offset) {
+void draw_map(Canvas& canvas, const MapLayer& layer, const Shades& shades, double scale,
+              Point offset) {
     for (const bool casing : {true, false}) {
         for (auto first = layer.strokes.begin(); first != layer.strokes.end();) {
             const auto last = std::find_if(first, layer.strokes.end(), [&](const MapStroke& s) {
                 return s.kind != first->kind;
             });
-            Look look = look_of(first->kind);
-            if (casing) look = {look.width + 1.6, shades::casing};
+            Look look = look_of(first->kind, shades);
+            if (casing) look = {look.width + 1.6, shades.casing};
             for (; first != last; ++first)
                 canvas.add_to_path(first->points, offset);
             canvas.draw_path(look.width * scale, look.colour);

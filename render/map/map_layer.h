@@ -3,7 +3,8 @@
 // It is made once for the geometry of a grid, a view and a size; the frames of a loop share it.
 // Every vertex is projected by itself. A segment, which is straight in degrees in its source, is
 // divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
-// finest. Lines end where the grid ends. Of the three levels of detail, the coarsest is used that
+// finest. Lines go on beyond the grid, as far as the ground is shown
+// (render/products/ground.h). Of the three levels of detail, the coarsest is used that
 // is thinned by at most 0.7 pixels; points less than 0.3 pixels from the point before are dropped.
 // Counties are shown if 45 km are at least 30 pixels (in a picture of 796 x 532). What the view
 // does not project is not shown.
@@ -17,7 +18,9 @@
 #include <vector>
 
 #include "render/image/canvas.h"
+#include "render/image/shades.h"
 #include "render/map/base_map.h"
+#include "render/products/water_mask.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/view_geometry.h"
 
@@ -31,11 +34,13 @@ struct MapStroke {
 struct MapPlace {
     Point at;
     std::string name;
+    int population = 0;
 };
 
 struct MapLayer {
     std::vector<MapStroke> strokes;  // county, state, lake, country, coast
-    std::vector<MapPlace> cities;    // inside grid and picture, the largest first
+    std::vector<MapPlace> cities;    // inside the picture, the largest first
+    WaterMask water;                 // over the ground that the picture shows
 };
 
 // Prepares the layer. `scale` is that of lines and text. Errors: corrupt if the map's lines
@@ -62,6 +67,7 @@ class MapCache {
 
 // The lines, thin over a darker casing that parts them from echo. The cities are marks
 // (render/map/map_marks.h).
-void draw_map(Canvas& canvas, const MapLayer& layer, double scale, Point offset = {});
+void draw_map(Canvas& canvas, const MapLayer& layer, const Shades& shades, double scale,
+              Point offset = {});
 
 }  // namespace stormcellar::render

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "base/degree.h"
-#include "render/image/shades.h"
 #include "render/map/map_ground.h"
 
 namespace stormcellar::render {
@@ -129,7 +128,7 @@ void clip_to_picture(Canvas& canvas, const MapLines& lines) {
 
 void draw_border(Canvas& canvas, const MapLines& lines) {
     clip_to_picture(canvas, lines);
-    draw_closed(canvas, ground_outline(lines), lines, 1.2 * lines.scale, shades::border);
+    draw_closed(canvas, ground_outline(lines), lines, 1.2 * lines.scale, lines.shades->border);
     canvas.unclip();
 }
 
@@ -147,7 +146,7 @@ void draw_rings(Canvas& canvas, const MapLines& lines) {
     canvas.clip_both(ground, picture_outline(lines));
     for (int i = 1; i * lines.ring_spacing_m < reach && i <= most_rings; ++i) {
         draw_closed(canvas, ring_of(lines, map, i * lines.ring_spacing_m), lines, lines.scale,
-                    shades::ring);
+                    lines.shades->ring);
     }
     canvas.unclip();
 }

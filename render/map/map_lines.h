@@ -29,6 +29,7 @@ struct MapLines {
     double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
     bool heights = false;           // a scale of heights at the left edge of the box
     double scale = 1;               // of lines and text
+    const Shades* shades = &shades::dark;
     double left = 0, top = 0;
 };
 

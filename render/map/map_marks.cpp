@@ -6,15 +6,24 @@
 #include <numbers>
 #include <vector>
 
-#include "render/image/shades.h"
 #include "render/map/label_places.h"
 #include "render/map/map_ground.h"
+#include "render/view/length_text.h"
 
 namespace stormcellar::render {
 namespace {
 
 constexpr double text_size = 10;
-constexpr double city_size = 9;
+// Names of towns grow with the town, in three steps.
+struct TownLook {
+    int least_population;
+    double size;
+    bool is_large;
+};
+constexpr std::array towns = {TownLook{400'000, 10.5, true}, TownLook{100'000, 9.5, true},
+                              TownLook{0, 8.5, false}};
+// Where there are more sites, their names are small, and fewer.
+constexpr std::size_t few_sites = 3;
 constexpr double north_radius = 17;
 
 class Planner {
@@ -169,15 +178,17 @@ class Planner {
     }
 
     void plan_site_name(Point at, const std::string& name) {
-        const double size = scaled(text_size);
-        const double width = fonts_.width(name, size, true);
+        const bool few = marks_.sites.size() <= few_sites;
+        const double size = scaled(few ? text_size : 8.5);
+        const double width = fonts_.width(name, size, few);
         const double right = at.x + scaled(6);
         const double left = at.x - scaled(6) - width;
         const double above = at.y - scaled(3);
         const double below = at.y + 0.8 * size + scaled(2);
         for (const Point& corner :
              {Point{right, above}, Point{left, above}, Point{right, below}, Point{left, below}}) {
-            if (auto text = claim(name, corner, size, true, shades::text)) {
+            if (auto text = claim(name, corner, size, few,
+                                  few ? lines_.shades->text : lines_.shades->quiet_text)) {
                 marks_.site_texts.push_back(std::move(*text));
                 return;
             }
@@ -219,7 +230,7 @@ class Planner {
             const std::string text = distance_text(i * step_m);
             const double x = tick->x + heights.side * scaled(7) -
                              (heights.side < 0 ? fonts_.width(text, size, false) : 0);
-            auto placed = claim(text, {x, tick->y + 0.36 * size}, size, false, shades::quiet_text);
+            auto placed = claim(text, {x, tick->y + 0.36 * size}, size, false, lines_.shades->quiet_text);
             if (!placed) continue;
             heights.ticks.push_back(*tick);
             marks_.height_texts.push_back(std::move(*placed));
@@ -244,16 +255,15 @@ class Planner {
             const std::string text = distance_text(i * lines_.ring_spacing_m);
             const double width = fonts_.width(text, size, false);
             if (auto placed = claim(text, {lowest->x - width / 2, lowest->y + 0.36 * size}, size,
-                                    false, shades::quiet_text)) {
+                                    false, lines_.shades->quiet_text)) {
                 marks_.ground_texts.push_back(std::move(*placed));
             }
         }
     }
 
     void plan_cities() {
-        const double size = scaled(city_size);
         const double dot = scaled(2.6);
-        const double apart = scaled(44);
+        const double apart = scaled(38);
         for (const MapPlace& city : lines_.map->cities) {
             // Cities keep a distance from each other, so that the map stays quiet.
             const bool crowded =
@@ -261,20 +271,25 @@ class Planner {
                     return std::hypot(other.x - city.at.x, other.y - city.at.y) < apart;
                 });
             if (crowded || !places_.is_free(about(city.at, dot))) continue;
+            const TownLook& look = *std::ranges::find_if(towns, [&](const TownLook& town) {
+                return city.population >= town.least_population;
+            });
+            const double size = scaled(look.size);
+            const Rgba8 colour = look.is_large ? lines_.shades->city : lines_.shades->small_city;
             const double width = fonts_.width(city.name, size, false);
             const double right = city.at.x + scaled(4.5);
             const double left = city.at.x - scaled(4.5) - width;
             const double level = city.at.y + 0.36 * size;
             const double middle = city.at.x - width / 2;
             std::vector<Point> corners = {Point{right, level}, Point{left, level},
-                                          Point{middle, city.at.y - scaled(5)},
+                                          Point{middle, city.at.y - scaled(3.5) - 0.3 * size},
                                           Point{middle, city.at.y + 0.8 * size + scaled(5)}};
             // A name across the edge of the grid looks cut by it, so such places come last.
             std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
                 return over_grid(corner) && over_grid({corner.x + width, corner.y});
             });
             for (const Point& corner : corners) {
-                auto text = claim(city.name, corner, size, false, shades::city);
+                auto text = claim(city.name, corner, size, false, colour);
                 if (!text) continue;
                 marks_.ground_texts.push_back(std::move(*text));
                 marks_.cities.push_back(city.at);
@@ -293,10 +308,6 @@ class Planner {
 };
 
 }  // namespace
-
-std::string distance_text(double metres) {
-    return metres < 1000 ? fmt::format("{:g} m", metres) : fmt::format("{:g} km", metres / 1000);
-}
 
 MapMarks plan_marks(const Fonts& fonts, const MapLines& lines) {
     return Planner(fonts, lines).plan();

@@ -48,8 +48,8 @@ struct HeightScale {
 struct MapMarks {
     std::vector<Point> sites;
     std::vector<Point> cities;
-    std::vector<MarkText> site_texts;    // over everything
-    std::vector<MarkText> ground_texts;  // distances and cities; under a volume
+    std::vector<MarkText> site_texts;    
+    std::vector<MarkText> ground_texts;  // distances and cities
     std::vector<MarkText> height_texts;
     std::optional<HeightScale> heights;
     Rect north;
@@ -57,8 +57,5 @@ struct MapMarks {
 };
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);
-
-// Returns "50 km" or "200 m".
-[[nodiscard]] std::string distance_text(double metres);
 
 }  // namespace stormcellar::render

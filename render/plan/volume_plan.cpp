@@ -46,7 +46,7 @@ const VolumeScene::Drawn& VolumeScene::draw(const VolumeChoice& choice) {
     const VolumeSlicer slicer(table_, view_.quantization, geometry,
                               {choice.slices, choice.integration, scene_.opacity,
                                choice.every_pixel ? 0 : interpolated_tolerance, light});
-    Drawn drawn{Image(width_, height_, shades::page), 0};
+    Drawn drawn{Image(width_, height_, shades_of(scene_.theme).page), 0};
     composite_over(slicer.draw(view_, threads_), drawn.picture, 0, 0);
     drawn.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return drawn_.emplace_back(choice, std::move(drawn)).second;

@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "render/image/round_step.h"
-#include "render/image/shades.h"
 #include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
@@ -19,21 +17,36 @@ bool is_dot(int x, int y, double scale) {
     return (x + shift) % period < size && y % period < size;
 }
 
-// Calls shade(column, x, y) for every pixel over the grid.
+// Seen at a slant, the ground goes on by so much of the grid's half width.
+constexpr double slanted_reach = 1.5;
+// Seen from straight above it goes on as far as maps hold.
+constexpr double farthest_m = 2e6;
+
+// Calls shade(column, patch) for every pixel over the grid.
 template <class Shade>
-Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, int threads, Shade shade) {
-    Image image(geometry.width(), geometry.height(), shades::page);
+Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, const GroundLook& look,
+            int threads, Shade shade) {
+    Image image(geometry.width(), geometry.height(), look.shades->page);
     for_each_piece(image.height, threads, [&](int y) {
         for (int x = 0; x < image.width; ++x) {
             const auto p = geometry.ground({x + 0.5, y + 0.5});
-            const std::ptrdiff_t column = p ? column_at(spec, *p) : -1;
-            if (column >= 0) image.set(x, y, shade(static_cast<std::size_t>(column), x, y));
+            if (!p) continue;
+            const std::ptrdiff_t column = column_at(spec, *p);
+            if (column < 0 && look.water == nullptr) continue;
+            const GroundPatch patch{x, y, look.water != nullptr ? look.water->water_at(*p) : 0};
+            image.set(x, y,
+                      column >= 0 ? shade(static_cast<std::size_t>(column), patch)
+                                  : patch.shade(look, &GroundShades::beyond));
         }
     });
     return image;
 }
 
 }  // namespace
+
+bool is_from_above(const ViewGeometry& geometry) {
+    return !geometry.is_perspective() && geometry.forward()[2] == -1;
+}
 
 std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
     const double ix = std::floor(p.x_m / spec.cell_width_m() + 0.5 * spec.nx);
@@ -43,38 +56,65 @@ std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
 }
 
 Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>& columns,
-                   const ViewGeometry& geometry, GroundTells tells, double scale, int threads) {
-    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
+                   const ViewGeometry& geometry, GroundTells tells, const GroundLook& look,
+                   int threads) {
+    return paint(spec, geometry, look, threads, [&](std::size_t column, const GroundPatch& patch) {
         const std::uint16_t lowest = columns[column].lowest_seen;
-        if (lowest == ColumnSummary::never) return shades::hatched(x, y, scale);
+        if (lowest == ColumnSummary::never) return patch.unseen(look);
         const bool low = spec.levels_m[lowest] < low_coverage_m;
-        return low || tells == GroundTells::whether_seen ? shades::seen : shades::seen_aloft;
+        return patch.shade(look, low || tells == GroundTells::whether_seen
+                                     ? &GroundShades::seen
+                                     : &GroundShades::seen_aloft);
     });
 }
 
-Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table, int x, int y,
-               double scale) {
+Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
+               const GroundPatch& patch, const GroundLook& look) {
+    const Rgba8 plain = patch.shade(look, &GroundShades::seen);
     switch (field.status[place]) {
         case grid::CellStatus::value: {
             const auto colour = colour_of(table, field.values[place]);
-            if (!colour) return shades::seen;
+            if (!colour) return plain;
             const bool dotted = !field.at_least.empty() && field.at_least[place] != 0;
-            return dotted && is_dot(x, y, scale) ? shades::page : over(*colour, shades::seen);
+            return dotted && is_dot(patch.x, patch.y, look.scale) ? look.shades->page
+                                                                  : over(*colour, plain);
         }
         case grid::CellStatus::range_folded:
-            return over(table.range_folded, shades::seen);
+            return over(table.range_folded, plain);
         case grid::CellStatus::no_echo:
-            return shades::seen;
+            return plain;
         case grid::CellStatus::not_seen:
             break;
     }
-    return shades::hatched(x, y, scale);
+    return patch.unseen(look);
 }
 
 Image paint_field(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
-                  const ViewGeometry& geometry, double scale, int threads) {
-    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
-        return shade_of(field, column, table, x, y, scale);
+                  const ViewGeometry& geometry, const GroundLook& look, int threads) {
+    return paint(spec, geometry, look, threads, [&](std::size_t column, const GroundPatch& patch) {
+        return shade_of(field, column, table, patch, look);
+    });
+}
+
+double reach_beyond_m(const ViewGeometry& geometry) {
+    if (is_from_above(geometry)) return farthest_m;
+    return slanted_reach * std::max(geometry.half_x_m(), geometry.half_y_m());
+}
+
+void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture) {
+    if (is_from_above(geometry)) return;
+    const double reach_m = reach_beyond_m(geometry);
+    for_each_piece(picture.height, threads, [&](int y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const auto p = geometry.ground({x + 0.5, y + 0.5});
+            if (!p) continue;
+            const double beyond_m =
+                std::hypot(std::max(0.0, std::abs(p->x_m) - geometry.half_x_m()),
+                           std::max(0.0, std::abs(p->y_m) - geometry.half_y_m()));
+            if (beyond_m == 0) continue;
+            const double share = std::min(1.0, beyond_m / reach_m);
+            picture.set(x, y, mixed(picture.at(x, y), shades.page, share * (2 - share)));
+        }
     });
 }
 

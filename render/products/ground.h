@@ -1,7 +1,8 @@
 // render/products/ground.h -- paints what lies flat: the ground of the 3D view, and 2D products.
 //
 // Both paint an opaque picture pixel by pixel. Each pixel shows the column into whose cell it
-// falls; beyond the grid is the page.
+// falls. Beyond the grid the ground goes on, darker (or, on a light page, lighter), if the picture
+// has a map; else there is the page. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -10,8 +11,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/image/shades.h"
 #include "render/products/column_summary.h"
 #include "render/products/flat_field.h"
+#include "render/products/water_mask.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/render/colour_table.h"
 #include "stormcellar/render/image.h"
@@ -26,22 +29,51 @@ inline constexpr double low_coverage_m = 3000;
 // higher up, or not at all; or, if haze shows the rest, only whether they were seen.
 enum class GroundTells { how_low, whether_seen };
 
+// How the ground is painted.
+struct GroundLook {
+    const Shades* shades = &shades::dark;
+    const WaterMask* water = nullptr;  // null: all is land, and there is nothing beyond the grid
+    double scale = 1;                  // of hatch and dots
+};
+
+// A pixel of the whole picture, and what is under it.
+struct GroundPatch {
+    int x = 0, y = 0;
+    double water = 0;  // its share
+
+    [[nodiscard]] Rgba8 shade(const GroundLook& look, Rgba8 GroundShades::*which) const {
+        return mixed(look.shades->land.*which, look.shades->water.*which, water);
+    }
+    [[nodiscard]] Rgba8 unseen(const GroundLook& look) const {
+        return hatched(shade(look, &GroundShades::not_seen), *look.shades, x, y, look.scale);
+    }
+};
+
 [[nodiscard]] Image paint_ground(const grid::GridSpec& spec,
                                  const std::vector<ColumnSummary>& columns,
-                                 const ViewGeometry& geometry, GroundTells tells, double scale,
-                                 int threads);
+                                 const ViewGeometry& geometry, GroundTells tells,
+                                 const GroundLook& look, int threads);
 
 // Returns the color of a place of a field at a pixel of the whole picture. A value has the color of
 // the table, over plain ground where that is translucent, and with dots if it is "at least". No
 // echo and values below the table are plain ground, range folded has its own color, and not seen is
 // hatched.
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
-                             int x, int y, double scale);
+                             const GroundPatch& patch, const GroundLook& look);
 
 // Paints a product, whose columns and rows are those of the grid.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColourTable& table, const ViewGeometry& geometry,
-                                double scale, int threads);
+                                const GroundLook& look, int threads);
+
+// Returns true if parallel rays look straight down, as in a map.
+[[nodiscard]] bool is_from_above(const ViewGeometry& geometry);
+// Returns how far beyond the grid the ground is shown, in meters. Seen from straight above it fills
+// the picture; else it ends around the grid.
+[[nodiscard]] double reach_beyond_m(const ViewGeometry& geometry);
+// Fades the ground beyond the grid, with the lines on it, to the page, unless it is seen from
+// straight above.
+void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture);
 
 // Returns the index of the column whose cell holds a point of the ground; -1 beyond the grid.
 [[nodiscard]] std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint point);

@@ -15,6 +15,7 @@
 
 #include "render/image/canvas.h"
 #include "render/products/flat_field.h"
+#include "render/products/ground.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/grid/site_frame.h"
@@ -55,8 +56,8 @@ struct SectionPlace {
 // the factor by which heights are stretched, which follows from filling the picture. If `fonts` is
 // null, there are no axes.
 [[nodiscard]] Image draw_section(const Section& section, const ColourTable& table,
-                                 const SectionPlace& place, int width, int height, double scale,
-                                 const Fonts* fonts);
+                                 const SectionPlace& place, int width, int height,
+                                 const GroundLook& look, const Fonts* fonts);
 
 // Returns "35.333 N 97.278 W", rounded to 0.001 degrees.
 [[nodiscard]] std::string place_text(grid::GeoPoint point);

@@ -4,7 +4,6 @@
 
 #include "render/image/round_step.h"
 #include "render/image/shades.h"
-#include "render/products/ground.h"
 #include "render/products/section.h"
 
 namespace stormcellar::render {
@@ -13,8 +12,12 @@ namespace {
 class Axes {
   public:
     Axes(Canvas& canvas, const Fonts& fonts, const Section& section, const SectionPlace& place,
-         double scale)
-        : canvas_(canvas), fonts_(fonts), section_(section), scale_(scale) {
+         const GroundLook& look)
+        : canvas_(canvas),
+          fonts_(fonts),
+          section_(section),
+          shades_(*look.shades),
+          scale_(look.scale) {
         left_ = place.left;
         right_ = place.left + place.width;
         top_ = place.top;
@@ -23,7 +26,7 @@ class Axes {
 
     void draw() {
         canvas_.line({{left_, top_}, {right_, top_}, {right_, bottom_}, {left_, bottom_}}, scale_,
-                     shades::border, true);
+                     shades_.border, true);
         draw_heights();
         draw_distances();
         draw_ends();
@@ -38,7 +41,7 @@ class Axes {
     void put(const std::string& text, double x, double baseline, double share, bool strong) {
         const double size = 10 * scale_;
         canvas_.text(fonts_, text, {x - share * fonts_.width(text, size, strong), baseline}, size,
-                     strong, strong ? shades::text : shades::quiet_text);
+                     strong, strong ? shades_.text : shades_.quiet_text);
     }
 
     void draw_heights() {
@@ -49,8 +52,8 @@ class Axes {
         for (int i = static_cast<int>(std::ceil(bottom_km / step - 1e-9));
              i * step <= bottom_km + range_km; ++i) {
             const double y = bottom_ - (i * step - bottom_km) / range_km * (bottom_ - top_);
-            canvas_.line({{left_ - 4 * scale_, y}, {left_, y}}, scale_, shades::border, false);
-            if (i != 0) canvas_.line({{left_, y}, {right_, y}}, scale_, faint, false);
+            canvas_.line({{left_ - 4 * scale_, y}, {left_, y}}, scale_, shades_.border, false);
+            if (i != 0) canvas_.line({{left_, y}, {right_, y}}, scale_, faint(), false);
             put(fmt::format("{:g}", i * step), left_ - 7 * scale_, y + 3.5 * scale_, 1, false);
         }
     }
@@ -61,7 +64,7 @@ class Axes {
         const double step = round_step(length_km, most);
         for (int i = 0; i * step <= length_km * (1 + 1e-9); ++i) {
             const double x = left_ + i * step / length_km * (right_ - left_);
-            canvas_.line({{x, bottom_}, {x, bottom_ + 4 * scale_}}, scale_, shades::border, false);
+            canvas_.line({{x, bottom_}, {x, bottom_ + 4 * scale_}}, scale_, shades_.border, false);
             const bool last = (i + 1) * step > length_km * (1 + 1e-9);
             put(fmt::format("{:g}{}", i * step, last ? " km" : ""), x, bottom_ + 16 * scale_, 0.5,
                 false);
@@ -81,10 +84,16 @@ class Axes {
         }
     }
 
-    static constexpr Rgba8 faint = {150, 165, 185, 40};
+    [[nodiscard]] Rgba8 faint() const {
+        Rgba8 colour = shades_.border;
+        colour[3] = 44;
+        return colour;
+    }
+
     Canvas& canvas_;
     const Fonts& fonts_;
     const Section& section_;
+    const Shades& shades_;
     double scale_;
     double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
 };
@@ -99,19 +108,19 @@ std::string place_text(grid::GeoPoint point) {
 }
 
 Image draw_section(const Section& section, const ColourTable& table, const SectionPlace& place,
-                   int width, int height, double scale, const Fonts* fonts) {
-    Image image(width, height, shades::page);
+                   int width, int height, const GroundLook& look, const Fonts* fonts) {
+    Image image(width, height, look.shades->page);
     for (int y = 0; y < place.height; ++y) {
         for (int x = 0; x < place.width; ++x) {
             if (section.in_grid[static_cast<std::size_t>(x)] == 0) continue;
             const std::size_t cell = section.field.index(x, place.height - 1 - y);
             image.set(place.left + x, place.top + y,
-                      shade_of(section.field, cell, table, place.left + x, place.top + y, scale));
+                      shade_of(section.field, cell, table, {place.left + x, place.top + y, 0}, look));
         }
     }
     if (fonts == nullptr) return image;
     Canvas canvas(image);
-    Axes(canvas, *fonts, section, place, scale).draw();
+    Axes(canvas, *fonts, section, place, look).draw();
     return canvas.image();
 }
 

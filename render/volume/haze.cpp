@@ -122,16 +122,11 @@ class HazeMarcher {
 
 }  // namespace
 
-Rgba8 veiled(Rgba8 colour, double opacity) {
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double back = colour[c];
-        colour[c] = static_cast<std::uint8_t>(
-            std::lround(back + opacity * (static_cast<double>(shades::haze[c]) - back)));
-    }
-    return colour;
+Rgba8 veiled(Rgba8 colour, Rgba8 haze, double opacity) {
+    return mixed(colour, haze, opacity);
 }
 
-void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, int threads,
+void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, Rgba8 haze, int threads,
                Image& picture) {
     const HazeMarcher marcher(view, geometry, threads);
     const int across = (picture.width + pixel_stride - 1) / pixel_stride + 1;
@@ -154,7 +149,7 @@ void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, int th
             const float share = static_cast<float>(x % pixel_stride) / pixel_stride;
             const float upper = std::lerp(at(column, row), at(column + 1, row), share);
             const float lower = std::lerp(at(column, row + 1), at(column + 1, row + 1), share);
-            picture.set(x, y, veiled(picture.at(x, y), std::lerp(upper, lower, down_share)));
+            picture.set(x, y, veiled(picture.at(x, y), haze, std::lerp(upper, lower, down_share)));
         }
     });
 }

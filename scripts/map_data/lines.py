@@ -73,3 +73,48 @@ def is_speck(points, tolerance_m, units_per_degree):
     wide = ((max(p[0] for p in points) - min(p[0] for p in points)) * unit *
             math.cos(math.radians(points[0][1] / units_per_degree)))
     return math.hypot(wide, high) < 2 * tolerance_m
+
+
+def signed_area(ring):
+    """Of a closed ring; positive where it runs counterclockwise."""
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:])) / 2
+
+
+def turned(ring, counterclockwise):
+    return ring if (signed_area(ring) > 0) == counterclockwise else ring[::-1]
+
+
+def cut_at(points, axis, limit, keep_above):
+    """The part of an open ring on one side of a line (Sutherland and Hodgman 1974), in whole units."""
+    kept = []
+    sign = 1 if keep_above else -1
+    for one, other in zip(points[-1:] + points[:-1], points):
+        inside = sign * (other[axis] - limit) >= 0
+        if inside != (sign * (one[axis] - limit) >= 0):
+            # Counted from the lower end, so that both sides of the line get the same point.
+            low, high = sorted((one, other), key=lambda p: p[axis])
+            share = (limit - low[axis]) / (high[axis] - low[axis])
+            crossing = [0, 0]
+            crossing[axis] = limit
+            crossing[1 - axis] = round(low[1 - axis] + share * (high[1 - axis] - low[1 - axis]))
+            kept.append(tuple(crossing))
+        if inside:
+            kept.append(other)
+    return [p for i, p in enumerate(kept) if p != kept[i - 1]]
+
+
+def tiles_of(ring, side):
+    """Cuts a closed ring of whole units to square tiles: (column, row, closed ring) for each."""
+    def strips(points, axis):
+        first = min(p[axis] for p in points) // side
+        last = -(-max(p[axis] for p in points) // side)
+        for index in range(first, last):
+            part = cut_at(points, axis, index * side, True)
+            part = cut_at(part, axis, (index + 1) * side, False) if part else part
+            if len(part) >= 3:
+                yield index, part
+
+    for column, strip in strips(ring[:-1], 0):
+        for row, part in strips(strip, 1):
+            if signed_area(part + part[:1]) != 0:
+                yield column, row, part + part[:1]

@@ -5,14 +5,20 @@ import math
 import pathlib
 import struct
 
+import shapely.geometry
+import shapely.ops
+
 from . import lines
 
 # What US weather radars can see, and some way about it: west, south, east, north.
-REGIONS = [(-180, 15.5, -50, 74), (170, 48, 180, 74), (141, 9, 150, 20), (122, 22, 136, 44),
-           (-34, 34, -21, 43)]
+REGIONS = [(-180, 6, -44, 76), (166, 44, 180, 76), (138, 4, 152, 24), (114, 18, 146, 48),
+           (-38, 30, -16, 46)]
+UNITED_STATES = "840"
 GREAT_LAKES = (-92.7, 41.2, -75.9, 49.2)
-SAME_LINE_M = 1500  # nearer than this, a shore of the Census is a line of Natural Earth's at 1:10 million
-SAME_SHORE_M = 5000  # the same between the Census' shores and those of Natural Earth at 1:50 million
+INLAND_SHARE = 0.9  # a lake of which the Census' land covers so much lies within counties
+NEAR_LAKE_DEG = 0.1  # so far from a lake at 1:50 million, what is no land of the Census is still the lake
+SLIVER_DEG = 0.012  # narrower than this, water between two sources is their disagreement
+LEAST_LAKE_DEG2 = 0.002
 
 
 def topology(path):
@@ -51,6 +57,11 @@ def in_region(line):
     return any(west <= r[2] and east >= r[0] and south <= r[3] and north >= r[1] for r in REGIONS)
 
 
+def in_box(line, box):
+    return (min(p[0] for p in line) <= box[2] and max(p[0] for p in line) >= box[0] and
+            min(p[1] for p in line) <= box[3] and max(p[1] for p in line) >= box[1])
+
+
 def runs(line, wanted):
     """The parts of a line whose segments are wanted."""
     run = []
@@ -72,63 +83,56 @@ def cut_to_regions(line):
     return list(runs(line, inside))
 
 
+def polygons_of(path, name):
+    """(identifier, rings) for each polygon of an object; the first ring is the outline."""
+    arcs, objects = topology(path)
+    found = []
+    for geometry in objects[name]["geometries"]:
+        shape = geometry.get("arcs", [])
+        for polygon in [shape] if geometry.get("type") == "Polygon" else shape:
+            rings = []
+            for ring in polygon:
+                points = []
+                for arc in ring:
+                    piece = arcs[arc] if arc >= 0 else arcs[~arc][::-1]
+                    points += piece if not points else piece[1:]
+                rings.append(points)
+            found.append((geometry.get("id"), rings))
+    return found
+
+
+def joined_shape(polygons):
+    return shapely.ops.unary_union([shapely.geometry.Polygon(rings[0], rings[1:]).buffer(0)
+                                    for _, rings in polygons])
+
+
 def countries(directory):
     arcs, objects = topology(pathlib.Path(directory) / "countries-10m.json")
-    coast, border = [], []
+    border = []
     for arc, ids in sorted(owners(objects["countries"]).items()):
-        if in_region(arcs[arc]):
-            (coast if len(ids) == 1 else border).extend(cut_to_regions(arcs[arc]))
-    return lines.joined(coast), lines.joined(border)
+        if len(ids) != 1 and in_region(arcs[arc]):
+            border.extend(cut_to_regions(arcs[arc]))
+    return lines.joined(border)
 
 
-class Nearness:
-    """Whether a point is within some metres of lines in a box (west, south, east, north)."""
-
-    CELLS_PER_DEGREE = 10
-
-    def __init__(self, lines_, box, distance_m):
-        self.distance_m = distance_m
-        self.cells = collections.defaultdict(list)
-        for line in lines_:
-            for one, other in zip(line, line[1:]):
-                if box[0] <= one[0] <= box[2] and box[1] <= one[1] <= box[3]:
-                    steps = 1 + int(200 * max(abs(one[0] - other[0]), abs(one[1] - other[1])))
-                    for i in range(steps):
-                        x = one[0] + (other[0] - one[0]) * i / steps
-                        y = one[1] + (other[1] - one[1]) * i / steps
-                        self.cells[self.cell(x, y)].append((x, y))
-
-    def cell(self, x, y):
-        return (math.floor(x * self.CELLS_PER_DEGREE), math.floor(y * self.CELLS_PER_DEGREE))
-
-    def is_near(self, point):
-        east = lines.METRES_PER_DEGREE * math.cos(math.radians(point[1]))
-        cx, cy = self.cell(*point)
-        return any(math.hypot((x - point[0]) * east,
-                              (y - point[1]) * lines.METRES_PER_DEGREE) < self.distance_m
-                   for i in (-1, 0, 1) for j in (-1, 0, 1)
-                   for x, y in self.cells.get((cx + i, cy + j), ()))
+def land(directory):
+    """Closed rings; land is to the left of them."""
+    found = []
+    for _, rings in polygons_of(pathlib.Path(directory) / "land-10m.json", "land"):
+        for index, ring in enumerate(rings):
+            if in_region(ring):
+                found.append(lines.turned(ring, index == 0))
+    return found
 
 
-def united_states(directory, border):
-    """Counties, states, and the shores of the Great Lakes, where the Census' counties end."""
+def united_states(directory):
+    """Counties and states."""
     arcs, objects = topology(pathlib.Path(directory) / "counties-10m.json")
-    county, state, shore = [], [], []
-    near = Nearness(border, GREAT_LAKES, SAME_LINE_M)
-    box = GREAT_LAKES
-
-    def is_shore(one, other):
-        return all(box[0] < p[0] < box[2] and box[1] < p[1] < box[3] and not near.is_near(p)
-                   for p in (one, other))
-
+    county, state = [], []
     for arc, ids in sorted(owners(objects["counties"]).items()):
-        if len(ids) == 1:
-            shore.extend(runs(arcs[arc], is_shore))
-        elif ids[0][:2] == ids[1][:2]:
-            county.append(arcs[arc])
-        else:
-            state.append(arcs[arc])
-    return lines.joined(county), lines.joined(state), lines.joined(shore)
+        if len(ids) != 1:
+            (county if ids[0][:2] == ids[1][:2] else state).append(arcs[arc])
+    return lines.joined(county), lines.joined(state)
 
 
 def polylines(path):
@@ -142,23 +146,47 @@ def polylines(path):
         yield list(zip(degrees[::2], degrees[1::2]))
 
 
-def lakes(directory, coast, shore):
-    """Natural Earth's large lakes, without what the finer coast and shore already have."""
-    box = (-180, 15, -50, 74)
-    known = Nearness(coast + shore, box, SAME_SHORE_M)
+def lakes_at_50m(path):
+    """The lakes of Natural Earth at 1:50 million; a ring within another is an island of it."""
+    found = shapely.geometry.Polygon()
+    for line in lines.joined(list(polylines(path))):
+        if len(line) > 3 and line[0] == line[-1] and in_region(line):
+            found = found.symmetric_difference(shapely.geometry.Polygon(line).buffer(0))
+    return found
 
-    def is_new(one, other):
-        return not known.is_near(one) and not known.is_near(other)
 
+def parts_of(shape):
+    return [part for part in getattr(shape, "geoms", [shape]) if part.geom_type == "Polygon"]
+
+
+def lakes(options):
+    """Closed rings; water is to the left of them. Where the Census has the shore, it is the Census'."""
+    drawn = lakes_at_50m(pathlib.Path(options.r_maps) / "lakes.L")
+    nation = joined_shape(polygons_of(pathlib.Path(options.us_atlas) / "nation-10m.json", "nation"))
+    box = shapely.geometry.box(*GREAT_LAKES)
+    census = nation.intersection(box.buffer(1))
+    path = pathlib.Path(options.world_atlas) / "countries-10m.json"
+    whole = joined_shape([(name, rings) for name, rings in polygons_of(path, "countries")
+                          if name == UNITED_STATES and in_box(rings[0], GREAT_LAKES)])
+    whole = whole.intersection(box)
+    water = []
+    for lake in parts_of(drawn):
+        covered = lake.intersection(census).area / lake.area
+        if not lake.intersects(box) or covered > INLAND_SHARE:
+            water.append(lake)
+            continue
+        missed = whole.intersection(lake.buffer(NEAR_LAKE_DEG)).difference(census)
+        missed = missed.buffer(-SLIVER_DEG / 2).buffer(SLIVER_DEG / 2, join_style=2)
+        water.append(lake.union(missed).difference(census).buffer(0))
     found = []
-    for line in polylines(pathlib.Path(directory) / "lakes.L"):
-        for part in cut_to_regions(line):
-            found.extend(runs(part, is_new))
-    return lines.joined(found)
+    for part in parts_of(shapely.ops.unary_union(water)):
+        if part.area > LEAST_LAKE_DEG2:
+            found.append(lines.turned(list(part.exterior.coords), True))
+            found.extend(lines.turned(list(hole.coords), False) for hole in part.interiors)
+    return found
 
 
 def read_layers(options):
-    coast, border = countries(options.world_atlas)
-    county, state, shore = united_states(options.us_atlas, border)
-    return {"coast": coast, "country": border, "county": county, "state": state,
-            "lake": shore + lakes(options.r_maps, coast, shore)}
+    county, state = united_states(options.us_atlas)
+    return {"coast": land(options.world_atlas), "country": countries(options.world_atlas),
+            "county": county, "state": state, "lake": lakes(options)}

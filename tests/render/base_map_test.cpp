@@ -119,7 +119,7 @@ TEST(BaseMap, EveryFlippedByteIsRefused) {
 
 TEST(BaseMap, ALaterVersionIsUnsupported) {
     auto bytes = built_in();
-    bytes[8] = std::byte{2};
+    bytes[8] = std::byte{3};
     const auto map = BaseMap::read(bytes);
     ASSERT_FALSE(map);
     EXPECT_EQ(map.error().code, ErrorCode::unsupported);

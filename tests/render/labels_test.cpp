@@ -33,6 +33,7 @@ void expect_tidy(const LabelLayout& layout, int width, int height) {
     const Rect picture{static_cast<double>(layout.left), static_cast<double>(layout.top),
                        static_cast<double>(layout.width), static_cast<double>(layout.height)};
     boxes.emplace_back(picture, "the picture");
+    if (layout.inset) boxes.emplace_back(*layout.inset, "the small map");
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Rect& box = boxes[i].first;
         EXPECT_GE(box.x, 0) << boxes[i].second;
@@ -88,7 +89,8 @@ ColourTable smooth_labels_table() {
 constexpr std::pair<int, int> sizes[] = {{400, 300},   {640, 480},   {796, 532},  {800, 300},
                                          {800, 600},   {1024, 768},  {1280, 720}, {1920, 1080},
                                          {2560, 1440}, {3840, 2160}, {8192, 300}, {400, 1000},
-                                         {480, 640},   {1080, 1920}, {2160, 3840}};
+                                         {480, 640},   {1080, 1920}, {2160, 3840}, {1000, 1000},
+                                         {1080, 1350}, {8192, 8192}, {400, 8192}, {1200, 1001}};
 
 void expect_tidy(const Fonts& fonts, const Scene& scene, const FrameFacts& facts) {
     const ColourTable tables[] = {nws_reflectivity(), uneven_table(), smooth_labels_table()};
@@ -120,6 +122,7 @@ TEST(Labels, NothingOverlapsAtAnySize) {
                 scene.product = product;
                 scene.camera.azimuth_deg = 157.5;
                 scene.camera.tilt_deg = 52.125;
+                if (product == Product::section) scene.section = SectionLine{{35, -98}, {36, -97}};
                 expect_tidy(fonts, scene, facts);
             }
         }
@@ -158,7 +161,7 @@ TEST(Labels, WarningsStandBesideTheProductAndMoveNothing) {
     for (const LabelText& text : layout->texts) {
         if (text.text != "partial volume  \u00B7  KTLX: standby") continue;
         found = true;
-        EXPECT_EQ(text.colour, shades::warning_text);
+        EXPECT_EQ(text.colour, shades::dark.warning_text);
     }
     EXPECT_TRUE(found);
 }

@@ -36,8 +36,8 @@ grid::GridSpec map_of(Projection projection, double latitude_deg, double longitu
 
 bool is_ring(Rgba8 pixel) {
     for (std::size_t c = 0; c < 3; ++c) {
-        const double alpha = shades::ring[3] / 255.0;
-        const double over_white = 255 * (1 - alpha) + shades::ring[c] * alpha;
+        const double alpha = shades::dark.ring[3] / 255.0;
+        const double over_white = 255 * (1 - alpha) + shades::dark.ring[c] * alpha;
         if (std::abs(pixel[c] - over_white) > 1.01) return false;
     }
     return true;
@@ -122,7 +122,7 @@ TEST(MapLines, ASiteIsMarkedInItsColumn) {
         draw_marks(canvas, *fonts, lines, plan_marks(*fonts, lines));
         const Pixel at = view.project(spec.x_m(300), spec.y_m(120), 0);
         const Rgba8 pixel = canvas.image().at(static_cast<int>(at.x), static_cast<int>(at.y));
-        EXPECT_EQ(pixel, shades::text) << grid::projection_name(projection);
+        EXPECT_EQ(pixel, shades::dark.text) << grid::projection_name(projection);
     }
 }
 

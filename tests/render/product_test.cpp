@@ -65,8 +65,8 @@ TEST(ProductLegend, OfAHazyVolumeIsOfTheAir) {
     scene.haze = true;
     EXPECT_THAT(legend_texts(scene), ElementsAre("air seen", "air not seen", "nothing seen"));
     const Rgba8 hazy = legend_of(scene).rows[1].colour;
-    EXPECT_GT(hazy[0], shades::seen[0]);
-    EXPECT_LT(hazy[0], shades::haze[0]);
+    EXPECT_GT(hazy[0], shades::dark.land.seen[0]);
+    EXPECT_LT(hazy[0], shades::dark.haze[0]);
 }
 
 TEST(BarHeading, IsTheUnitOrElseTheMoment) {

@@ -43,18 +43,18 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(map_pixel(*image, 10, 90), (Rgba8{0xFD, 0, 0, 255})) << "north-west is top left";
     EXPECT_EQ(map_pixel(*image, 60, 20), nws_reflectivity().range_folded);
-    EXPECT_EQ(map_pixel(*image, 30, 20), shades::seen) << "below the table";
-    EXPECT_EQ(map_pixel(*image, 50, 50), shades::seen);
-    EXPECT_EQ(image->at(1, 1), shades::page);
+    EXPECT_EQ(map_pixel(*image, 30, 20), shades::dark.land.seen) << "below the table";
+    EXPECT_EQ(map_pixel(*image, 50, 50), shades::dark.land.seen);
+    EXPECT_EQ(image->at(1, 1), shades::dark.page);
     // Not seen is hatched, and so is neither clear air nor a single color.
     int lines = 0;
     int between = 0;
     for (int ix = 81; ix < 99; ++ix) {
         for (int iy = 5; iy < 95; ++iy) {
             const Rgba8 pixel = map_pixel(*image, ix, iy);
-            EXPECT_NE(pixel, shades::seen);
-            lines += pixel != shades::not_seen ? 1 : 0;
-            between += pixel == shades::not_seen ? 1 : 0;
+            EXPECT_NE(pixel, shades::dark.land.seen);
+            lines += pixel != shades::dark.land.not_seen ? 1 : 0;
+            between += pixel == shades::dark.land.not_seen ? 1 : 0;
         }
     }
     EXPECT_GT(lines, 100);
@@ -73,10 +73,10 @@ TEST(VolumeFrame, TheGroundTellsHowItWasSeen) {
     const auto bricks = bricks_of(grid);
     const auto image = render_frame(bricks.view(), facts_of(grid), scene, 2);
     ASSERT_TRUE(image);
-    EXPECT_EQ(map_pixel(*image, 45, 50), shades::seen_aloft);
-    EXPECT_EQ(map_pixel(*image, 80, 50), shades::seen);
-    EXPECT_NE(map_pixel(*image, 10, 50), shades::seen);
-    EXPECT_NE(map_pixel(*image, 10, 50), shades::seen_aloft);
+    EXPECT_EQ(map_pixel(*image, 45, 50), shades::dark.land.seen_aloft);
+    EXPECT_EQ(map_pixel(*image, 80, 50), shades::dark.land.seen);
+    EXPECT_NE(map_pixel(*image, 10, 50), shades::dark.land.seen);
+    EXPECT_NE(map_pixel(*image, 10, 50), shades::dark.land.seen_aloft);
 }
 
 TEST(RenderFrame, TheSamePixelsForAnyNumberOfThreads) {
@@ -219,7 +219,7 @@ TEST(EchoTops, ThatMayBeHigherAreDotted) {
     int dots = 0;
     for (int y = 20; y < 500; ++y) {
         for (int x = 20; x < 250; ++x)
-            dots += image->at(x, y) == shades::page ? 1 : 0;
+            dots += image->at(x, y) == shades::dark.page ? 1 : 0;
         for (int x = 270; x < 500; ++x)
             ASSERT_EQ(image->at(x, y), *colour_of(echo_top_colours(), 1.5F));
     }

@@ -55,7 +55,7 @@ class SmallMap {
     static std::vector<std::byte> with_head(const std::vector<std::uint8_t>& payload) {
         std::vector<std::byte> all(24);
         std::memcpy(all.data(), "SCBASMAP", 8);
-        all[8] = std::byte{1};
+        all[8] = std::byte{2};
         const std::size_t size = 24 + payload.size();
         for (unsigned i = 0; i < 4; ++i)
             all[16 + i] = static_cast<std::byte>(size >> (8 * i));

@@ -18,6 +18,7 @@
 #include "stormcellar/render/integration.h"
 #include "stormcellar/render/light.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/render/theme.h"
 
 namespace stormcellar::render {
 
@@ -85,7 +86,8 @@ struct Scene {
     bool haze = false;                   // volumes: air that was not seen veils what is behind it
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
-    bool labels = true;                  // color bar, title, time, rings
+    bool labels = true;                  // color bar, title, time, map
+    Theme theme = Theme::dark;
 };
 // Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
 // outside every range.

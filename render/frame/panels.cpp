@@ -1,0 +1,73 @@
+#include "stormcellar/render/panels.h"
+
+#include "render/frame/view_picture.h"
+#include "render/map/map_lines.h"
+#include "render/map/panel_layout.h"
+#include "stormcellar/render/product.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::render {
+namespace {
+
+Status check_panels(std::span<const Panel> panels) {
+    if (panels.empty() || panels.size() > most_panels) {
+        return fail(ErrorCode::bad_argument, "a picture has 1 to {} panels, not {}", most_panels,
+                    panels.size());
+    }
+    for (const Panel& panel : panels) {
+        if (view_of(panel.scene.product) == View::section) {
+            return fail(ErrorCode::bad_argument, "panels show volumes and maps, not sections");
+        }
+        if (auto valid = check_frame(panel.view, panel.facts, panel.scene); !valid) return valid;
+    }
+    return {};
+}
+
+// What the whole picture says: the first panel's facts, and its product unless the panels differ.
+PictureFacts facts_of_whole(std::span<const Panel> panels,
+                            const std::vector<ColumnSummary>& columns) {
+    const Panel& first = panels.front();
+    PictureFacts facts{legend_of(first.scene),
+                       drawn_ring_spacing(*first.view.spec, first.scene.range_ring_spacing_m),
+                       coverage_of(columns, *first.view.spec)};
+    facts.legend.product.clear();
+    for (const Panel& panel : panels) {
+        if (!facts.legend.product.empty()) facts.legend.product += ", ";
+        facts.legend.product += level2::moment_name(panel.scene.moment);
+    }
+    return facts;
+}
+
+}  // namespace
+
+Result<Image> render_panels(std::span<const Panel> panels, int threads, FrameCache* kept) {
+    if (auto valid = check_panels(panels); !valid) return pass_on(valid);
+    const Scene& scene = panels.front().scene;
+    const auto fonts = Fonts::load();
+    if (!fonts) return pass_on(fonts);
+    std::vector<Legend> legends;
+    for (const Panel& panel : panels)
+        legends.push_back(legend_of(panel.scene));
+    auto columns = summarize_columns(panels.front().view, threads);
+    const auto layout = lay_out_panels(*fonts, scene, panels.front().facts,
+                                       facts_of_whole(panels, columns), legends);
+    if (!layout) return pass_on(layout);
+    Canvas canvas(scene.width, scene.height, layout->labels.shades->page);
+    FrameCache own;
+    FrameCache& cache = kept != nullptr ? *kept : own;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const Panel& panel = panels[i];
+        if (i > 0) columns = summarize_columns(panel.view, threads);
+        const Rect& place = layout->pictures[i];
+        const PictureSize size{static_cast<int>(place.width), static_cast<int>(place.height),
+                               layout->scale};
+        const auto picture = draw_view({panel.view, panel.facts, panel.scene, columns}, size,
+                                       scene.labels ? &*fonts : nullptr, threads, cache);
+        if (!picture) return picture;
+        canvas.place(*picture, static_cast<int>(place.x), static_cast<int>(place.y));
+    }
+    draw_labels(canvas, *fonts, layout->labels);
+    return canvas.image();
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,178 @@
+#include "render/frame/view_picture.h"
+
+#include <cmath>
+
+#include "render/map/draw_marks.h"
+#include "render/map/map_ground.h"
+#include "render/map/map_layer.h"
+#include "render/map/map_lines.h"
+#include "render/products/flat_field.h"
+#include "render/products/ground.h"
+#include "render/products/section.h"
+#include "render/volume/haze.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr double largest_inset = 4;  // times the size at which the whole grid is seen
+
+// The ground of a view from outside, or a map.
+Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,
+                         const GroundLook& look, int threads) {
+    const grid::GridSpec& spec = *drawn.view.spec;
+    if (view_of(drawn.scene.product) == View::volume) {
+        const auto tells = drawn.scene.haze ? GroundTells::whether_seen : GroundTells::how_low;
+        return paint_ground(spec, drawn.columns, geometry, tells, look, threads);
+    }
+    const auto field = map_field(drawn.view, drawn.scene, drawn.columns, threads);
+    if (!field) return pass_on(field);
+    return paint_field(spec, *field, colours_of(drawn.scene), geometry, look, threads);
+}
+
+void draw_volume(const DrawnView& drawn, const ViewGeometry& geometry, int threads,
+                 FrameCache& cache, Image& picture) {
+    const Scene& scene = drawn.scene;
+    fade_beyond(geometry, shades_of(scene.theme), threads, picture);
+    if (scene.haze) {
+        draw_haze(drawn.view, geometry, shades_of(scene.theme).haze, threads, picture);
+    }
+    const VolumeSlicer slicer(
+        colours_of(scene), drawn.view.quantization, geometry,
+        {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light},
+        &cache.transfer);
+    slicer.prepare(drawn.view, threads, cache.room);
+    slicer.cast(drawn.view, threads, cache.room);
+    composite_over(cache.room.layer, picture, 0, 0, threads);
+}
+
+Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size,
+                                 const Fonts* fonts, int threads) {
+    const Scene& scene = drawn.scene;
+    const SectionPlace place = section_place(size.width, size.height, size.scale, fonts != nullptr);
+    const Section section =
+        cut_section(drawn.view, scene.moment, *scene.section, place.width, place.height, threads);
+    if (auto in_grid = check_in_grid(section, *drawn.view.spec); !in_grid) return pass_on(in_grid);
+    const GroundLook look{&shades_of(scene.theme), nullptr, size.scale};
+    return draw_section(section, colours_of(scene), place, size.width, size.height, look, fonts);
+}
+
+// The line from A to B in pixels: at least two points, all of them finite.
+std::vector<Point> line_in_picture(const grid::GridSpec& spec, const SectionLine& line,
+                                   const ViewGeometry& geometry) {
+    const grid::SiteFrame start(line.from.latitude_deg, line.from.longitude_deg);
+    const grid::PolarPoint end = start.to_polar(line.to);
+    const GroundMap ground(spec);
+    std::vector<Point> points;
+    constexpr int parts = 48;
+    for (int i = 0; i <= parts; ++i) {
+        const GroundPoint at = ground.ground(start.to_geo({end.azimuth_deg, end.arc_m * i / parts}));
+        const Pixel pixel = geometry.project(at.x_m, at.y_m, geometry.ground_m());
+        if (std::isfinite(pixel.x) && std::isfinite(pixel.y)) points.push_back({pixel.x, pixel.y});
+    }
+    const Point middle = {0.5 * geometry.width(), 0.5 * geometry.height()};
+    while (points.size() < 2)
+        points.push_back(middle);
+    return points;
+}
+
+void draw_section_line(Canvas& canvas, const Fonts& fonts, std::vector<Point> line, Point offset,
+                       const PictureSize& size, const Shades& shades) {
+    for (Point& p : line)
+        p = {p.x + offset.x, p.y + offset.y};
+    canvas.line(line, 3.6 * size.scale, shades.halo, false);
+    canvas.line(line, 1.5 * size.scale, shades.text, false);
+    const double letter = 11 * size.scale;
+    const double room = 2 * size.scale;
+    // The letters stand beyond the ends of the line, inside the map.
+    const auto put = [&](const char* name, Point end, Point next) {
+        const double length = std::max(1e-9, std::hypot(end.x - next.x, end.y - next.y));
+        const double width = fonts.width(name, letter, true);
+        const double x = end.x + (end.x - next.x) / length * 0.85 * letter;
+        const double y = end.y + (end.y - next.y) / length * 0.85 * letter;
+        canvas.text(fonts, name,
+                    {std::clamp(x - width / 2, room, size.width - width - room),
+                     std::clamp(y + 0.36 * letter, letter, size.height - room)},
+                    letter, true, shades.text, shades.halo);
+    };
+    put("A", line.front(), line[1]);
+    put("B", line.back(), line[line.size() - 2]);
+}
+
+}  // namespace
+
+Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const Fonts* fonts,
+                        int threads, FrameCache& cache) {
+    const Scene& scene = drawn.scene;
+    const grid::GridSpec& spec = *drawn.view.spec;
+    const View view = view_of(scene.product);
+    if (view == View::section) return draw_whole_section(drawn, size, fonts, threads);
+    const ViewGeometry geometry = picture_geometry(spec, scene, size.width, size.height);
+    MapLines lines{.geometry = &geometry,
+                   .spec = &spec,
+                   .sites = &drawn.facts.sites,
+                   .ring_spacing_m = drawn_ring_spacing(spec, scene.range_ring_spacing_m),
+                   .heights = view == View::volume,
+                   .scale = size.scale,
+                   .shades = &shades_of(scene.theme)};
+    GroundLook look{lines.shades, nullptr, size.scale};
+    if (fonts != nullptr) {
+        const auto map = cache.map.get(spec, geometry, size.scale);
+        if (!map) return pass_on(map);
+        lines.map = *map;
+        look.water = &lines.map->water;
+    }
+    auto base = paint_base(drawn, geometry, look, threads);
+    if (!base) return base;
+    Canvas canvas(*base);
+    if (fonts != nullptr) draw_map(canvas, *lines.map, *lines.shades, size.scale);
+    draw_border(canvas, lines);
+    if (fonts != nullptr) draw_rings(canvas, lines);
+    Image picture = canvas.image();
+    if (view == View::volume) draw_volume(drawn, geometry, threads, cache, picture);
+    if (fonts == nullptr) return picture;
+    Canvas marked(picture);
+    draw_marks(marked, *fonts, lines, plan_marks(*fonts, lines));
+    return marked.image();
+}
+
+Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size,
+                                 const Fonts& fonts, int threads, FrameCache& cache) {
+    const grid::GridSpec& spec = *drawn.view.spec;
+    Scene scene = drawn.scene;
+    scene.product = Product::composite;
+    scene.camera.zoom = 1;
+    // A short line would be lost in the map of the whole grid, so the map is drawn larger and the
+    // part about the line is shown.
+    const auto whole = picture_geometry(spec, scene, size.width, size.height);
+    const auto in_whole = line_in_picture(spec, *scene.section, whole);
+    const double across = std::hypot(in_whole.back().x - in_whole.front().x,
+                                     in_whole.back().y - in_whole.front().y);
+    const double larger = std::clamp(0.6 * std::min(size.width, size.height) / std::max(1.0, across),
+                                     1.0, largest_inset);
+    const int width = static_cast<int>(larger * size.width);
+    const int height = static_cast<int>(larger * size.height);
+    const ViewGeometry geometry = picture_geometry(spec, scene, width, height);
+    const auto line = line_in_picture(spec, *scene.section, geometry);
+    const Point middle = line[line.size() / 2];
+    const auto first_shown = [](double at, int all, int shown) {
+        return static_cast<int>(std::clamp(at - 0.5 * shown, 0.0, static_cast<double>(all - shown)));
+    };
+    const int left = first_shown(middle.x, width, size.width);
+    const int top = first_shown(middle.y, height, size.height);
+
+    const auto map = cache.map.get(spec, geometry, size.scale);
+    if (!map) return pass_on(map);
+    const Shades& shades = shades_of(scene.theme);
+    const auto base = paint_base({drawn.view, drawn.facts, scene, drawn.columns}, geometry,
+                                 {&shades, &(*map)->water, 0.6 * size.scale}, threads);
+    if (!base) return pass_on(base);
+    Canvas canvas(size.width, size.height, shades.page);
+    canvas.place(*base, -left, -top);
+    const Point offset = {-static_cast<double>(left), -static_cast<double>(top)};
+    draw_map(canvas, **map, shades, 0.8 * size.scale, offset);
+    draw_section_line(canvas, fonts, line, offset, size, shades);
+    return canvas.image();
+}
+
+}  // namespace stormcellar::render

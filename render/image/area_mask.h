@@ -1,0 +1,40 @@
+// render/image/area_mask.h -- how much of each cell of a raster lies inside closed curves.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/image/canvas.h"
+
+namespace stormcellar::render {
+
+class AreaMask {
+  public:
+    // A raster of these many cells, at most 32,767 a side, all of them outside.
+    AreaMask(int width, int height);
+
+    // Adds a ring; (0, 0) is the upper left corner of the raster. A cell is inside where the rings
+    // wind around it, so a ring that runs the other way cuts a hole.
+    void add(const std::vector<Point>& ring);
+    // Puts the areas of the rings inside (or outside, again), and begins with no rings.
+    void put(bool inside);
+
+    // The share of each cell that is inside, 0 to 255, row by row from the top.
+    [[nodiscard]] std::vector<std::uint8_t> cells() const;
+
+  private:
+    struct Surface {
+        void operator()(_cairo_surface* surface) const;
+    };
+    struct Context {
+        void operator()(_cairo* context) const;
+    };
+    int width_, height_;
+    std::unique_ptr<_cairo_surface, Surface> surface_;
+    std::unique_ptr<_cairo, Context> context_;
+};
+
+}  // namespace stormcellar::render

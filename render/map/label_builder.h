@@ -1,0 +1,76 @@
+// render/map/label_builder.h -- puts texts and blocks of color into a layout of labels.
+//
+// Lengths are those at scale 1, where `scaled` is not said.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/image/canvas.h"
+#include "render/image/shades.h"
+
+namespace stormcellar::render {
+
+struct LabelText {
+    Rect box;  // the text lies inside
+    double baseline = 0;
+    double size = 0;
+    bool bold = false;
+    Rgba8 colour{};
+    std::string text;
+};
+
+struct LabelBlock {
+    Rect box;
+    Rgba8 colour{};
+    bool hatched = false;
+};
+
+struct LabelStyle {
+    double size = 10;  // at scale 1
+    bool bold = false;
+    Rgba8 colour{};
+};
+
+// Which part of a text stands at its place.
+enum class Align { left, middle, right };
+
+class LabelBuilder {
+  public:
+    // All must outlive the builder.
+    LabelBuilder(const Fonts& fonts, const Shades& shades, double scale,
+                 std::vector<LabelText>& texts, std::vector<LabelBlock>& blocks)
+        : fonts_(fonts), shades_(shades), scale_(scale), texts_(texts), blocks_(blocks) {}
+
+    [[nodiscard]] double scaled(double length) const { return length * scale_; }
+    [[nodiscard]] const Shades& shades() const { return shades_; }
+    // Returns the width of a text at its full size, in pixels.
+    [[nodiscard]] double width_of(const std::string& text, const LabelStyle& style) const {
+        return fonts_.width(text, scaled(style.size), style.bold);
+    }
+    [[nodiscard]] LabelStyle plain(double size) const { return {size, false, shades_.text}; }
+    [[nodiscard]] LabelStyle quiet(double size) const { return {size, false, shades_.quiet_text}; }
+    [[nodiscard]] LabelStyle strong(double size) const { return {size, true, shades_.text}; }
+
+    // Puts a text, made smaller (down to three quarters) and then cut with an ellipsis to fit into
+    // `room` pixels. Returns its width; 0 if it is empty or has no room at all.
+    double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
+               Align align = Align::left);
+    void block(const Rect& box, Rgba8 colour, bool hatched = false) {
+        blocks_.push_back({box, colour, hatched});
+    }
+
+  private:
+    [[nodiscard]] std::string shortened(std::string text, double size, bool bold,
+                                        double room) const;
+
+    const Fonts& fonts_;
+    const Shades& shades_;
+    double scale_;
+    std::vector<LabelText>& texts_;
+    std::vector<LabelBlock>& blocks_;
+};
+
+}  // namespace stormcellar::render

@@ -1,0 +1,104 @@
+#include "render/map/panel_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/map/legend_layout.h"
+
+namespace stormcellar::render {
+namespace {
+
+// A panel a little wider than tall looks best.
+constexpr double best_aspect = 1.1;
+constexpr int least_panel_width = 180;
+constexpr int least_panel_height = 150;
+// Lengths at the scale of a panel.
+constexpr double title_height = 20;
+constexpr double legend_height = 50;
+constexpr double gap = 8;
+
+struct Grid {
+    int columns = 1, rows = 1;
+    double left = 0, top = 0, width = 0, height = 0;  // of one panel, and where the first begins
+
+    [[nodiscard]] Rect cell(int index) const {
+        const double x = left + index % columns * width;
+        const double y = top + index / columns * height;
+        return {std::round(x), std::round(y), std::round(x + width) - std::round(x),
+                std::round(y + height) - std::round(y)};
+    }
+};
+
+Grid grid_of(int count, int width, int height, const PictureSpace& space) {
+    Grid grid;
+    const double inner = height - space.header - space.footer;
+    grid.columns = panels_in_a_row(count, width, static_cast<int>(inner));
+    grid.rows = (count + grid.columns - 1) / grid.columns;
+    grid.top = space.header;
+    grid.width = static_cast<double>(width) / grid.columns;
+    grid.height = inner / grid.rows;
+    return grid;
+}
+
+}  // namespace
+
+int panels_in_a_row(int count, int width, int height) {
+    int best = 1;
+    double least = HUGE_VAL;
+    for (int columns = 1; columns <= count; ++columns) {
+        const int rows = (count + columns - 1) / columns;
+        const double aspect = static_cast<double>(width) / columns / height * rows;
+        // A place that stays empty counts too.
+        const double empty = static_cast<double>(rows * columns - count) / count;
+        const double worth = std::abs(std::log(aspect / best_aspect)) + empty;
+        if (worth >= least) continue;
+        best = columns;
+        least = worth;
+    }
+    return best;
+}
+
+Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene, const FrameFacts& facts,
+                                   const PictureFacts& picture, std::span<const Legend> legends) {
+    const PictureSpace space = space_of(scene.width, scene.height);
+    const auto count = static_cast<int>(legends.size());
+    const Grid grid = grid_of(count, scene.width, scene.height, space);
+    if (grid.width < least_panel_width || grid.height < least_panel_height) {
+        return fail(ErrorCode::bad_argument,
+                    "{} panels need a larger picture than {} by {} pixels: each is {:.0f} by {:.0f}, "
+                    "and needs {} by {}",
+                    count, scene.width, scene.height, grid.width, grid.height, least_panel_width,
+                    least_panel_height);
+    }
+    PanelLayout layout;
+    layout.scale = std::min(space.scale, space_of(static_cast<int>(grid.width),
+                                                  static_cast<int>(grid.height)).scale);
+    layout.labels.scale = layout.scale;
+    layout.labels.shades = &shades_of(scene.theme);
+    LabelBuilder whole(fonts, *layout.labels.shades, space.scale, layout.labels.texts,
+                       layout.labels.blocks);
+    lay_out_header(whole, space.shape, scene.width, header_of(facts, picture.legend.product));
+    lay_out_footer(whole, scene.width, scene.height,
+                   footer_of(scene, facts, picture.ring_spacing_m, picture.coverage));
+    LabelBuilder part(fonts, *layout.labels.shades, layout.scale, layout.labels.texts,
+                      layout.labels.blocks);
+    const double title = std::round(part.scaled(title_height));
+    const double legend = std::round(part.scaled(legend_height));
+    const double between = std::round(part.scaled(gap));
+    for (int i = 0; i < count; ++i) {
+        const Rect cell = grid.cell(i);
+        const bool is_last = i % grid.columns == grid.columns - 1;
+        const Rect shown = {cell.x, cell.y + title, cell.width - (is_last ? 0 : between),
+                            cell.height - title - legend};
+        const double room = part.scaled(10);
+        const Rect band = {shown.x + room, shown.bottom() - part.scaled(2), shown.width - 2 * room,
+                           legend};
+        part.put(legends[static_cast<std::size_t>(i)].product, band.x, cell.y + part.scaled(14),
+                 band.width, part.strong(11));
+        lay_out_band(part, legends[static_cast<std::size_t>(i)], band);
+        layout.pictures.push_back(shown);
+    }
+    return layout;
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,33 @@
+// render/map/panel_layout.h -- where the panels of a picture stand, and what is written about them.
+//
+// Threads   Pure functions; Fonts may be used by one thread at a time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/map/labels.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/frame_facts.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::render {
+
+struct PanelLayout {
+    std::vector<Rect> pictures;  // in whole pixels, in the order of the panels
+    double scale = 1;            // of lines and letters in them
+    LabelLayout labels;          // of the whole; it has no picture of its own
+};
+
+// Lays out panels with these legends in a picture of the scene's size and theme. The texts of the
+// header and the footer are those of `facts` and `picture`. Errors: bad_argument if the picture is
+// too small.
+[[nodiscard]] Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene,
+                                                 const FrameFacts& facts,
+                                                 const PictureFacts& picture,
+                                                 std::span<const Legend> legends);
+
+// Returns how many panels stand in a row, so that they are as nearly square as may be.
+[[nodiscard]] int panels_in_a_row(int count, int width, int height);
+
+}  // namespace stormcellar::render

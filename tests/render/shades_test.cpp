@@ -1,0 +1,114 @@
+#include "render/image/shades.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::render {
+namespace {
+
+// The relative luminance and the contrast ratio of WCAG 2.
+double luminance(Rgba8 colour) {
+    const auto linear = [](std::uint8_t level) {
+        const double c = level / 255.0;
+        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
+}
+double contrast(Rgba8 one, Rgba8 other) {
+    const double a = luminance(one);
+    const double b = luminance(other);
+    return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
+}
+
+std::vector<Rgba8> grounds(const Shades& shades) {
+    std::vector<Rgba8> all;
+    for (const GroundShades* ground : {&shades.land, &shades.water}) {
+        for (const Rgba8& shade :
+             {ground->seen, ground->seen_aloft, ground->not_seen, ground->beyond})
+            all.push_back(shade);
+    }
+    return all;
+}
+
+class ShadesOfTheme : public ::testing::TestWithParam<Theme> {};
+
+TEST_P(ShadesOfTheme, LettersOnThePageCanBeRead) {
+    const Shades& shades = shades_of(GetParam());
+    EXPECT_GE(contrast(shades.text, shades.page), 12);
+    EXPECT_GE(contrast(shades.quiet_text, shades.page), 7);
+    EXPECT_GE(contrast(shades.warning_text, shades.page), 6);
+}
+
+// On the ground, and on their halo, which is over echo of any color.
+TEST_P(ShadesOfTheme, LettersOnTheMapCanBeRead) {
+    const Shades& shades = shades_of(GetParam());
+    for (const Rgba8& letter : {shades.text, shades.quiet_text, shades.city, shades.small_city}) {
+        for (const Rgba8& ground : grounds(shades)) {
+            EXPECT_GE(contrast(letter, ground), 4.5);
+            EXPECT_GE(contrast(letter, over(shades.halo, ground)), 4.5);
+        }
+        for (const Rgba8& echo : {Rgba8{255, 255, 255, 255}, Rgba8{255, 255, 0, 255},
+                                  Rgba8{0, 0, 0, 255}, Rgba8{0, 0, 246, 255}}) {
+            EXPECT_GE(contrast(letter, over(shades.halo, echo)), 4.5);
+        }
+    }
+}
+
+TEST_P(ShadesOfTheme, LinesOfTheMapStandOutByTheirRank) {
+    const Shades& shades = shades_of(GetParam());
+    for (const GroundShades* ground : {&shades.land, &shades.water}) {
+        for (const Rgba8& shade : {ground->seen, ground->seen_aloft, ground->beyond}) {
+            const auto drawn = [&](Rgba8 line) { return contrast(over(line, shade), shade); };
+            EXPECT_GE(drawn(shades.coast), 3);
+            EXPECT_GE(drawn(shades.country), 3);
+            EXPECT_GE(drawn(shades.state), 3);
+            EXPECT_GE(drawn(shades.ring), 1.5);
+            EXPECT_GE(drawn(shades.county), 1.2);
+            EXPECT_GT(drawn(shades.country), drawn(shades.state));
+            EXPECT_GT(drawn(shades.state), 1.5 * drawn(shades.county));
+        }
+    }
+}
+
+// Land and water differ where both were seen alike, and what was not seen differs from what was.
+TEST_P(ShadesOfTheme, GroundsDiffer) {
+    const Shades& shades = shades_of(GetParam());
+    EXPECT_GE(contrast(shades.land.seen, shades.water.seen), 1.07);
+    EXPECT_GE(contrast(shades.land.beyond, shades.water.beyond), 1.07);
+    for (const GroundShades* ground : {&shades.land, &shades.water}) {
+        EXPECT_GE(contrast(ground->seen, ground->seen_aloft), 1.07);
+        EXPECT_GE(contrast(ground->not_seen, shades.hatch), 1.35);
+        const auto all = {ground->seen, ground->seen_aloft, ground->not_seen};
+        for (const Rgba8& one : all) {
+            // Nearly gray: no echo is.
+            EXPECT_LE(*std::max_element(one.begin(), one.begin() + 3) -
+                          *std::min_element(one.begin(), one.begin() + 3),
+                      26);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShadesOfTheme, ::testing::Values(Theme::dark, Theme::light),
+                         [](const auto& info) { return std::string(theme_name(info.param)); });
+
+TEST(Theme, NamesAreReadBack) {
+    for (const Theme theme : {Theme::dark, Theme::light})
+        EXPECT_EQ(theme_from_name(theme_name(theme)).value(), theme);
+    const auto unknown = theme_from_name("sepia");
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().message,
+              "there is no theme 'sepia'; the known themes are dark or light");
+}
+
+TEST(Mixed, GoesFromOneToTheOther) {
+    EXPECT_EQ(mixed({0, 100, 200, 255}, {100, 0, 200, 255}, 0), (Rgba8{0, 100, 200, 255}));
+    EXPECT_EQ(mixed({0, 100, 200, 255}, {100, 0, 200, 255}, 0.5), (Rgba8{50, 50, 200, 255}));
+    EXPECT_EQ(mixed({0, 100, 200, 255}, {100, 0, 200, 255}, 1), (Rgba8{100, 0, 200, 255}));
+}
+
+}  // namespace
+}  // namespace stormcellar::render
