@@ -5,31 +5,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/nearest_name.h"
 #include "base/printable.h"
 
 namespace stormcellar::accuracy {
 namespace {
 
 constexpr std::size_t longest_name = 40;
-// A word that differs from every name by more than this share of its letters is no misspelling.
-constexpr std::size_t letters_per_slip = 3;
 
 tl::unexpected<Error> unknown_name(std::string_view name, const std::vector<std::string>& names) {
     if (names.empty()) {
         return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; there are none here",
                     printable(name));
     }
-    // A long word is no misspelling, and the distance takes time by the product of the lengths.
-    if (name.size() <= 2 * longest_name) {
-        const auto nearest = std::min_element(
-            names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-                return edit_distance(name, a) < edit_distance(name, b);
-            });
-        if (edit_distance(name, *nearest) <=
-            std::max<std::size_t>(1, nearest->size() / letters_per_slip)) {
-            return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; did you mean \"{}\"?",
-                        printable(name), *nearest);
-        }
+    if (const auto nearest = nearest_name(name, names)) {
+        return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; did you mean \"{}\"?",
+                    printable(name), *nearest);
     }
     return fail(ErrorCode::bad_argument, "there is no effect \"{}\"; the effects are {}",
                 printable(name.substr(0, 2 * longest_name)), fmt::join(names, ", "));
@@ -87,28 +78,6 @@ Result<EffectOverride> parse_override(std::string_view text,
     if (word == "auto") return EffectOverride{std::string(name), Setting::automatic};
     return fail(ErrorCode::bad_argument, "effect {} can be on, off or auto, not \"{}\"", name,
                 printable(word.substr(0, 2 * longest_name)));
-}
-
-// The distance by optimal string alignment, with three rows of the table of prefixes.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before(b.size() + 1);
-    std::vector<std::size_t> above(b.size() + 1);
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::swap(before, above);
-        std::swap(above, row);
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                row[j] = std::min(row[j], before[j - 2] + 1);
-            }
-        }
-    }
-    return row[b.size()];
 }
 
 }  // namespace stormcellar::accuracy

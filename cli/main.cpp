@@ -12,7 +12,9 @@
 
 #include "base/memory.h"
 #include "cache/map_guard.h"
+#include "cli/reference/completed_names.h"
 #include "cli/reference/reference.h"
+#include "cli/reference/wrong_words.h"
 #include "cli/shared/commands.h"
 #include "cli/subcommands.h"
 #include "stormcellar/base/version.h"
@@ -38,50 +40,35 @@ std::optional<std::string> unknown_command(int argc, char** argv) {
     return argv[1];
 }
 
-// Returns "stormcellar catalog list" if the error is in what follows that command.
-std::string help_of(const CLI::App& app) {
-    std::string words = "stormcellar";
+// Returns "catalog list" if the words are behind that command, and an empty text for none.
+std::string command_typed(const CLI::App& app) {
+    std::string words;
     for (const CLI::App* at = &app; at != nullptr;) {
         const auto inner = at->get_subcommands();
         const auto named = std::ranges::find_if(
             inner, [](const CLI::App* one) { return !one->get_name().empty(); });
         at = named == inner.end() ? nullptr : *named;
-        if (at != nullptr) words += " " + at->get_name();
+        if (at != nullptr) words += (words.empty() ? "" : " ") + at->get_name();
     }
     return words;
 }
 
-// What the parser says, as a sentence: "--last: Value 0 not in range 1 to 9" and
-// "--last: 1 required INT missing" are none.
-std::string sentence_of(const std::string& said) {
-    constexpr std::string_view value = ": Value ", range = " not in range ";
-    const std::size_t at_value = said.find(value), at_range = said.rfind(range);
-    if (at_value < at_range && at_range != std::string::npos) {
-        const std::size_t begin = at_value + value.size();
-        return fmt::format("{} must be {}, not {}", said.substr(0, at_value),
-                           said.substr(at_range + range.size()),
-                           said.substr(begin, at_range - begin));
+// What the parser threw: what was asked for, or what is wrong.
+int answer(const CLI::ParseError& error, const CLI::App& app) {
+    if (error.get_name() == "CallForVersion") return app.exit(error) == 0 ? exit_done : exit_failed;
+    const CommandReference program = reference_of(app);
+    const std::string name = command_typed(app);
+    const CommandReference* const found = find_command(program, name);
+    const CommandReference& command = found == nullptr ? program : *found;
+    if (error.get_exit_code() == 0) {
+        const bool all = error.get_name() == "CallForAllHelp";
+        fmt::print("{}", help_of(command, all ? HelpExtent::all : HelpExtent::usual));
+        return exit_done;
     }
-    const std::size_t at_missing = said.find(": 1 required ");
-    if (at_missing != std::string::npos && said.ends_with(" missing"))
-        return fmt::format("{} needs a value", said.substr(0, at_missing));
-    return said;
-}
-
-// A misspelled option is also the cause if a required one is missing; CLI11 would report the
-// latter.
-std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
-    // For "--prodct volume" the option, and not what follows it.
-    std::vector<std::string> unknown = app.remaining(true);
-    std::stable_partition(unknown.begin(), unknown.end(),
-                          [](const std::string& word) { return word.starts_with('-'); });
-    const int code = error.get_exit_code();
-    const bool may_be_misspelt = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||
-                                 code == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    if (!may_be_misspelt || unknown.empty()) return sentence_of(error.what());
-    const std::string& word = unknown.front();
-    return word.starts_with('-') ? fmt::format("there is no option {}", word)
-                                 : fmt::format("the argument {} is one too many", word);
+    fmt::print(stderr, "stormcellar: {}\nTry 'stormcellar {}--help'.\n",
+               printable(reason_of(error, app.remaining(true), command)),
+               name.empty() ? "" : name + " ");
+    return exit_bad_usage;
 }
 
 // Output only counts as done when it was written.
@@ -109,8 +96,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Catalogs, grids and draws NEXRAD Level II weather radar volumes."};
     app.name("stormcellar");
     app.set_version_flag("--version", std::string{software_version});
+    app.set_help_all_flag("--help-all", "Print help with all options");
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::help);
 
     Commands commands;
     for (const Subcommand& subcommand : subcommands())
@@ -118,20 +105,18 @@ int run(int argc, char** argv) {
     refuse_empty(app);
     if (argc == 3 && std::string_view{argv[1]} == "--reference")
         return print_reference(app, argv[2]);
+    if (argc >= 3 && std::string_view{argv[1]} == "--complete")
+        return print_completions(argv[2], {argv + 3, argv + argc});
     if (const auto word = unknown_command(argc, argv)) {
-        fmt::print(stderr, "stormcellar: there is no command '{}'\nTry 'stormcellar --help'.\n",
-                   printable(*word));
+        fmt::print(stderr, "stormcellar: {}\nTry 'stormcellar --help'.\n",
+                   printable(no_command(*word, reference_of(app))));
         return exit_bad_usage;
     }
 
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const bool asked_for_help = error.get_exit_code() == 0;
-        if (asked_for_help) return app.exit(error) == 0 ? exit_done : exit_failed;
-        fmt::print(stderr, "stormcellar: {}\nTry '{} --help'.\n", printable(reason_of(error, app)),
-                   help_of(app));
-        return exit_bad_usage;
+        return answer(error, app);
     }
     for (const Command& command : commands) {
         if (command.app->parsed()) return command.run();

@@ -14,6 +14,7 @@ Run set_up_catalog(CLI::App& command);
 Run set_up_fetch(CLI::App& command);
 Run set_up_frame(CLI::App& command);
 Run set_up_grid(CLI::App& command);
+Run set_up_help(CLI::App& command);
 Run set_up_info(CLI::App& command);
 Run set_up_loop(CLI::App& command);
 Run set_up_replay(CLI::App& command);
@@ -30,6 +31,7 @@ constexpr std::array registry{
     Subcommand{"fetch", "Fetch raw volumes by station and time from a public bucket", set_up_fetch},
     Subcommand{"frame", "Draw one still picture of a grid in the cache", set_up_frame},
     Subcommand{"grid", "Grid Level II files of one or more sites and write netCDF", set_up_grid},
+    Subcommand{"help", "Show what a command can do, with examples", set_up_help},
     Subcommand{"info", "Decode a Level II file and describe it", set_up_info},
     Subcommand{"loop", "Draw the grids of a time range as a looping animation", set_up_loop,
                "The command names each damaged grid file on standard error and leaves it out. The "

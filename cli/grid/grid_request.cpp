@@ -10,6 +10,7 @@
 #include "base/name_list.h"
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/moment_option.h"
 #include "grid/cells/level_range.h"
 #include "stormcellar/export/grid_format.h"
 
@@ -164,9 +165,9 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
 }
 
 Result<level2::Moment> parse_moment(const std::string& name) {
-    if (const auto moment = level2::moment_from_name(name)) return *moment;
-    return fail(ErrorCode::bad_argument, "--moment takes one of {}, not '{}'",
-                level2::moment_names(" ", " "), name);
+    const auto moment = moment_named(name);
+    if (!moment) return fail(ErrorCode::bad_argument, "--moment {}", moment.error().message);
+    return *moment;
 }
 
 constexpr std::string_view every_moment = "all";

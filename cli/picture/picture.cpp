@@ -4,6 +4,7 @@
 
 #include <fmt/ranges.h>
 
+#include "base/nearest_name.h"
 #include "cli/shared/commands.h"
 
 namespace stormcellar::cli {
@@ -32,11 +33,13 @@ int report_no_grid(const cache::StoreReader& store, const std::string& domain,
         why = fmt::format("there is no grid of {} of domain '{}'; its grids are of {}", name,
                           domain, fmt::join(kept, ", "));
     } else {
-        const auto domains = store.domains();
-        why = fmt::format("there is no grid of domain '{}'{}; {}", domain, when,
-                          !domains || domains->empty()
-                              ? std::string{"the cache is empty"}
-                              : fmt::format("the domains are {}", fmt::join(*domains, ", ")));
+        const auto domains = store.domains().value_or(std::vector<std::string>{});
+        const std::string meant = kept.empty() ? did_you_mean(domain, domains) : std::string{};
+        const std::string known =
+            domains.empty() ? std::string{"; the cache is empty"}
+                            : fmt::format("; the domains are {}", fmt::join(domains, ", "));
+        why = fmt::format("there is no grid of domain '{}'{}{}", domain, when,
+                          meant.empty() ? known : meant);
     }
     fmt::print(stderr, "stormcellar: {}\n",
                printable(fmt::format("{}: {}", store.directory().native(), why)));

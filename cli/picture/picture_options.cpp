@@ -10,6 +10,7 @@
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/moment_option.h"
 #include "render/colour/colour_file.h"
 
 namespace stormcellar::cli {
@@ -66,8 +67,8 @@ std::string known_moments() {
 }
 
 Status check_moment(const std::string& name) {
-    if (level2::moment_from_name(name)) return {};
-    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", known_moments(), printable(name));
+    const auto moment = moment_named(name);
+    return moment ? Status{} : pass_on(moment);
 }
 
 Status check_time_zone(const std::string& zone) {

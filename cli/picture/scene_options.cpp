@@ -1,6 +1,9 @@
 #include "cli/picture/scene_options.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -10,6 +13,7 @@
 #include "base/floating_point.h"
 #include "base/local_time.h"
 #include "base/number_list.h"
+#include "cli/shared/moment_option.h"
 #include "render/colour/colour_file.h"
 
 namespace stormcellar::cli {
@@ -21,6 +25,16 @@ void note(SceneOptions& options, std::string_view option, const Status& status) 
     if (status || options.problem) return;
     const Error& error = status.error();
     options.problem = Error{error.code, fmt::format("{}: {}", option, error.message)};
+}
+
+Status check_places(std::span<const NumberPlace> places, const std::vector<double>& numbers) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const NumberRange range = places[i].range;
+        if (is_within(numbers[i], range.least, range.most)) continue;
+        return fail(ErrorCode::bad_argument, "{} must be {} to {}, not {}", places[i].name,
+                    range.least, range.most, numbers[i]);
+    }
+    return {};
 }
 
 // Puts one row on the command line, under a name and with a help text.
@@ -63,8 +77,12 @@ struct ValueAdder {
     CLI::Option* operator()(const NumbersValue& value) const {
         const auto take = [&value, option = name, settings = to](const std::string& text) {
             const auto numbers = numbers_of(option, text, value.places.size());
-            if (numbers) return value.set(settings, *numbers);
-            if (!settings.options.problem) settings.options.problem = numbers.error();
+            if (!numbers) {
+                if (!settings.options.problem) settings.options.problem = numbers.error();
+                return;
+            }
+            note(settings.options, option, check_places(value.places, *numbers));
+            value.set(settings, *numbers);
         };
         return app.add_option_function<std::string>(name, take, help);
     }
@@ -132,6 +150,46 @@ Status check_uses(render::Product product, const SceneOptions& options) {
     return {};
 }
 
+// The number of a row that is out of its range; none: there is no such number.
+struct OutOfRange {
+    PictureSettings to;
+    std::optional<std::string> operator()(const WholeValue& value) const {
+        return said(value.range, *value.field(to), false);
+    }
+    std::optional<std::string> operator()(const NumberValue& value) const {
+        NumberRange range = value.range;
+        const double* const field = value.field(to);
+        // Only a camera with a place of its own may look up.
+        const bool looks_down = field == &to.scene.camera.tilt_deg && !to.scene.camera.eye;
+        if (looks_down) range = render::limits::tilt_deg;
+        return said(range, *field / value.unit, value.or_zero);
+    }
+    template <class Other>
+    std::optional<std::string> operator()(const Other& /*value*/) const {
+        return std::nullopt;
+    }
+    static std::optional<std::string> said(NumberRange range, double number, bool or_zero) {
+        if (is_within(number, range.least, range.most)) return std::nullopt;
+        if (or_zero && std::fpclassify(number) == FP_ZERO) return std::nullopt;
+        return fmt::format("must be {} to {}{}, not {}", range.least, range.most,
+                           or_zero ? ", or 0" : "", number);
+    }
+};
+
+// bad_argument names the option, or the key if it is a scene file that has the number.
+Status check_ranges(SceneOptions options) {
+    const PictureSettings to{options, options.scene, nullptr};
+    for (const PictureOption& row : picture_options()) {
+        if (row.is_of_loop()) continue;
+        const auto said = std::visit(OutOfRange{to}, row.value);
+        if (!said) continue;
+        const bool is_in_file = !contains(options.typed, row) && contains(options.in_file, row);
+        return fail(ErrorCode::bad_argument, "{} {}",
+                    is_in_file ? key_of(row) : std::string(row.option), *said);
+    }
+    return {};
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
@@ -146,17 +204,12 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     if (options.problem) return tl::unexpected(*options.problem);
     const auto product = render::product_from_name(options.product);
     if (!product) return pass_on(product);
-    if (!is_within<double>(options.threads, thread_range.least, thread_range.most)) {
-        return fail(ErrorCode::bad_argument, "threads must be {} to {}, not {}", thread_range.least,
-                    thread_range.most, options.threads);
-    }
     if (auto used = check_uses(*product, options); !used) return pass_on(used);
+    if (auto ranges = check_ranges(options); !ranges) return pass_on(ranges);
     render::Scene scene = options.scene;
     scene.product = *product;
-    const auto moment = level2::moment_from_name(options.moment);
-    if (!moment) {
-        return fail(ErrorCode::bad_argument, "there is no moment '{}'", options.moment);
-    }
+    const auto moment = moment_named(options.moment);
+    if (!moment) return fail(ErrorCode::bad_argument, "the moment {}", moment.error().message);
     scene.moment = *moment;
     const auto theme = render::theme_from_name(options.theme);
     if (!theme) return pass_on(theme);

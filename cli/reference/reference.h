@@ -4,7 +4,7 @@
 // They are read from the parser itself, so that they are the options that the program really has.
 // The package is built with `stormcellar --reference man|bash|zsh|fish`, which --help does not
 // show; packaging/man contains the pages around this part. Hidden options (of an empty group) are
-// left out. -h,--help is not repeated for each command.
+// left out. -h,--help and --help-all are not repeated for each command.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -13,6 +13,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "cli/reference/command_guide.h"
+#include "cli/reference/value_words.h"
 
 namespace CLI {
 class App;
@@ -23,23 +26,40 @@ namespace stormcellar::cli {
 struct OptionReference {
     std::vector<std::string> names;    // "-o", "--output"; none: given only by position
     std::string place;                 // "DOMAIN"; empty: given only by name
-    std::string value;                 // "TEXT"; empty: a flag
+    std::string value;                 // "FILE" (value_words.h); empty: a flag
     std::vector<std::string> choices;  // the allowed values; none: any
-    std::string range;                 // "1 - 1000000"; empty: none
+    std::vector<std::string> offers;   // values that are usual, where others are allowed too
+    Kept kept = Kept::files;           // where to look for values that are not in a list
+    std::string range;                 // "1 to 1000000"; empty: none
     std::string initial;               // the default; empty: none, or given in the description
     std::string description;
-    std::string group;  // its heading; empty: none
+    std::string group;                   // its heading; empty: none
+    std::vector<std::string> not_with;   // options that exclude it
+    std::vector<std::string> only_with;  // options that it needs
+    bool is_whole = false;               // the value is a whole number
     bool is_required = false;
 };
 
 struct CommandReference {
     std::string name;  // "catalog get"; empty for the program itself
     std::string description, footer;
+    std::vector<CommandExample> examples;
     std::vector<OptionReference> options;
     std::vector<CommandReference> inner;
 };
 
 [[nodiscard]] CommandReference reference_of(const CLI::App& app);
+// The command "catalog get" of the program; null: there is none.
+[[nodiscard]] const CommandReference* find_command(const CommandReference& program,
+                                                   std::string_view name);
+
+// What help and manual say of an option: its description, its range, its default, and the options
+// with which it may and may not be used. Each is a sentence with its period.
+[[nodiscard]] std::vector<std::string> sentences_of(const OptionReference& option);
+
+enum class HelpExtent { usual, all };
+// The text of --help or --help-all: at most 80 columns, ends with a line end.
+[[nodiscard]] std::string help_of(const CommandReference& command, HelpExtent extent);
 
 // Uses headings and lists of man(7), one heading for each command that does something.
 [[nodiscard]] std::string manual_of(const CommandReference& program);

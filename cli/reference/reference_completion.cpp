@@ -1,8 +1,10 @@
-// The commands and options for bash, zsh and fish. Where a value is expected, its allowed values or
-// files are offered.
+// The commands and options for bash, zsh and fish. Where a value is expected, its allowed or usual
+// values, files, directories, or the domains and stations that the program finds are offered
+// (completed_names.h).
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/reference/reference.h"
 
@@ -49,7 +51,7 @@ std::string brief(const std::string& description) {
 }
 
 Words option_names(const CommandReference& command) {
-    Words names{"-h", "--help"};
+    Words names{"-h", "--help", "--help-all"};
     for (const OptionReference& option : command.options)
         names.insert(names.end(), option.names.begin(), option.names.end());
     return names;
@@ -71,9 +73,64 @@ std::string zsh_function(const std::string& name) {
     return name.empty() ? "_stormcellar" : "_stormcellar_" + replaced(name, " ", "_");
 }
 
+// The values that can be listed: the only ones, or those that are usual.
+const Words& listed(const OptionReference& option) {
+    return option.choices.empty() ? option.offers : option.choices;
+}
+
+// Every command below the program, as words: what may stand behind `help`.
+Words names_of_all(const CommandReference& program) {
+    Words names;
+    for (const CommandReference* command : all_commands(program)) {
+        if (command->name.empty()) continue;
+        const std::string word = last_word(command->name);
+        if (std::ranges::find(names, word) == names.end()) names.push_back(word);
+    }
+    return names;
+}
+
+// What an argument without a name may be: files, unless the table of words says more.
+Kept kept_of_arguments(const CommandReference& command) {
+    for (const OptionReference& option : command.options) {
+        if (!option.place.empty() && option.kept != Kept::nowhere) return option.kept;
+    }
+    return Kept::files;
+}
+
+// An action with a blank before it is called as it is.
 std::string zsh_action(const OptionReference& option) {
-    if (option.choices.empty()) return "_files";
-    return fmt::format("({})", fmt::join(option.choices, " "));
+    const Words& values = listed(option);
+    const std::string joined = fmt::format("{}", fmt::join(values, " "));
+    switch (option.kept) {
+        case Kept::domains:
+            return " _stormcellar_names domains";
+        case Kept::stations:
+            return " _stormcellar_names stations";
+        case Kept::directories:
+            return "_files -/";
+        case Kept::files:
+            if (!option.choices.empty()) break;
+            return values.empty() ? "_files" : fmt::format(" _stormcellar_or_file {}", joined);
+        case Kept::commands:
+        case Kept::nowhere:
+            break;
+    }
+    return values.empty() ? " " : fmt::format("({})", joined);
+}
+
+std::string zsh_arguments(const CommandReference& command, const Words& all_names) {
+    switch (kept_of_arguments(command)) {
+        case Kept::domains:
+            return "'*:domain: _stormcellar_domain_or_file'";
+        case Kept::commands:
+            return fmt::format("'*:command:({})'", fmt::join(all_names, " "));
+        case Kept::stations:
+        case Kept::directories:
+        case Kept::files:
+        case Kept::nowhere:
+            break;
+    }
+    return "'*:file:_files'";
 }
 
 // Each name of an option gets a line of its own, so that the exclusive lists of _arguments are not
@@ -91,16 +148,18 @@ void write_zsh_option(const OptionReference& option, std::string& out) {
     }
 }
 
-void write_zsh_command(const CommandReference& command, std::string& out) {
+void write_zsh_command(const CommandReference& command, const Words& all_names, std::string& out) {
     const std::string function = zsh_function(command.name);
     out += fmt::format("\n{}() {{\n", function);
     if (!command.inner.empty()) out += "  local context state state_descr line\n";
-    out += fmt::format("  _arguments -s {}'(-h --help)'{{-h,--help}}'[Print help and exit]'",
-                       command.inner.empty() ? "" : "-C ");
+    out += fmt::format(
+        "  _arguments -s {}'(-h --help)'{{-h,--help}}'[Print help and exit]' \\\n"
+        "    '--help-all[Print help with all options]'",
+        command.inner.empty() ? "" : "-C ");
     for (const OptionReference& option : command.options)
         write_zsh_option(option, out);
     if (command.inner.empty()) {
-        out += " \\\n    '*:file:_files'\n}\n";
+        out += fmt::format(" \\\n    {}\n}}\n", zsh_arguments(command, all_names));
         return;
     }
     out +=
@@ -117,6 +176,40 @@ void write_zsh_command(const CommandReference& command, std::string& out) {
     out += "      esac ;;\n  esac\n}\n";
 }
 
+// Whether a value follows, and which.
+std::string fish_values(const OptionReference& option) {
+    if (option.value.empty()) return "";
+    const Words& values = listed(option);
+    const std::string offered =
+        values.empty() ? "" : fmt::format(" -a '{}'", fmt::join(values, " "));
+    switch (option.kept) {
+        case Kept::domains:
+            return " -x -a '(__stormcellar_names domains)'";
+        case Kept::stations:
+            return " -x -a '(__stormcellar_names stations)'";
+        case Kept::directories:
+            return " -x -a '(__fish_complete_directories)'";
+        case Kept::files:
+            if (option.choices.empty()) return " -r -F" + offered;
+            break;
+        case Kept::commands:
+        case Kept::nowhere:
+            break;
+    }
+    return " -x" + offered;
+}
+
+// What arguments without a name may be besides files.
+void write_fish_arguments(const CommandReference& command, const Words& all_names,
+                          std::string& out) {
+    const Kept kept = kept_of_arguments(command);
+    if (kept != Kept::domains && kept != Kept::commands) return;
+    out +=
+        fmt::format("complete -c stormcellar -n '__stormcellar_at \"{}\"' {}\n", command.name,
+                    kept == Kept::domains ? std::string{"-a '(__stormcellar_names domains)'"}
+                                          : fmt::format("-f -a '{}'", fmt::join(all_names, " ")));
+}
+
 void write_fish_option(const CommandReference& command, const OptionReference& option,
                        std::string& out) {
     if (option.names.empty()) return;
@@ -125,9 +218,45 @@ void write_fish_option(const CommandReference& command, const OptionReference& o
         const bool is_long = name.starts_with("--");
         out += fmt::format(" {} {}", is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1));
     }
-    if (!option.value.empty()) out += option.choices.empty() ? " -r -F" : " -x";
-    if (!option.choices.empty()) out += fmt::format(" -a '{}'", fmt::join(option.choices, " "));
+    out += fish_values(option);
     out += fmt::format(" -d {}\n", fish_quoted(brief(option.description)));
+}
+
+std::string_view bash_word(Kept kept) {
+    switch (kept) {
+        case Kept::files:
+            return "files";
+        case Kept::directories:
+            return "directories";
+        case Kept::domains:
+            return "domains";
+        case Kept::stations:
+            return "stations";
+        case Kept::commands:
+        case Kept::nowhere:
+            break;
+    }
+    return "";
+}
+
+// Sets the options that take a value, and what the value of the previous word may be.
+std::string bash_values_of(const CommandReference& command) {
+    std::string values;
+    std::string cases;
+    for (const OptionReference& option : command.options) {
+        if (option.value.empty() || option.names.empty()) continue;
+        values += fmt::format(" {}", fmt::join(option.names, " "));
+        const Words& words = listed(option);
+        const Kept kept = option.choices.empty() ? option.kept : Kept::nowhere;
+        if (words.empty() && kept == Kept::nowhere) continue;
+        cases += fmt::format("                {})", fmt::join(option.names, "|"));
+        if (!words.empty()) cases += fmt::format(" choices='{}'", fmt::join(words, " "));
+        if (kept != Kept::nowhere) cases += fmt::format(" kept={}", bash_word(kept));
+        cases += " ;;\n";
+    }
+    std::string out = fmt::format("            values='{} '\n", values);
+    if (!cases.empty()) out += "            case $previous in\n" + cases + "            esac\n";
+    return out;
 }
 
 }  // namespace
@@ -141,63 +270,94 @@ std::string bash_completion_of(const CommandReference& program) {
         cases += fmt::format("        '{}')\n            commands='{}'\n            options='{}'\n",
                              command->name, fmt::join(names_of_inner(*command), " "),
                              fmt::join(option_names(*command), " "));
-        std::string values;
-        std::string choices;
-        for (const OptionReference& option : command->options) {
-            if (option.value.empty() || option.names.empty()) continue;
-            values += fmt::format(" {}", fmt::join(option.names, " "));
-            if (option.choices.empty()) continue;
-            choices += fmt::format("                {}) choices='{}' ;;\n",
-                                   fmt::join(option.names, "|"), fmt::join(option.choices, " "));
+        cases += bash_values_of(*command);
+        if (kept_of_arguments(*command) == Kept::domains)
+            cases += "            arguments=domains\n";
+        if (kept_of_arguments(*command) == Kept::commands) {
+            cases +=
+                fmt::format("            commands='{}'\n", fmt::join(names_of_all(program), " "));
         }
-        cases += fmt::format("            values='{} '\n", values);
-        if (!choices.empty())
-            cases += "            case $previous in\n" + choices + "            esac\n";
         cases += "            ;;\n";
     }
     return fmt::format(
-        R"(# bash completion of stormcellar; made by stormcellar --reference bash.
+        R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
+# Adds files, directories, or the names that the program knows, to what is offered.
+_stormcellar_add() {{
+    local -a more=()
+    case $1 in
+        files) mapfile -t more < <(compgen -f -- "$2") ;;
+        directories) mapfile -t more < <(compgen -d -- "$2") ;;
+        domains | stations)
+            mapfile -t more < <(compgen -W \
+                "$("$3" --complete "$1" "${{COMP_WORDS[@]}}" 2>/dev/null)" -- "$2") ;;
+    esac
+    [[ $1 != files && $1 != directories ]] || compopt -o filenames 2>/dev/null
+    COMPREPLY+=("${{more[@]}}")
+}}
 _stormcellar() {{
     local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}
-    local command='' commands='' options='' values='' choices='' longer i
+    local command='' commands='' options='' values='' choices='' kept='' arguments=files longer i
     for ((i = 1; i < COMP_CWORD; ++i)); do
         longer="${{command:+$command }}${{COMP_WORDS[i]}}"
         case $longer in
             {}) command=$longer ;;
         esac
     done
-    # --option=value comes as three words.
+    # --option=value comes as three words, and so does the name=on behind --effect.
     if [[ $current == '=' ]]; then
         current=''
+        [[ $previous == -* ]] || previous="${{COMP_WORDS[COMP_CWORD - 2]}}="
     elif [[ $previous == '=' ]]; then
         previous=${{COMP_WORDS[COMP_CWORD - 2]}}
+        [[ $previous == -* ]] || previous="${{COMP_WORDS[COMP_CWORD - 3]}}="
     fi
     case $command in
 {}    esac
-    if [[ -n $choices ]]; then
+    if [[ $previous == '--effect=' ]]; then
+        choices='on off auto'
+    fi
+    if [[ -n $choices || -n $kept ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$current")
+        _stormcellar_add "$kept" "$current" "${{1:-stormcellar}}"
     elif [[ $values == *" $previous "* ]]; then
-        mapfile -t COMPREPLY < <(compgen -f -- "$current")
-        compopt -o filenames 2>/dev/null
+        COMPREPLY=()
     elif [[ $current == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
     elif [[ -n $commands ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$current")
     else
-        mapfile -t COMPREPLY < <(compgen -f -- "$current")
-        compopt -o filenames 2>/dev/null
+        COMPREPLY=()
+        [[ $arguments == files ]] || _stormcellar_add "$arguments" "$current" "${{1:-stormcellar}}"
+        _stormcellar_add files "$current" "${{1:-stormcellar}}"
     fi
 }}
 complete -F _stormcellar stormcellar
-)",
+)bash",
         known, cases);
 }
 
 std::string zsh_completion_of(const CommandReference& program) {
-    std::string out = "#compdef stormcellar\n# Made by stormcellar --reference zsh.\n";
+    std::string out = R"zsh(#compdef stormcellar
+# Made by stormcellar --reference zsh.
+
+# The names that the program knows, and for some options files beside them.
+_stormcellar_names() {
+  local -a names=(${(f)"$(${_stormcellar_program:-stormcellar} --complete $1 "${words[@]}" 2>/dev/null)"})
+  compadd -a names
+}
+_stormcellar_or_file() {
+  compadd -- "$@"
+  _files
+}
+_stormcellar_domain_or_file() {
+  _stormcellar_names domains
+  _files
+}
+)zsh";
+    const Words all_names = names_of_all(program);
     for (const CommandReference* command : all_commands(program))
-        write_zsh_command(*command, out);
-    return out + "\n_stormcellar \"$@\"\n";
+        write_zsh_command(*command, all_names, out);
+    return out + "\n_stormcellar_program=$words[1]\n_stormcellar \"$@\"\n";
 }
 
 std::string fish_completion_of(const CommandReference& program) {
@@ -216,6 +376,7 @@ std::string fish_completion_of(const CommandReference& program) {
         }
         for (const OptionReference& option : command->options)
             write_fish_option(*command, option, lines);
+        if (command->inner.empty()) write_fish_arguments(*command, names_of_all(program), lines);
     }
     return fmt::format(R"(# fish completion of stormcellar; made by stormcellar --reference fish.
 function __stormcellar_at --description 'Whether this is the command that was typed so far'
@@ -228,7 +389,13 @@ function __stormcellar_at --description 'Whether this is the command that was ty
     end
     test "$command" = "$argv[1]"
 end
+# The names that the program knows.
+function __stormcellar_names
+    set -l typed (commandline -opc)
+    $typed[1] --complete $argv[1] $typed 2>/dev/null
+end
 complete -c stormcellar -s h -l help -d 'Print help and exit'
+complete -c stormcellar -l help-all -d 'Print help with all options'
 {})",
                        names, lines);
 }

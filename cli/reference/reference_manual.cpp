@@ -47,11 +47,9 @@ void write_option(const OptionReference& option, std::string& out) {
     } else if (!option.value.empty()) {
         head += " " + italic(option.value);
     }
-    out += fmt::format(".TP\n{}\n{}", head, roff(ended(option.description)));
-    if (!option.range.empty()) out += fmt::format("\nIn {}.", roff(option.range));
-    if (!option.initial.empty()) out += fmt::format("\nDefault: {}.", roff(option.initial));
-    if (option.is_required) out += "\nMust be given.";
-    out += '\n';
+    out += fmt::format(".TP\n{}\n", head);
+    for (const std::string& sentence : sentences_of(option))
+        out += roff(sentence) + "\n";
 }
 
 void write_command(const CommandReference& command, std::string& out) {
@@ -63,6 +61,10 @@ void write_command(const CommandReference& command, std::string& out) {
             out += option.is_required ? fmt::format(" {}", place) : fmt::format(" [{}]", place);
         }
         out += fmt::format(" [OPTIONS]\"\n{}\n", roff(ended(command.description)));
+    }
+    for (const CommandExample& example : command.examples) {
+        out += fmt::format(".PP\n{}\n.br\n{}\n", bold(std::string(example.line)),
+                           roff(std::string(example.what)));
     }
     std::string group;
     for (const OptionReference& option : command.options) {

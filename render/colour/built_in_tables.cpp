@@ -4,6 +4,11 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
+#include <vector>
+
+#include "base/name_list.h"
+#include "base/nearest_name.h"
 
 namespace stormcellar::render {
 namespace {
@@ -314,11 +319,14 @@ const std::vector<ColourTable>& built_in_tables() {
 }
 
 Result<ColourTable> find_colour_table(std::string_view name) {
-    std::string known;
+    std::vector<std::string> names;
     for (const ColourTable& table : built_in_tables()) {
         if (table.name == name) return table;
-        known += (known.empty() ? "" : ", ") + table.name;
+        names.push_back(table.name);
     }
+    if (const std::string meant = did_you_mean(name, names); !meant.empty())
+        return fail(ErrorCode::not_found, "there is no color table '{}'{}", name, meant);
+    const std::string known = names_in(built_in_tables());
     return fail(ErrorCode::not_found, "there is no color table '{}'; the known tables are {}", name,
                 known);
 }

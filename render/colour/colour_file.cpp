@@ -42,7 +42,9 @@ Result<ColourTable> colours_from(const std::string& name_or_file) {
     if (ending == ".pal" || ending == ".toml") return read_colour_file(name_or_file);
     auto table = find_colour_table(name_or_file);
     if (table) return table;
-    return fail(ErrorCode::bad_argument, "{}; or name a .pal or .toml file", table.error().message);
+    const std::string& why = table.error().message;
+    return fail(ErrorCode::bad_argument, "{}{}", why,
+                why.ends_with('?') ? "" : "; or name a .pal or .toml file");
 }
 
 std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table, bool of_moment) {

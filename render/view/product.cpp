@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/name_list.h"
+#include "base/nearest_name.h"
 #include "render/colour/built_in_tables.h"
 #include "stormcellar/render/scene.h"
 
@@ -96,6 +97,11 @@ Result<Product> product_from_name(std::string_view name) {
     for (const ProductFacts& facts : product_facts) {
         if (facts.name == name) return facts.product;
     }
+    std::vector<std::string> names;
+    for (const ProductFacts& facts : product_facts)
+        names.emplace_back(facts.name);
+    if (const std::string meant = did_you_mean(name, names); !meant.empty())
+        return fail(ErrorCode::bad_argument, "there is no product '{}'{}", name, meant);
     return fail(ErrorCode::bad_argument, "there is no product '{}'; the known products are {}",
                 name, names_in(product_facts));
 }

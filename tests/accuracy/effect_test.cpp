@@ -70,16 +70,5 @@ TEST(Effect, NamesAreSnakeCase) {
     EXPECT_FALSE(is_effect_name(std::string(41, 'a')));
 }
 
-TEST(Effect, EditDistanceOfKnownPairs) {
-    EXPECT_EQ(edit_distance("", ""), 0U);
-    EXPECT_EQ(edit_distance("", "abc"), 3U);
-    EXPECT_EQ(edit_distance("abc", ""), 3U);
-    EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
-    EXPECT_EQ(edit_distance("ab", "ba"), 1U);
-    EXPECT_EQ(edit_distance("ca", "abc"), 3U);  // optimal string alignment edits no part twice
-    EXPECT_EQ(edit_distance("flaw", "lawn"), 2U);
-    EXPECT_EQ(edit_distance("sunday", "saturday"), 3U);
-}
-
 }  // namespace
 }  // namespace stormcellar::accuracy

@@ -52,7 +52,10 @@ TEST_F(Reference, HoldsWhatTheParserKnows) {
     EXPECT_THAT(option("-o").names, ElementsAre("-o", "--output"));
     EXPECT_TRUE(option("-o").is_required);
     EXPECT_THAT(option("--as").choices, ElementsAre("whole", "growing"));
-    EXPECT_EQ(option("--last").range, "1 - 9");
+    EXPECT_EQ(option("--last").range, "1 to 9");
+    EXPECT_EQ(option("--last").value, "N") << "and not UINT";
+    EXPECT_EQ(option("--scene").value, "FILE");
+    EXPECT_EQ(option("--domain").kept, Kept::domains);
     EXPECT_EQ(option("--domain").place, "DOMAIN");
     EXPECT_EQ(option("--json").value, "");
     EXPECT_EQ(option("--spacing").group, "The grid");
@@ -68,10 +71,10 @@ TEST_F(Reference, TheManualSaysThemAsRoff) {
     const std::string page = manual_of(reference_);
     EXPECT_THAT(page,
                 HasSubstr(".SS \"stormcellar draw [DOMAIN] [OPTIONS]\"\nDraw it. At once.\n"));
-    EXPECT_THAT(page, HasSubstr("\\fB\\-o\\fR, \\fB\\-\\-output\\fR \\fITEXT\\fR\nWhere to; any "
+    EXPECT_THAT(page, HasSubstr("\\fB\\-o\\fR, \\fB\\-\\-output\\fR \\fIFILE\\fR\nWhere to; any "
                                 "number.\nMust be given.\n"));
     EXPECT_THAT(page, HasSubstr("\\fB\\-\\-as\\fR \\fBwhole|growing\\fR\n"));
-    EXPECT_THAT(page, HasSubstr("In 1 \\- 9.\n"));
+    EXPECT_THAT(page, HasSubstr("From 1 to 9.\n"));
     EXPECT_THAT(page, HasSubstr("\n\\&.5 by default.\n")) << "a line with a dot is no request";
     EXPECT_THAT(page, Not(HasSubstr("secret")));
 }
@@ -81,10 +84,14 @@ TEST_F(Reference, ShellsAreGivenThemQuoted) {
     EXPECT_THAT(bash_completion_of(reference_), HasSubstr("--as) choices='whole growing' ;;"));
     EXPECT_THAT(bash_completion_of(reference_), HasSubstr("'draw'|'keep'|'keep list') command="));
     EXPECT_THAT(zsh_completion_of(reference_),
-                HasSubstr("'*--scene=[A file that'\\''s \\[read\\]]:TEXT:_files'"));
+                HasSubstr("'*--scene=[A file that'\\''s \\[read\\]]:FILE:_files'"));
     EXPECT_THAT(zsh_completion_of(reference_), HasSubstr("(whole growing)"));
     EXPECT_THAT(fish_completion_of(reference_),
                 HasSubstr("-l scene -r -F -d 'A file that\\'s [read]'"));
+    EXPECT_THAT(bash_completion_of(reference_), HasSubstr("--domain) kept=domains ;;"));
+    EXPECT_THAT(zsh_completion_of(reference_), HasSubstr(":DOMAIN: _stormcellar_names domains'"));
+    EXPECT_THAT(fish_completion_of(reference_),
+                HasSubstr("-l domain -x -a '(__stormcellar_names domains)'"));
     EXPECT_THAT(fish_completion_of(reference_), HasSubstr("-l as -x -a 'whole growing' -d 'How'"));
 }
 

@@ -34,13 +34,13 @@ TEST_F(SceneFileTest, WhatMakesNoSenseTogetherNamesTheFile) {
     const std::string frame = "frame -o " + at("a.png");
     const std::string loop = "loop -o " + at("a.webp");
     write("[camera]\ntilt_deg = 120\n");
-    const std::string tilted = at("s.toml") + ": tilt must be 0 to 90, not 120";
+    const std::string tilted = at("s.toml") + ": [camera] tilt_deg must be 0 to 90, not 120";
     EXPECT_THAT(said(frame), HasSubstr(tilted));
     EXPECT_THAT(said(loop), HasSubstr(tilted));
     EXPECT_THAT(said(frame + " --width 500"), HasSubstr(tilted));
     EXPECT_THAT(
         said(frame + " --tilt 100"),
-        HasSubstr("tilt must be 0 to 90, not 100 (together with --scene " + at("s.toml") + ")"));
+        HasSubstr("--tilt must be 0 to 90, not 100 (together with --scene " + at("s.toml") + ")"));
     write("[picture]\nproduct = \"section\"\n");
     EXPECT_THAT(said(frame), HasSubstr(at("s.toml") + ": a section needs its two ends"));
     const auto mended =

@@ -165,10 +165,36 @@ TEST(SceneOptions, LightIsOffUnlessAskedFor) {
 
 TEST(SceneOptions, NonsenseIsBadArgument) {
     for (const char* arguments :
-         {"--product x", "--tilt 91", "--width 1", "--threads -1", "--moment ref", "--colours x",
+         {"--product x", "--tilt 91", "--width 1", "--threads -1", "--moment refl", "--colours x",
           "--product section --section 1,2,3", "--product cappi --height-km 99"}) {
         const auto scene = scene_of(parse(arguments));
         ASSERT_FALSE(scene) << arguments;
+        EXPECT_EQ(scene.error().code, ErrorCode::bad_argument);
+    }
+}
+
+TEST(SceneOptions, AMomentMayBeInLowerCase) {
+    const auto scene = scene_of(parse("--moment vel"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->moment, level2::Moment::vel);
+}
+
+// A message about a number said what it is, but not which option sets it (2026-11-25).
+TEST(SceneOptions, AnOptionOutOfItsRangeIsNamed) {
+    const std::vector<std::pair<const char*, const char*>> said = {
+        {"--tilt 120", "--tilt must be 0 to 90, not 120"},
+        {"--camera-km 0,0,5 --tilt 181", "--tilt must be 0 to 180, not 181"},
+        {"--width 1", "--width must be 16 to 8192, not 1"},
+        {"--threads -1", "--threads must be 0 to 1024, not -1"},
+        {"--field-of-view 0.5", "--field-of-view must be 1 to 150, or 0, not 0.5"},
+        {"--ring-spacing-km 0.1", "--ring-spacing-km must be 1 to 1000, not 0.1"},
+        {"--sun 120,2", "--sun: elevation must be 5 to 90, not 2"},
+        {"--product section --section 95,1,2,3", "--section: latitude must be -90 to 90, not 95"},
+    };
+    for (const auto& [arguments, message] : said) {
+        const auto scene = scene_of(parse(arguments));
+        ASSERT_FALSE(scene) << arguments;
+        EXPECT_EQ(scene.error().message, message);
         EXPECT_EQ(scene.error().code, ErrorCode::bad_argument);
     }
 }

@@ -65,8 +65,4 @@ struct EffectOverride {
 [[nodiscard]] Result<EffectOverride> parse_override(std::string_view text,
                                                     const std::vector<std::string>& names);
 
-// Returns how many letters must be inserted, dropped, replaced or swapped with their neighbor to
-// turn one text into the other.
-[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
-
 }  // namespace stormcellar::accuracy

@@ -1,0 +1,120 @@
+#include "cli/reference/command_guide.h"
+
+#include <algorithm>
+
+namespace stormcellar::cli {
+
+const std::vector<CommandGuide>& command_guides() {
+    static const std::vector<CommandGuide> guides = {
+        {"",
+         {{"stormcellar info KTLX19990503_235621.gz", "What a file holds."},
+          {"stormcellar frame KTLX --cache CACHE -o storm.png",
+           "The newest storm that the daemon gridded, as a picture."},
+          {"stormcellar loop KTLX --cache CACHE --from -1h -o storm.webp", "Its last hour."},
+          {"stormcellar help frame", "What a command can do."}}},
+        {"accuracy",
+         {{"stormcellar accuracy KTLX19990503_235621.gz",
+           "What each more accurate way to grid this volume costs, and what it gains."},
+          {"stormcellar accuracy KTLX19990503_235621.gz --plot ladder.svg",
+           "The same, with a plot."},
+          {"stormcellar accuracy --picture KTLX19990503_235621.gz",
+           "What a more accurate picture costs."},
+          {"stormcellar accuracy --compare-sites KTLX.gz KFDR.gz",
+           "How well two radars agree where both see the same air."}},
+         {"--moment", "--plot", "--picture", "--held-out", "--compare-sites", "--scene", "--time",
+          "--extent-km", "--spacing-km", "--levels-km"}},
+        {"cache evict",
+         {{"stormcellar cache evict --cache CACHE --bytes '20 GB' --dry-run",
+           "What would go, so that 20 GB stay."},
+          {"stormcellar cache evict --cache CACHE --older-than 48",
+           "Remove the grids of more than two days ago."}}},
+        {"cache list",
+         {{"stormcellar cache list --cache CACHE --domain KTLX --from -1h",
+           "The grids of the last hour."}}},
+        {"cache pin",
+         {{"stormcellar cache pin --cache CACHE --domain KTLX --from -1h",
+           "Keep the last hour for good."}}},
+        {"cache stat",
+         {{"stormcellar cache stat --cache CACHE", "What each domain holds, and its size."}}},
+        {"cache unpin",
+         {{"stormcellar cache unpin --cache CACHE --domain KTLX", "Let them go again."}}},
+        {"cache verify", {{"stormcellar cache verify --cache CACHE", "Read every grid."}}},
+        {"catalog check",
+         {{"stormcellar catalog check --catalog STATE/catalog",
+           "Compare what the catalog says with the files."}}},
+        {"catalog get",
+         {{"stormcellar catalog get --catalog STATE/catalog --station KTLX --from -1h -o files",
+           "Copy the raw files of the last hour."}}},
+        {"catalog latest",
+         {{"stormcellar catalog latest --catalog STATE/catalog --station KTLX",
+           "When the newest volume began."}}},
+        {"catalog list",
+         {{"stormcellar catalog list --catalog STATE/catalog --station KTLX --from -1h",
+           "The volumes of the last hour."}}},
+        {"catalog oldest",
+         {{"stormcellar catalog oldest --catalog STATE/catalog --station KTLX",
+           "When the oldest volume began."}}},
+        {"catalog rebuild",
+         {{"stormcellar catalog rebuild --catalog STATE/catalog --drop DROP",
+           "Register all files anew if a database is damaged."}}},
+        {"catalog stations",
+         {{"stormcellar catalog stations --catalog STATE/catalog", "Whose files there are."}}},
+        {"fetch",
+         {{"stormcellar fetch --stations KTLX --from 1999-05-03T23:00:00Z --to "
+           "1999-05-03T23:59:00Z -o files",
+           "The volumes of half an hour of one radar."}}},
+        {"frame",
+         {{"stormcellar frame KTLX --cache CACHE -o storm.png",
+           "The newest grid of a station, as a volume seen from the south."},
+          {"stormcellar frame KTLX --cache CACHE --product composite -o map.png",
+           "The greatest value of each column, as a map."},
+          {"stormcellar frame KTLX --cache CACHE --product section "
+           "--section 35.2,-98.2,35.5,-97 -o cut.png",
+           "A vertical cut between two places."},
+          {"stormcellar frame KTLX --cache CACHE --probe-at 35.33,-97.5", "The value at a place."}},
+         {"--output", "--cache", "--time", "--product", "--moment", "--colors", "--scene",
+          "--azimuth", "--tilt", "--zoom"}},
+        {"grid",
+         {{"stormcellar grid KTLX19990503_235621.gz -o storm.nc",
+           "A volume as a 3D grid in netCDF."},
+          {"stormcellar grid KTLX19990503_235621.gz -o storm.nc --tolerance '250 m, 3 dB' "
+           "--explain",
+           "As cheap as these errors allow, and why."},
+          {"stormcellar grid KTLX.gz KFDR.gz -o both.nc --time 1999-05-03T23:55:00Z",
+           "A mosaic of two radars at one instant."}},
+         {"--output", "--moment", "--center", "--extent-km", "--spacing-km", "--levels-km",
+          "--time", "--method", "--tolerance", "--explain"}},
+        {"help", {{"stormcellar help catalog get", "The help of one command."}}},
+        {"info",
+         {{"stormcellar info KTLX19990503_235621.gz", "The sweeps, moments and times."},
+          {"stormcellar info KTLX19990503_235621.gz --to volume.nc",
+           "Also write the volume as CfRadial."}}},
+        {"loop",
+         {{"stormcellar loop KTLX --cache CACHE --from -1h -o storm.webp",
+           "The last hour of a station."},
+          {"stormcellar loop KTLX --cache CACHE --last 12 --product composite -o map.mp4",
+           "The last twelve grids, as a map."},
+          {"stormcellar loop KTLX --catalog STATE/catalog --from 1999-05-03T23:00:00Z --to "
+           "1999-05-03T23:59:00Z -o tornado.webp",
+           "An hour of an archive, gridded on the way."}},
+         {"--output", "--cache", "--from", "--to", "--last", "--product", "--moment", "--orbit",
+          "--fps", "--follow"}},
+        {"replay",
+         {{"stormcellar replay files/ DROP --speed 10",
+           "Play a directory of volumes ten times as fast as they came."}}},
+        {"status",
+         {{"stormcellar status", "How the daemon of this machine is."},
+          {"stormcellar status --config stormcellard.toml", "How another daemon is."}}},
+        {"synth",
+         {{"stormcellar synth supercell.toml -o files", "The volumes of a simulated storm."}}},
+    };
+    return guides;
+}
+
+const CommandGuide* find_guide(std::string_view command) {
+    const auto& guides = command_guides();
+    const auto found = std::ranges::find(guides, command, &CommandGuide::command);
+    return found == guides.end() ? nullptr : &*found;
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,25 @@
+// cli/reference/wrong_words.h -- what a command line that the parser refused says, in one line.
+//
+// Threads   Pure: may be called from any thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/reference/reference.h"
+
+namespace CLI {
+class ParseError;
+}
+
+namespace stormcellar::cli {
+
+// "there is no command 'fram'; did you mean 'frame'?", also for "catalog lits".
+[[nodiscard]] std::string no_command(const std::string& name, const CommandReference& program);
+
+// Why the parser refused the words behind this command. `left` are the words that it did not take.
+[[nodiscard]] std::string reason_of(const CLI::ParseError& error, std::vector<std::string> left,
+                                    const CommandReference& command);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,21 @@
+#include "cli/shared/moment_option.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "base/nearest_name.h"
+#include "cli/shared/commands.h"
+
+namespace stormcellar::cli {
+
+Result<level2::Moment> moment_named(const std::string& text) {
+    std::string name = text;
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    if (const auto moment = level2::moment_from_name(name)) return *moment;
+    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", level2::moment_names(", ", " or "),
+                printable(text));
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,16 @@
+// cli/shared/moment_option.h -- the moment that a command line or a scene file names.
+//
+// Threads   Pure: may be called from any thread.
+#pragma once
+
+#include <string>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/level2/moment.h"
+
+namespace stormcellar::cli {
+
+// Takes a name in upper or lower case. Errors: bad_argument; the message lists the moments.
+[[nodiscard]] Result<level2::Moment> moment_named(const std::string& text);
+
+}  // namespace stormcellar::cli
