@@ -12,6 +12,7 @@
 
 #include "base/floating_point.h"
 #include "base/steady_time.h"
+#include "cli/picture/fitted_view.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_grid.h"
 #include "cli/picture/picture_metadata.h"
@@ -297,7 +298,7 @@ int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
-    const auto scene = scene_with(options.scene_file, options.scene);
+    auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
@@ -307,6 +308,11 @@ int run_frame(FrameOptions options) {
         options.grid.files.empty() ? stored_grid(options, scene->moment) : grid_of_files(options);
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
+    const grid::BrickView view = (*grid)->view();
+    const auto facts = facts_of(options.domain, (*grid)->description(), options.scene.time_zone);
+    const render::EchoOutline outline(view, scene->moment);
+    const auto fitted = fit_picture(outline, view, facts, options.scene, *scene);
+    if (!fitted) return report_error(fitted.error());
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());

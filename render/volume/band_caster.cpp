@@ -36,10 +36,14 @@ class BandCaster::Tiles {
         if (count_ == 0) return;
         const std::span<const PixelPlace> pixels = std::span(wanted_).first(count_);
         float colours[packet_rays * 4];
+        float lights[packet_rays];
         cast_packet(caster_.volume_, caster_.maker_.packet(pixels), packet_words_.data(),
-                    packet_words_.size(), colours);
-        for (std::size_t i = 0; i < count_; ++i)
-            std::copy_n(colours + i * 4, 4, caster_.at(wanted_[i].x, wanted_[i].y));
+                    packet_words_.size(), colours, lights);
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto [x, y] = wanted_[i];
+            std::copy_n(colours + i * 4, 4, caster_.at(x, y));
+            if (caster_.light_ != nullptr) *caster_.light_at(x, y) = lights[i];
+        }
         count_ = 0;
         has_joined_ = false;
     }
@@ -76,8 +80,14 @@ class BandCaster::Tiles {
 };
 
 BandCaster::BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask,
-                       int width, int height, float* rgba)
-    : volume_(volume), maker_(maker), mask_(mask), width_(width), height_(height), rgba_(rgba) {}
+                       int width, int height, float* rgba, float* light)
+    : volume_(volume),
+      maker_(maker),
+      mask_(mask),
+      width_(width),
+      height_(height),
+      rgba_(rgba),
+      light_(light) {}
 
 // Asks for the rays of every `stride`-th pixel of the row of tiles, tile by tile. A tile in which
 // nothing shows stays clear, because its rays would find nothing.
@@ -110,6 +120,9 @@ void BandCaster::cast_first(int tile_row, int stride) const {
     const int top = tile_row * mask_.edge();
     const int rows = std::min(mask_.edge(), height_ - top);
     std::fill_n(at(0, top), static_cast<std::ptrdiff_t>(rows) * width_ * 4, 0.0F);
+    if (light_ != nullptr) {
+        std::fill_n(light_at(0, top), static_cast<std::ptrdiff_t>(rows) * width_, 0.0F);
+    }
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 
@@ -143,21 +156,22 @@ void BandCaster::refine(int tile_row, int stride, float tolerance) const {
                    [&](Tiles& tiles, int x, int y) { refine_cell(tiles, x, y, stride, bends); });
 }
 
-// Returns true if the picture bends at a pixel of the grid, along a row or a column. At the edge of
-// the picture this cannot be known, and counts as no bend.
+// Returns true if the picture bends at a pixel of the grid, along a row or a column, in its colors,
+// its opacity or its light. At the edge of the picture this cannot be known, and counts as no bend.
 bool BandCaster::bends(int x, int y, int stride, float most) const {
-    const float* here = at(x, y);
-    const auto bends_between = [&](const float* before, const float* after) {
+    const auto bends_along = [&](int across, int down) {
+        const float* before = at(x - across, y - down);
+        const float* here = at(x, y);
+        const float* after = at(x + across, y + down);
         bool bends = false;
         for (int c = 0; c < 4; ++c)
             bends |= std::abs(before[c] - 2 * here[c] + after[c]) > most;
-        return bends;
+        if (light_ == nullptr) return bends;
+        return bends || std::abs(*light_at(x - across, y - down) - 2 * *light_at(x, y) +
+                                 *light_at(x + across, y + down)) > most;
     };
-    if (x >= stride && x + stride < width_ && bends_between(at(x - stride, y), at(x + stride, y))) {
-        return true;
-    }
-    return y >= stride && y + stride < height_ &&
-           bends_between(at(x, y - stride), at(x, y + stride));
+    if (x >= stride && x + stride < width_ && bends_along(stride, 0)) return true;
+    return y >= stride && y + stride < height_ && bends_along(0, stride);
 }
 
 // Fills the half-way pixels of one cell of the grid: interpolates them if the picture bends at none
@@ -177,18 +191,23 @@ void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends
 
 void BandCaster::interpolate(int x, int y, int stride) const {
     const int half = stride / 2;
-    const float* a = at(x, y);
-    const float* b = at(x + stride, y);
-    const float* c = at(x, y + stride);
-    const float* d = at(x + stride, y + stride);
-    float* right = at(x + half, y);
-    float* below = at(x, y + half);
-    float* middle = at(x + half, y + half);
-    for (int i = 0; i < 4; ++i) {
-        right[i] = 0.5F * (a[i] + b[i]);
-        below[i] = 0.5F * (a[i] + c[i]);
-        middle[i] = 0.25F * ((a[i] + b[i]) + (c[i] + d[i]));
-    }
+    // `pixel` returns the numbers of a pixel, of which there are `count`.
+    const auto fill = [&](auto pixel, int count) {
+        const float* a = pixel(x, y);
+        const float* b = pixel(x + stride, y);
+        const float* c = pixel(x, y + stride);
+        const float* d = pixel(x + stride, y + stride);
+        float* right = pixel(x + half, y);
+        float* below = pixel(x, y + half);
+        float* middle = pixel(x + half, y + half);
+        for (int i = 0; i < count; ++i) {
+            right[i] = 0.5F * (a[i] + b[i]);
+            below[i] = 0.5F * (a[i] + c[i]);
+            middle[i] = 0.25F * ((a[i] + b[i]) + (c[i] + d[i]));
+        }
+    };
+    fill([this](int px, int py) { return at(px, py); }, 4);
+    if (light_ != nullptr) fill([this](int px, int py) { return light_at(px, py); }, 1);
 }
 
 }  // namespace stormcellar::render

@@ -29,9 +29,9 @@ struct PixelSteps {
 class BandCaster {
   public:
     // All arguments must outlive the object. `rgba` has four floats for each pixel of the whole
-    // picture.
+    // picture, and `light` one if the volume has a light; else it is null.
     BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask, int width,
-               int height, float* rgba);
+               int height, float* rgba, float* light);
 
     // Clears the row of tiles, and draws every `stride`-th pixel in both directions.
     void cast_first(int tile_row, int stride) const;
@@ -46,6 +46,10 @@ class BandCaster {
                         static_cast<std::size_t>(x)) *
                            4;
     }
+    [[nodiscard]] float* light_at(int x, int y) const {
+        return light_ + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                         static_cast<std::size_t>(x));
+    }
     template <class Ask>
     void for_each_pixel(int tile_row, int stride, Ask ask) const;
     [[nodiscard]] bool bends(int x, int y, int stride, float most) const;
@@ -57,6 +61,7 @@ class BandCaster {
     const SliceMask& mask_;
     int width_, height_;
     float* rgba_;
+    float* light_;
 };
 
 }  // namespace stormcellar::render

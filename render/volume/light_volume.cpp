@@ -9,6 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
+constexpr std::size_t border = 2;  // cells
 constexpr double sky_elevation_deg = 35;
 constexpr int sky_directions = 9;  // the zenith and eight directions around it
 // The shares of the light from the sky and from the sun.
@@ -150,17 +151,26 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
-    // Returns the light that has passed the cell of the plane before; 1 beyond the grid.
-    const auto passed = [&](int plane, int iu, int iv) {
-        if (iu < 0 || iv < 0 || iu >= sizes_[u] || iv >= sizes_[v]) return 1.0F;
-        const std::size_t cell = place(plane, iu, iv);
-        return through[cell] * std::exp(-extinction_[cell] * length_m);
+    // The light that has passed each cell of the plane before, with a border of 1, which stands for
+    // what is beyond the grid.
+    const std::size_t row = static_cast<std::size_t>(sizes_[v]) + 2 * border;
+    std::vector<float> passed((static_cast<std::size_t>(sizes_[u]) + 2 * border) * row, 1.0F);
+    const auto pass = [&](int plane) {
+        for (int iu = 0; iu < sizes_[u]; ++iu) {
+            float* to = passed.data() + (static_cast<std::size_t>(iu) + border) * row + border;
+            for (int iv = 0; iv < sizes_[v]; ++iv) {
+                const std::size_t cell = place(plane, iu, iv);
+                to[iv] = extinction_[cell] > 0
+                             ? through[cell] * std::exp(-extinction_[cell] * length_m)
+                             : through[cell];
+            }
+        }
     };
     // Each cell takes the light of the plane before at the place from which it comes, which lies
     // between four cells.
     for (int n = 1; n < sizes_[main]; ++n) {
         const int plane = first + n * step;
-        const int before = plane - step;
+        pass(plane - step);
         for (int iu = 0; iu < sizes_[u]; ++iu) {
             const float pu = static_cast<float>(iu) + du;
             const auto u0 = static_cast<int>(std::floor(pu));
@@ -169,10 +179,12 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
                 const float pv = static_cast<float>(iv) + dv;
                 const auto v0 = static_cast<int>(std::floor(pv));
                 const float sv = pv - static_cast<float>(v0);
-                const float low =
-                    (1 - su) * passed(before, u0, v0) + su * passed(before, u0 + 1, v0);
-                const float high =
-                    (1 - su) * passed(before, u0, v0 + 1) + su * passed(before, u0 + 1, v0 + 1);
+                // |du| and |dv| are at most 1, so that these cells are in the border at most.
+                const float* from = passed.data() +
+                                    static_cast<std::size_t>(u0 + static_cast<int>(border)) * row +
+                                    static_cast<std::size_t>(v0 + static_cast<int>(border));
+                const float low = (1 - su) * from[0] + su * from[row];
+                const float high = (1 - su) * from[1] + su * from[row + 1];
                 through[place(plane, iu, iv)] = (1 - sv) * low + sv * high;
             }
         }

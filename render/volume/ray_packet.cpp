@@ -69,7 +69,6 @@ struct Rays {
 struct SliceFinds {
     HWY_ALIGN std::int32_t bin[lanes];
     HWY_ALIGN float valued[lanes];
-    HWY_ALIGN float light[lanes];
     float t = 0;          // the slice
     bool any = false;     // some ray found a value
     bool joined = false;  // this slice and the one before it are the two ends of one step
@@ -135,7 +134,7 @@ class Caster {
           entries_(reinterpret_cast<const std::byte*>(&volume.transfer->entry(0, 0))) {
         const Floats f;
         through_ = hn::Set(f, 1.0F);
-        red_ = green_ = blue_ = hn::Zero(f);
+        red_ = green_ = blue_ = light_sum_ = light_ = hn::Zero(f);
         enter_ = *std::min_element(rays.enter + first, rays.enter + first + lanes);
         leave_ = *std::max_element(rays.leave + first, rays.leave + first + lanes);
     }
@@ -154,9 +153,10 @@ class Caster {
         }
     }
 
-    HWY_INLINE void store(float* rgba) const {
+    HWY_INLINE void store(float* rgba, float* light) const {
         const Floats f;
         hn::StoreInterleaved4(red_, green_, blue_, hn::Sub(hn::Set(f, 1.0F), through_), f, rgba);
+        if constexpr (lit) hn::StoreU(light_sum_, f, light);
     }
 
   private:
@@ -180,23 +180,41 @@ class Caster {
     // sample is taken there instead.
     HWY_INLINE void take_samples(SliceFinds& finds) const {
         const Floats f;
-        const FloatVec held = hn::Min(hn::Max(hn::Set(f, finds.t), rays_.enter), rays_.leave);
-        const FloatVec x = hn::Add(rays_.x, hn::Mul(held, rays_.step_x));
-        const FloatVec y = hn::Add(rays_.y, hn::Mul(held, rays_.step_y));
-        FloatVec z = hn::Add(rays_.z, hn::Mul(held, rays_.step_z));
-        if constexpr (curved) z = hn::Add(z, drop(*volume_.curve, x, y));
-        const Places at{place_of(x, volume_.last_x), place_of(y, volume_.last_y),
-                        place_of(level_of(volume_, z), volume_.last_z)};
+        const Positions where = positions_at(finds.t);
+        const Places at{place_of(where.x, volume_.last_x), place_of(where.y, volume_.last_y),
+                        place_of(where.level, volume_.last_z)};
         const Corners corners = Source::corners(volume_, at);
         Samples samples;
         finds.any = mix_corners(volume_, corners, at, samples);
         hn::Store(samples.bin, Ints(), finds.bin);
         hn::Store(samples.valued, f, finds.valued);
-        if constexpr (lit) {
-            hn::Store(finds.any ? light_of(*volume_.light, corners, at, samples.valued)
-                                : hn::Set(f, 1.0F),
-                      f, finds.light);
+    }
+
+    // Returns where the rays are at a slice, in cells and levels.
+    struct Positions {
+        FloatVec x, y, level;
+    };
+    HWY_INLINE Positions positions_at(float t) const {
+        const Floats f;
+        const FloatVec held = hn::Min(hn::Max(hn::Set(f, t), rays_.enter), rays_.leave);
+        const FloatVec x = hn::Add(rays_.x, hn::Mul(held, rays_.step_x));
+        const FloatVec y = hn::Add(rays_.y, hn::Mul(held, rays_.step_y));
+        FloatVec z = hn::Add(rays_.z, hn::Mul(held, rays_.step_z));
+        if constexpr (curved) z = hn::Add(z, drop(*volume_.curve, x, y));
+        return {x, y, level_of(volume_, z)};
+    }
+
+    // Adds the light of a step, of which this much is seen. It is that at the end with an even
+    // number, which two steps share, because the light changes little from slice to slice.
+    HWY_INLINE void add_light(float front_t, FloatVec seen) {
+        const int front = static_cast<int>(front_t);
+        const int even = front + (front & 1);
+        if (even != light_slice_) {
+            const Positions where = positions_at(static_cast<float>(even));
+            light_ = light_at(*volume_.light, where.x, where.y, where.level);
+            light_slice_ = even;
         }
+        light_sum_ = hn::Add(light_sum_, hn::Mul(seen, light_));
     }
 
     // Adds the step between two slices. The two bins at its ends select an entry of the transfer
@@ -223,26 +241,15 @@ class Caster {
         // other.
         constexpr int entry_bits = std::countr_zero(sizeof(TransferEntry));
         const LaneNumbers at(hn::ShiftLeft<entry_bits>(hn::Add(hn::ShiftLeft<8>(one), other)));
-        Fours looks =
+        const Fours looks =
             fours_of([&](int lane) { return reinterpret_cast<const float*>(entries_ + at[lane]); });
-        // With light, the color of the step is darkened by the mean of the light at its two ends.
-        if constexpr (lit) {
-            const FloatVec front_light = hn::Load(f, front.light);
-            const FloatVec back_light = hn::Load(f, back.light);
-            const FloatVec light =
-                hn::Mul(hn::Set(f, 0.5F), hn::Add(hn::IfThenElse(in_front, front_light, back_light),
-                                                  hn::IfThenElse(behind, back_light, front_light)));
-            looks.first = hn::Mul(looks.first, light);
-            looks.second = hn::Mul(looks.second, light);
-            looks.third = hn::Mul(looks.third, light);
-        }
-        return add_looks(looks, length);
+        return add_looks(looks, length, front.t);
     }
 
     // Composites a step over what the rays have seen so far, front to back: the step adds its color
     // times its opacity times the light that still reaches through, and takes its share of that
     // light. `looks` is red, green, blue and optical depth for each reference length.
-    HWY_INLINE bool add_looks(const Fours& looks, FloatVec length) {
+    HWY_INLINE bool add_looks(const Fours& looks, FloatVec length, float front_t) {
         const Floats f;
         const FloatVec enough = hn::Set(f, opaque_enough);
         const FloatVec open = hn::IfThenElseZero(hn::Ge(through_, enough), through_);
@@ -251,6 +258,9 @@ class Caster {
         green_ = hn::Add(green_, hn::Mul(seen, looks.second));
         blue_ = hn::Add(blue_, hn::Mul(seen, looks.third));
         through_ = hn::Sub(through_, seen);
+        if constexpr (lit) {
+            if (!hn::AllTrue(f, hn::Eq(seen, hn::Zero(f)))) add_light(front_t, seen);
+        }
         return hn::AllTrue(f, hn::Lt(through_, enough));
     }
 
@@ -259,35 +269,37 @@ class Caster {
     const std::byte* entries_;
     float enter_, leave_;
     FloatVec through_, red_, green_, blue_;
+    FloatVec light_sum_, light_;
+    int light_slice_ = -1;  // of which light_ is the light
 };
 
 template <class Source, bool curved, bool lit>
 HWY_INLINE void cast_as(const PacketVolume& volume, const RayPacket& rays,
-                        const std::uint64_t* mask, std::size_t words, float* rgba) {
+                        const std::uint64_t* mask, std::size_t words, float* rgba, float* light) {
     for (int first = 0; first < packet_rays; first += lanes) {
         Caster<Source, curved, lit> caster(volume, rays, first);
         caster.cast(mask, words);
-        caster.store(rgba + first * 4);
+        caster.store(rgba + first * 4, light + first);
     }
 }
 
 template <class Source>
 HWY_INLINE void cast_from(const PacketVolume& volume, const RayPacket& rays,
-                          const std::uint64_t* mask, std::size_t words, float* rgba) {
+                          const std::uint64_t* mask, std::size_t words, float* rgba, float* light) {
     const bool lit = volume.light != nullptr;
     if (volume.curve != nullptr) {
-        lit ? cast_as<Source, true, true>(volume, rays, mask, words, rgba)
-            : cast_as<Source, true, false>(volume, rays, mask, words, rgba);
+        lit ? cast_as<Source, true, true>(volume, rays, mask, words, rgba, light)
+            : cast_as<Source, true, false>(volume, rays, mask, words, rgba, light);
     } else {
-        lit ? cast_as<Source, false, true>(volume, rays, mask, words, rgba)
-            : cast_as<Source, false, false>(volume, rays, mask, words, rgba);
+        lit ? cast_as<Source, false, true>(volume, rays, mask, words, rgba, light)
+            : cast_as<Source, false, false>(volume, rays, mask, words, rgba, light);
     }
 }
 
 void cast_one_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
-                     std::size_t words, float* rgba) {
-    volume.words != nullptr ? cast_from<FromTable>(volume, rays, mask, words, rgba)
-                            : cast_from<FromBricks>(volume, rays, mask, words, rgba);
+                     std::size_t words, float* rgba, float* light) {
+    volume.words != nullptr ? cast_from<FromTable>(volume, rays, mask, words, rgba, light)
+                            : cast_from<FromBricks>(volume, rays, mask, words, rgba, light);
 }
 
 }  // namespace stormcellar::render::HWY_NAMESPACE
@@ -310,6 +322,14 @@ PacketVolume::PacketVolume(const grid::BrickView& view, const LevelPosition& lev
       levels(level_position.is_uniform() ? nullptr : &level_position),
       transfer(&transfer_function) {}
 
+PacketLight::PacketLight(const ShadeField& field)
+    : words(field.words()),
+      stride_x(field.stride_x()),
+      stride_y(field.stride_y()),
+      last_x(field.size(0) - 1),
+      last_y(field.size(1) - 1),
+      last_z(field.size(2) - 1) {}
+
 void PacketVolume::use(const CornerTable& table) {
     words = table.words();
     word_stride_x = table.stride_x();
@@ -323,8 +343,8 @@ bool PacketVolume::can_address(const grid::BrickView& view) {
 }
 
 void cast_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
-                 std::size_t words, float* rgba) {
-    HWY_DYNAMIC_DISPATCH(cast_one_packet)(volume, rays, mask, words, rgba);
+                 std::size_t words, float* rgba, float* light) {
+    HWY_DYNAMIC_DISPATCH(cast_one_packet)(volume, rays, mask, words, rgba, light);
 }
 
 }  // namespace stormcellar::render

@@ -11,7 +11,7 @@
 
 #include "render/volume/corner_table.h"
 #include "render/volume/level_position.h"
-#include "render/volume/light_volume.h"
+#include "render/volume/shade_field.h"
 #include "render/volume/transfer_function.h"
 #include "stormcellar/grid/brick_view.h"
 
@@ -24,13 +24,15 @@ struct CurvedLevels {
     float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
 };
 
-// How samples are lit (stormcellar/render/light.h).
+// How the volume is lit: the words of a ShadeField.
 struct PacketLight {
-    const LightVolume* volume = nullptr;  // null: no shadows
-    bool gradient = false;
-    float sun[3] = {};       // toward the sun, of unit length
-    float per_cell[3] = {};  // 1 / meters between neighboring cells of drawn space
-    float half_steep = 1;    // codes per meter at which a surface is half as dark as it can be
+    const std::byte* words = nullptr;
+    std::int32_t stride_x = 0, stride_y = 0;
+    std::int32_t last_x = 0, last_y = 0, last_z = 0;  // coarse cells
+
+    PacketLight() = default;
+    // The field must outlive this.
+    explicit PacketLight(const ShadeField& field);
 };
 
 struct PacketVolume {
@@ -43,7 +45,7 @@ struct PacketVolume {
     const LevelPosition* levels = nullptr;            // null: z of a ray is a level
     const TransferFunction* transfer = nullptr;
     const CurvedLevels* curve = nullptr;  // null: the earth is flat
-    const PacketLight* light = nullptr;   // null: the table's own colors
+    const PacketLight* light = nullptr;   // null: no light is found
 
     // `levels` and `transfer` must outlive this.
     PacketVolume(const grid::BrickView& view, const LevelPosition& levels,
@@ -67,8 +69,9 @@ struct RayPacket {
 };
 
 // Computes red, green, blue (premultiplied) and alpha of each ray. Samples only the steps whose bit
-// is set.
+// is set. If the volume has a light, also computes the sum of the factors of the light along the
+// ray, each times what is seen there; else `light` is not used.
 void cast_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
-                 std::size_t words, float* rgba);
+                 std::size_t words, float* rgba, float* light);
 
 }  // namespace stormcellar::render

@@ -18,12 +18,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-// For each ray, a bin of the transfer function, the share of valued cells and, if the volume is
-// lit, how light it is there.
+// For each ray, a bin of the transfer function and the share of valued cells.
 struct Samples {
     IntVec bin;
     FloatVec valued;
-    FloatVec light;
 };
 
 // A place along one axis: the cell below it, and how far beyond that cell it lies.
@@ -51,6 +49,21 @@ struct Corners {
     IntVec code[8];
 };
 
+// Takes two words of a table of corners apart: the lower four codes and the upper four.
+HWY_INLINE Corners corners_of(const Halves& levels) {
+    const IntVec byte = hn::Set(Ints(), 0xFF);
+    const auto unpack = [&](IntVec word, IntVec* codes) {
+        codes[0] = hn::And(word, byte);
+        codes[1] = hn::And(hn::ShiftRight<8>(word), byte);
+        codes[2] = hn::And(hn::ShiftRight<16>(word), byte);
+        codes[3] = hn::And(hn::ShiftRight<24>(word), byte);
+    };
+    Corners corners;
+    unpack(levels.low, corners.code);
+    unpack(levels.high, corners.code + 4);
+    return corners;
+}
+
 // Takes the codes from a CornerTable: one load of 64 bits brings all eight
 // (render/volume/corner_table.h).
 struct FromTable {
@@ -62,17 +75,7 @@ struct FromTable {
                     at.z.cell));
         const Halves levels = halves_of(
             [&](int lane) { return load_as<std::uint64_t>(volume.words + words[lane] * 4); });
-        const IntVec byte = hn::Set(i, 0xFF);
-        const auto unpack = [&](IntVec word, IntVec* codes) {
-            codes[0] = hn::And(word, byte);
-            codes[1] = hn::And(hn::ShiftRight<8>(word), byte);
-            codes[2] = hn::And(hn::ShiftRight<16>(word), byte);
-            codes[3] = hn::And(hn::ShiftRight<24>(word), byte);
-        };
-        Corners corners;
-        unpack(levels.low, corners.code);
-        unpack(levels.high, corners.code + 4);
-        return corners;
+        return corners_of(levels);
     }
 };
 

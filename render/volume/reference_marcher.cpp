@@ -83,10 +83,21 @@ ReferenceMarcher::Sample ReferenceMarcher::sample(const Vec3& point) const {
 }
 
 std::array<double, 4> ReferenceMarcher::ray(Pixel pixel, int steps) const {
+    return lit_ray(pixel, steps, nullptr).colour;
+}
+
+double ReferenceMarcher::light_at(const ShadeField& shades, const Vec3& point) const {
+    return shades.at((point[0] - spec_.x_from_middle_m(0)) / spec_.cell_width_m(),
+                     (point[1] - spec_.y_from_middle_m(0)) / spec_.cell_height_m(),
+                     level_position(spec_.levels_m, geometry_.height_at(point)));
+}
+
+ReferenceMarcher::Lit ReferenceMarcher::lit_ray(Pixel pixel, int steps,
+                                                const ShadeField* shades) const {
     const double step = (geometry_.far_m() - geometry_.near_m()) / steps;
     const double length = distance(geometry_.point(pixel, geometry_.near_m()),
                                    geometry_.point(pixel, geometry_.near_m() + step));
-    std::array<double, 4> colour{};
+    Lit lit;
     double through = 1;
     bool above_ground = false;
     for (int k = 0; k < steps && through > 1e-6; ++k) {
@@ -101,11 +112,12 @@ std::array<double, 4> ReferenceMarcher::ray(Pixel pixel, int steps) const {
         const double depth = extinction_per_m(table_, found.value, opacity_) * length * found.share;
         const double alpha = -std::expm1(-depth);
         for (std::size_t c = 0; c < 3; ++c)
-            colour[c] += through * alpha * (*shown)[c] / 255.0;
+            lit.colour[c] += through * alpha * (*shown)[c] / 255.0;
+        lit.light += through * alpha * (shades != nullptr ? light_at(*shades, point) : 1);
         through *= 1 - alpha;
     }
-    colour[3] = 1 - through;
-    return colour;
+    lit.colour[3] = 1 - through;
+    return lit;
 }
 
 }  // namespace stormcellar::render

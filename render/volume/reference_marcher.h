@@ -13,6 +13,7 @@
 #include <array>
 #include <vector>
 
+#include "render/volume/shade_field.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/render/colour_table.h"
 #include "stormcellar/render/view_geometry.h"
@@ -28,6 +29,13 @@ class ReferenceMarcher {
     // Returns red, green and blue, premultiplied, and alpha, all 0..1. There are `steps` steps
     // between the nearest and the farthest depth of the box.
     [[nodiscard]] std::array<double, 4> ray(Pixel pixel, int steps) const;
+    // The same, and the sum of the factors of the light, each times what is seen there. `shades`
+    // may be null; then they are 1.
+    struct Lit {
+        std::array<double, 4> colour{};
+        double light = 0;
+    };
+    [[nodiscard]] Lit lit_ray(Pixel pixel, int steps, const ShadeField* shades) const;
 
     // The value and the share of valued cells at a point of drawn space. If the share is 0, there
     // is nothing.
@@ -38,6 +46,7 @@ class ReferenceMarcher {
 
   private:
     [[nodiscard]] bool is_inside(const Vec3& point) const;
+    [[nodiscard]] double light_at(const ShadeField& shades, const Vec3& point) const;
 
     const ViewGeometry& geometry_;
     const ColourTable table_;

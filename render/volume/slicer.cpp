@@ -7,6 +7,8 @@
 #include "base/parallel.h"
 #include "render/volume/band_caster.h"
 #include "render/volume/level_position.h"
+#include "render/volume/light_volume.h"
+#include "render/volume/lit_layer.h"
 #include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
@@ -29,7 +31,7 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
 VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
                            const ViewGeometry& geometry, const VolumeOptions& options,
                            TransferCache* keeper)
-    : geometry_(geometry), options_(options) {
+    : geometry_(geometry), table_(table), options_(options) {
     TransferCache own;
     transfer_ = (keeper != nullptr ? *keeper : own)
                     .get(table, quantization, options.opacity, step_m(), options.integration);
@@ -37,24 +39,6 @@ VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& q
 
 double VolumeSlicer::step_m() const {
     return (geometry_.far_m() - geometry_.near_m()) / options_.slices;
-}
-
-// Prepares the light. A surface is steep if values change by 4 steps of their codes (2 dB) for each
-// kilometer of drawn space.
-PacketLight VolumeSlicer::light_of(const grid::GridSpec& spec) const {
-    PacketLight light;
-    light.gradient = options_.light.gradient;
-    const Vec3 sun = sun_direction(options_.light);
-    const double levels = std::max(1, spec.nz() - 1);
-    const double level_m = (spec.levels_m.back() - spec.levels_m.front()) / levels;
-    const Vec3 cell_m = {spec.cell_width_m(), spec.cell_height_m(),
-                         std::max(level_m, 1.0) * geometry_.exaggeration()};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        light.sun[axis] = static_cast<float>(sun[axis]);
-        light.per_cell[axis] = static_cast<float>(1 / cell_m[axis]);
-    }
-    light.half_steep = 4e-3F;
-    return light;
 }
 
 Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
@@ -65,7 +49,7 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
 }
 
 // Prepares what the rays need: the mask of steps that may show anything, the light in the volume if
-// the scene asks for shadows, and the table of corners if there are enough samples for each cell.
+// the scene is lit, and the table of corners if there are enough samples for each cell.
 void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     Layer& layer = room.layer;
     layer.width = geometry_.width();
@@ -76,9 +60,15 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
     room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads,
                       all_rays ? small_tile_edge : tile_edge);
-    room.shadows.reset();
-    if (options_.light.needs_volume()) {
-        room.shadows.emplace(view, *transfer_, step_m(), geometry_, options_.light, threads);
+    room.shades.reset();
+    if (options_.light.any()) {
+        std::optional<LightVolume> through;
+        if (options_.light.needs_volume()) {
+            through.emplace(view, *transfer_, step_m(), geometry_, options_.light, threads);
+        }
+        room.shades.emplace(view, table_, geometry_, options_.light, through ? &*through : nullptr,
+                            threads);
+        room.light.resize(layer.rgba.size() / 4);
     }
     const double rays = (all_rays ? 1.0 : 0.5) * layer.width * layer.height;
     const double samples = rays * options_.slices;
@@ -95,12 +85,11 @@ void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& ro
     PacketVolume volume(view, levels, *transfer_);
     volume.curve = maker.curve();
     if (room.has_corners) volume.use(room.corners);
-    PacketLight light = light_of(*view.spec);
-    light.volume = room.shadows ? &*room.shadows : nullptr;
-    if (options_.light.any()) volume.light = &light;
+    const PacketLight light = room.shades ? PacketLight(*room.shades) : PacketLight();
+    if (room.shades) volume.light = &light;
     Layer& layer = room.layer;
-    const BandCaster caster(volume, maker, *room.mask, layer.width, layer.height,
-                            layer.rgba.data());
+    const BandCaster caster(volume, maker, *room.mask, layer.width, layer.height, layer.rgba.data(),
+                            room.shades ? room.light.data() : nullptr);
     const PixelSteps steps = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance);
     const int bands = room.mask->tiles_down();
     for_each_piece(bands, threads,
@@ -109,6 +98,7 @@ void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& ro
         for_each_piece(bands, threads,
                        [&](int tile_row) { caster.refine(tile_row, stride, steps.tolerance); });
     }
+    if (room.shades) apply_light(layer, room.light, threads);
 }
 
 }  // namespace stormcellar::render

@@ -24,11 +24,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "render/image/layer.h"
 #include "render/volume/corner_table.h"
-#include "render/volume/light_volume.h"
 #include "render/volume/ray_packet.h"
+#include "render/volume/shade_field.h"
 #include "render/volume/slice_mask.h"
 #include "render/volume/transfer_cache.h"
 #include "stormcellar/grid/brick_view.h"
@@ -43,7 +44,8 @@ namespace stormcellar::render {
 struct SlicerRoom {
     Layer layer;  // of the last picture
     std::optional<SliceMask> mask;
-    std::optional<LightVolume> shadows;
+    std::optional<ShadeField> shades;
+    std::vector<float> light;  // of each pixel, if the scene is lit
     bool has_corners = false;
     CornerTable corners;
 };
@@ -76,9 +78,9 @@ class VolumeSlicer {
 
   private:
     [[nodiscard]] double step_m() const;
-    [[nodiscard]] PacketLight light_of(const grid::GridSpec& spec) const;
 
     const ViewGeometry& geometry_;
+    ColourTable table_;
     VolumeOptions options_;
     std::shared_ptr<const TransferFunction> transfer_;
 };

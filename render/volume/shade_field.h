@@ -1,0 +1,62 @@
+// render/volume/shade_field.h -- how much lighter or darker than its own color each part of a
+// volume is.
+//
+// On a grid of 2 x 2 columns and single levels, made once for each time step, this holds the factor
+//   shade = S T + 0.25 s (1 - |n v|)^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
+// where n is the direction in which the values fall, v the view, u the sun, s = g / (g + 1.5 dB per
+// km of drawn space) how much of a surface there is where the values fall by g, and t the light
+// that gets through from the sun and the sky (render/volume/light_volume.h). Surfaces are
+// `gradient`, the light that gets through is `shadow` and `scattering`
+// (stormcellar/render/light.h); what a scene does not ask for counts as s = 0 or T = 1. Around 1
+// the factor leaves a color as it is.
+//
+// The values are those of reflectivity from 0 to 60 dBZ (or from the lowest color of the table, if
+// that is lower), for other moments 30 wherever there is a value. They are averaged over 2 x 2
+// columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as 0. Cells that were
+// not seen or are range folded take the value of the nearest seen cell of their column, so that
+// neither the cone of silence nor the lowest beam looks like a surface.
+//
+// Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
+// Threads   Immutable. The same bits for any number of threads.
+// Accuracy  Steps of 1/128, from 0 to 255/128.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/volume/light_volume.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/colour_table.h"
+
+namespace stormcellar::render {
+
+class ShadeField {
+  public:
+    static constexpr int cells_across = 2;
+    static constexpr float of_code = 1.0F / 128;
+
+    // `light` may be null, if neither shadow nor scattering is asked for.
+    ShadeField(const grid::BrickView& view, const ColourTable& table, const ViewGeometry& geometry,
+               const Light& light, const LightVolume* volume, int threads);
+
+    // Returns the factor at a place in cells and levels: trilinear, constant beyond the edges. This
+    // is what the rays of the slicer read, in double precision.
+    [[nodiscard]] double at(double x, double y, double z) const;
+
+    // The codes of four neighboring columns in one word for each coarse cell, as in a CornerTable.
+    [[nodiscard]] const std::byte* words() const {
+        return reinterpret_cast<const std::byte*>(words_.data());
+    }
+    [[nodiscard]] std::int32_t stride_x() const { return sizes_[1] * stride_y(); }
+    [[nodiscard]] std::int32_t stride_y() const { return sizes_[2] + 1; }
+    [[nodiscard]] int size(std::size_t axis) const { return sizes_[axis]; }
+
+  private:
+    class Baker;
+
+    std::array<int, 3> sizes_{};
+    std::vector<std::uint32_t> words_;
+};
+
+}  // namespace stormcellar::render
