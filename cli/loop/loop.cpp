@@ -29,16 +29,24 @@
 namespace stormcellar::cli {
 namespace {
 
-Status draw_all(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
+// What is drawn, and the view that was fitted to it.
+struct LoopScene {
+    render::Scene scene;
+    render::FittedView view;
+};
+
+Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& shown,
                 const std::atomic<bool>& stop, Encoding& encoding, LoopReport& report) {
     const std::vector<LoopFrame>& frames = grids.frames;
     Progress progress("frames", frames.size(), !options.quiet);
+    const render::Scene& scene = shown.scene;
     Drawing drawing{scene, {}};
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (stop) return {};
-        drawing.scene.camera.azimuth_deg =
-            scene.camera.azimuth_deg +
-            options.orbit_deg * static_cast<double>(i) / static_cast<double>(frames.size());
+        drawing.scene.camera = render::turned(
+            shown.view,
+            options.orbit_deg * static_cast<double>(i) / static_cast<double>(frames.size()),
+            scene.curved_earth);
         auto picture = draw(frames[i], options, grids.between, drawing, report);
         if (!picture) return pass_on(picture);
         if (*picture) {
@@ -53,7 +61,7 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const render::Scen
 }
 
 // Draws and writes; adds to `report`.
-Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
+Status make_loop(LoopGrids& grids, const LoopOptions& options, const LoopScene& scene,
                  const std::atomic<bool>& stop, LoopReport& report) {
     auto writers = make_writers(options.outputs, options.animation);
     if (!writers) return pass_on(writers);
@@ -103,6 +111,27 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
     return first;
 }
 
+// Fits the view to the echo of all grids; of frames that are made when they are drawn, to that of
+// the first grid.
+Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const LoopOptions& options,
+                LoopScene& shown) {
+    render::Scene& scene = shown.scene;
+    render::EchoOutline outline(first.view(), scene.moment);
+    const bool fits =
+        render::view_of(scene.product) == render::View::volume && parts_to_fit(options.scene).any();
+    for (const LoopFrame& frame : grids.frames) {
+        if (!fits || !frame.stored) continue;
+        const auto file = cache::GridFile::open(frame.stored->path);
+        if (file) outline.add(file->view(), scene.moment);
+    }
+    const auto facts = facts_of(options.domain, first.description(), options.scene.time_zone);
+    const auto fitted = fit_picture(outline, first.view(), facts, options.scene, scene,
+                                    options.orbit_deg != 0, options.kept_view);
+    if (!fitted) return pass_on(fitted);
+    shown.view = *fitted;
+    return {};
+}
+
 // Plans for the first grid, and writes the description of the loop into the metadata.
 Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions& options,
                render::Scene& scene) {
@@ -139,15 +168,22 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     if (options.last > 0 && std::cmp_greater(frames.size(), options.last)) {
         frames.erase(frames.begin(), frames.end() - options.last);
     }
+    LoopScene shown{std::move(scene), {}};
     LoopReport report;
     const auto first = keep_readable(grids, report);
+    shown.view.camera = shown.scene.camera;
+    if (first) {
+        if (auto fitted = fit_loop(grids, *first, options, shown); !fitted) {
+            return report_error(fitted.error());
+        }
+    }
     if (options.ping_pong) turn_back(frames);
     if (first) {
-        if (auto prepared = prepare(grids, *first, options, scene); !prepared) {
+        if (auto prepared = prepare(grids, *first, options, shown.scene); !prepared) {
             return report_error(prepared.error());
         }
     }
-    if (auto made = make_loop(grids, options, scene, interrupt.flag(), report); !made) {
+    if (auto made = make_loop(grids, options, shown, interrupt.flag(), report); !made) {
         return report_error(made.error());
     }
     report.total_s = seconds_since(start);
@@ -162,7 +198,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
             return report_error(left.error());
         }
     }
-    print_report(options, scene, report, grids.archive);
+    print_report(options, shown.scene, report, grids.archive);
     return exit_done;
 }
 
@@ -195,6 +231,8 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
     std::optional<cache::StoreReader> store = std::move(*opened);
     DrawnFrames kept;
     options.kept = &kept;
+    std::optional<render::FittedView> kept_view;
+    options.kept_view = &kept_view;
     return follow({options.cache, options.domain, scene.moment,
                    [&] { return entries_of(store, options, scene.moment); },
                    [&](const auto& entries) {

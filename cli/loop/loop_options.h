@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/loop/archive_options.h"
+#include "cli/picture/fitted_view.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
@@ -33,6 +34,7 @@ struct LoopOptions : LoopSettings {
     SceneOptions scene;
     PicturePlanOptions plan;
     DrawnFrames* kept = nullptr;  // for a loop that is followed
+    std::optional<render::FittedView>* kept_view = nullptr;  // the same
 };
 
 // Adds to the subcommand the loop's own options and those of the scene and the plan. `options` must

@@ -10,9 +10,14 @@ namespace {
 std::string key_of(const std::filesystem::path& grid, const render::Scene& scene) {
     struct stat facts {};
     if (::stat(grid.c_str(), &facts) != 0) return {};
-    return fmt::format("{} {}.{:09} {} {} {} {} {} {}", facts.st_ino, facts.st_mtim.tv_sec,
-                       facts.st_mtim.tv_nsec, facts.st_size, scene.camera.azimuth_deg, scene.slices,
-                       static_cast<int>(scene.integration), scene.pixel_tolerance, grid.native());
+    const render::Eye eye = scene.camera.eye.value_or(render::Eye{});
+    return fmt::format("{} {}.{:09} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", facts.st_ino,
+                       facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_size,
+                       scene.camera.azimuth_deg, scene.camera.tilt_deg, eye.x_m, eye.y_m,
+                       eye.height_m, scene.vertical_exaggeration, scene.opacity,
+                       scene.light.sun_azimuth_deg, scene.slices,
+                       static_cast<int>(scene.integration), scene.pixel_tolerance,
+                       render::light_names(scene.light), grid.native());
 }
 
 }  // namespace

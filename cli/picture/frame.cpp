@@ -9,6 +9,7 @@
 
 #include "base/floating_point.h"
 #include "base/steady_time.h"
+#include "cli/picture/fitted_view.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
@@ -218,7 +219,7 @@ int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
-    const auto scene = scene_with(options.scene_file, options.scene);
+    auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
@@ -230,6 +231,10 @@ int run_frame(FrameOptions options) {
     if (!*entry) return report_nothing(*store, options, scene->moment);
     const auto file = cache::GridFile::open((*entry)->path);
     if (!file) return report_error(file.error());
+    const auto facts = facts_of(options.domain, file->description(), options.scene.time_zone);
+    const render::EchoOutline outline(file->view(), scene->moment);
+    const auto fitted = fit_picture(outline, file->view(), facts, options.scene, *scene);
+    if (!fitted) return report_error(fitted.error());
     const auto probe = probe_grid(options, *scene, *file);
     if (!probe) return report_error(probe.error());
     if (const Status whole = file->check_whole(); !whole) return report_error(whole.error());

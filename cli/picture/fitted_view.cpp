@@ -1,0 +1,73 @@
+#include "cli/picture/fitted_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stormcellar::cli {
+namespace {
+
+bool is_typed(const SceneOptions& options, std::string_view key) {
+    return std::ranges::any_of(options.typed,
+                               [&](const PictureOption* row) { return row->key == key; });
+}
+
+bool file_has_a_view(const SceneOptions& options) {
+    return std::ranges::any_of(options.in_file, [](const PictureOption* row) {
+        return row->section == "camera" || row->section == "light" || row->section == "volume";
+    });
+}
+
+// Returns true if a view shows nearly the same part of the grid as another, from nearly the same
+// place.
+bool is_near(const render::FittedView& one, const render::FittedView& other) {
+    if (one.has_echo != other.has_echo) return false;
+    if (!one.has_echo) return true;
+    const double moved_m =
+        std::hypot(one.focus.x_m - other.focus.x_m, one.focus.y_m - other.focus.y_m);
+    const double nearest_m = std::min(one.distance_m, other.distance_m);
+    const double farthest_m = std::max(one.distance_m, other.distance_m);
+    const double turned_deg = std::abs(one.camera.azimuth_deg - other.camera.azimuth_deg);
+    return moved_m <= 0.1 * nearest_m && farthest_m <= 1.25 * nearest_m && turned_deg <= 25;
+}
+
+}  // namespace
+
+render::FitParts parts_to_fit(const SceneOptions& options) {
+    if (file_has_a_view(options)) return render::FitParts::none();
+    render::FitParts parts;
+    const auto is_open = [&](std::string_view key) { return !is_typed(options, key); };
+    const bool has_place = is_typed(options, "at_km");
+    const bool is_parallel =
+        is_typed(options, "field_of_view_deg") && options.scene.camera.field_of_view_deg == 0;
+    parts.azimuth = is_open("azimuth_deg") && !has_place;
+    parts.tilt = is_open("tilt_deg") && !has_place;
+    parts.field_of_view = is_open("field_of_view_deg") && !has_place;
+    parts.place = is_open("zoom") && !has_place && !is_parallel;
+    parts.exaggeration = is_open("exaggeration") && !has_place;
+    parts.opacity = is_open("opacity");
+    parts.sun = is_open("sun_deg");
+    return parts;
+}
+
+bool chooses_light(const SceneOptions& options) {
+    return !is_typed(options, "kinds") && !file_has_a_view(options);
+}
+
+Result<render::FittedView> fit_picture(const render::EchoOutline& outline,
+                                       const grid::BrickView& view, const render::FrameFacts& facts,
+                                       const SceneOptions& options, render::Scene& scene,
+                                       bool orbits, std::optional<render::FittedView>* last) {
+    if (render::view_of(scene.product) != render::View::volume) return render::FittedView{};
+    if (chooses_light(options)) scene.light.gradient = scene.light.shadow = true;
+    const auto fitted =
+        render::fit_scene(outline, view, facts, parts_to_fit(options), scene, orbits);
+    if (!fitted || last == nullptr) return fitted;
+    if (*last && is_near(**last, *fitted)) {
+        render::apply(**last, scene);
+    } else {
+        *last = *fitted;
+    }
+    return **last;
+}
+
+}  // namespace stormcellar::cli

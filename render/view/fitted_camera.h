@@ -1,0 +1,105 @@
+// render/view/fitted_camera.h -- chooses camera, exaggeration, opacity and sun from the echo that
+// is to be seen.
+//
+// An EchoOutline says where echo stands, for one grid or for all grids of a loop, which then stands
+// still. fit_view() chooses what the caller leaves to it:
+//   shown    The columns that reach the highest of 40, 30, 20 and 5 dBZ that covers 60 km2 or more;
+//            else all columns with a value. Their 2 to 98 % ranges in both directions, widened by
+//            12 % and 5 km, say which region is shown. Of columns of 40 dBZ, those of 35 dBZ in the
+//            region are shown too. Moments other than REF show all columns with a value.
+//   place    The ground under these columns and their tops fill 84 % of the picture, in one of its
+//            two directions. The solution is exact, not iterated.
+//   azimuth  From the south; a long region is seen from its long side, at most 60 degrees from the
+//            south.
+//   tilt, exaggeration, opacity
+//            From the size of the region: near storms are seen from aside (70 degrees, exaggeration
+//            2), wide ones from above (52 degrees), where low tops are stretched up to 5 times.
+//            Weaker echo is drawn more opaque.
+//   sun      65 degrees to the left of the camera, 40 degrees high.
+// Without any echo the camera sees the whole grid.
+//
+// Units     As in stormcellar/render/scene.h.
+// Threads   An EchoOutline may be used by one thread at a time; fit_view() is pure.
+// Errors    None.
+// Cost      Reads the codes of every second column in each direction of bricks with values, once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::render {
+
+class EchoOutline {
+  public:
+    static constexpr int tile_columns = 4;
+    static constexpr std::array<double, 5> thresholds_dbz = {40, 35, 30, 20, 5};
+
+    EchoOutline() = default;
+    EchoOutline(const grid::BrickView& view, level2::Moment moment) { add(view, moment); }
+    // Adds a grid. One that does not lie where the first one lies is left out.
+    void add(const grid::BrickView& view, level2::Moment moment);
+
+    // A square of columns: how many reach each threshold, how many have a value, and the height of
+    // the highest cell that counts as a top, above sea level.
+    struct Tile {
+        std::array<std::int32_t, thresholds_dbz.size() + 1> columns{};
+        float top_m = 0;
+    };
+    [[nodiscard]] bool empty() const { return tiles_.empty(); }
+    [[nodiscard]] int across() const { return across_; }
+    [[nodiscard]] int up() const { return up_; }
+    [[nodiscard]] const Tile& tile(int x, int y) const {
+        return tiles_[static_cast<std::size_t>(x) * static_cast<std::size_t>(up_) +
+                      static_cast<std::size_t>(y)];
+    }
+    [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
+    // The area that each counted column stands for.
+    [[nodiscard]] double column_km2() const;
+
+  private:
+    class Reader;
+    grid::GridSpec spec_;
+    int across_ = 0, up_ = 0;
+    std::vector<Tile> tiles_;
+};
+
+// What fit_view() chooses; all else stays as the scene has it.
+struct FitParts {
+    bool azimuth = true, tilt = true, field_of_view = true, place = true;
+    bool exaggeration = true, opacity = true, sun = true;
+
+    [[nodiscard]] bool any() const {
+        return azimuth || tilt || field_of_view || place || exaggeration || opacity || sun;
+    }
+    [[nodiscard]] static FitParts none() {
+        return {false, false, false, false, false, false, false};
+    }
+};
+
+// Where the camera looks, for a camera that moves around it.
+struct FittedView {
+    Camera camera;
+    double vertical_exaggeration = 5;
+    double opacity = 1;
+    double sun_azimuth_deg = 225, sun_elevation_deg = 40;
+    Eye focus;              // the middle of what is shown
+    double distance_m = 0;  // from the camera to the focus, in drawn space; 0: no place was fitted
+    bool has_echo = false;
+};
+
+// Chooses a view for a picture of this size (without its labels). If the camera will move around
+// the focus, `orbits` keeps what is shown in the picture from every side. A camera with parallel
+// rays, which the scene has if it asks for a field of view of 0, has no place to be fitted.
+[[nodiscard]] FittedView fit_view(const EchoOutline& outline, const Scene& scene, int width,
+                                  int height, const FitParts& parts = {}, bool orbits = false);
+// Returns the camera of a fitted view, turned around its focus. Positive turns go clockwise seen
+// from above.
+[[nodiscard]] Camera turned(const FittedView& fitted, double by_deg, bool curved_earth = false);
+// Gives a scene the fitted view.
+void apply(const FittedView& fitted, Scene& scene);
+
+}  // namespace stormcellar::render
