@@ -61,6 +61,10 @@ void write_origin(NetcdfBuilder& file, int mapping, const grid::GridSpec& spec) 
 
 }  // namespace
 
+MapNames map_names(const grid::GridSpec& spec) {
+    return spec.in_degrees() ? MapNames{"lat", "lon"} : MapNames{"y", "x"};
+}
+
 const char* mapping_name(grid::Projection projection) {
     return names_of(projection).mapping;
 }
@@ -89,15 +93,18 @@ void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDi
         rows.push_back(degrees ? projection.row_latitude_deg(iy) : spec.y_m(iy));
     for (int ix = 0; ix < spec.nx; ++ix)
         columns.push_back(degrees ? projection.column_longitude_deg(ix) : spec.x_m(ix));
+    const MapNames names = map_names(spec);
     if (degrees) {
-        write_axis(file, size.y, {"y", "latitude", "degrees_north", "Y", "latitude"}, rows);
-        write_axis(file, size.x, {"x", "longitude", "degrees_east", "X", "longitude"}, columns);
+        write_axis(file, size.y, {names.y, "latitude", "degrees_north", "Y", "latitude"}, rows);
+        write_axis(file, size.x, {names.x, "longitude", "degrees_east", "X", "longitude"}, columns);
         return;
     }
     write_axis(file, size.y,
-               {"y", "projection_y_coordinate", "m", "Y", "distance north of the centre"}, rows);
+               {names.y, "projection_y_coordinate", "m", "Y", "distance north of the centre"},
+               rows);
     write_axis(file, size.x,
-               {"x", "projection_x_coordinate", "m", "X", "distance east of the centre"}, columns);
+               {names.x, "projection_x_coordinate", "m", "X", "distance east of the centre"},
+               columns);
 }
 
 void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size,

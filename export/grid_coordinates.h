@@ -1,9 +1,10 @@
 // export/grid_coordinates.h -- where the cells of a grid file are, in the terms of CF; internal to
 // export.
 //
-// The dimensions are y and x for every projection. For a projection with a plane, the coordinates y
-// and x are meters, and lat and lon give the place of each column. For latitude_longitude, y and x
-// are latitude and longitude themselves. Longitudes are within 180 degrees of the center's, so they
+// The dimensions are lat and lon for latitude_longitude, whose coordinates they are, so that
+// readers find them without asking for attributes. For a projection with a plane, the dimensions
+// and coordinates y and x are meters, and the variables lat and lon give the place of each column.
+// Longitudes are within 180 degrees of the center's, so they
 // continue across the antimeridian (179.5, 180.5). The mapping variable has the name of its CF grid
 // mapping (CF-1.8, appendix F).
 //
@@ -19,12 +20,19 @@ struct MapDimensions {
     int y = 0, x = 0;
 };
 
+// The names of the two dimensions, and of their coordinates.
+struct MapNames {
+    const char* y;
+    const char* x;
+};
+[[nodiscard]] MapNames map_names(const grid::GridSpec& spec);
+
 // Returns azimuthal_equidistant, latitude_longitude or lambert_conformal_conic.
 [[nodiscard]] const char* mapping_name(grid::Projection projection);
 
 void write_mapping(NetcdfBuilder& file, const grid::GridSpec& spec);
 void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size);
-// Writes lat and lon of each column, or nothing if y and x give them already.
+// Writes lat and lon of each column, or nothing if the dimensions give them already.
 void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size,
                      int deflate_level);
 // Adds the attributes with which a field refers to this map.

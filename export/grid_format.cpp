@@ -13,8 +13,8 @@ namespace {
 constexpr std::array<std::string_view, 2> netcdf_endings{".nc", ".nc4"};
 
 Status write_netcdf(FileSystem& file_system, const std::filesystem::path& path,
-                    const grid::Grid& grid) {
-    return netcdf::write_grid(file_system, path, grid);
+                    std::span<const grid::Grid> grids) {
+    return netcdf::write_grids(file_system, path, grids);
 }
 
 constexpr std::array formats{GridFormat{"netCDF", netcdf_endings, write_netcdf}};

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <netcdf.h>
 
@@ -21,6 +24,19 @@ constexpr std::size_t largest_chunk_side = 512;
 
 struct Dimensions {
     int time, z, y, x;
+};
+
+// What is written of one grid: its variables, where those of several grids stand in one file.
+struct Field {
+    const Grid& grid;
+    bool is_alone = true;
+
+    // A variable that belongs to the moment has the moment's name in front, unless the file has
+    // this moment alone.
+    [[nodiscard]] std::string name_of(std::string_view variable) const {
+        return is_alone ? std::string(variable)
+                        : fmt::format("{}_{}", level2::moment_name(grid.moment), variable);
+    }
 };
 
 std::string joined(const std::vector<std::string>& parts, const char* separator) {
@@ -70,9 +86,9 @@ void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
     write_map_axes(file, grid.spec, {size.y, size.x});
 }
 
-int define_field(NetcdfBuilder& file, const char* name, int type, const Dimensions& size,
+int define_field(NetcdfBuilder& file, const std::string& name, int type, const Dimensions& size,
                  const grid::GridSpec& spec, int deflate_level) {
-    const int variable = file.variable(name, type, {size.time, size.z, size.y, size.x});
+    const int variable = file.variable(name.c_str(), type, {size.time, size.z, size.y, size.x});
     file.chunks(variable, {1, 1, std::min<std::size_t>(spec.ny, largest_chunk_side),
                            std::min<std::size_t>(spec.nx, largest_chunk_side)});
     file.deflate(variable, deflate_level);
@@ -107,9 +123,35 @@ DetailText describe_detail(grid::Detail detail, const Grid& grid) {
             "the rest lies in gaps or beyond the gates; below one half a cell is not seen"};
 }
 
-void write_field(NetcdfBuilder& file, const Grid& grid, const Dimensions& size, int deflate_level) {
+// The facts of the provenance that differ from moment to moment.
+void write_making(NetcdfBuilder& file, int variable, const Grid& grid) {
+    const grid::Provenance& from = grid.provenance;
+    file.text(variable, "method", from.method);
+    if (!from.effects.empty()) file.text(variable, "effects", from.effects);
+    if (!from.predicted_error.empty()) {
+        file.text(variable, "predicted_error", from.predicted_error);
+    }
+    file.text(variable, "beam_model", from.beam_model);
+    file.text(variable, "averaging", from.averaging);
+}
+
+// What several grids say alike stands once.
+std::vector<std::string> notes_of(std::span<const Grid> grids) {
+    std::vector<std::string> notes;
+    for (const Grid& grid : grids) {
+        for (const std::string& note : grid.provenance.notes) {
+            const bool is_said =
+                &grid != &grids.front() && std::ranges::find(notes, note) != notes.end();
+            if (!is_said) notes.push_back(note);
+        }
+    }
+    return notes;
+}
+
+void write_field(NetcdfBuilder& file, const Field& one, const Dimensions& size, int deflate_level) {
+    const Grid& grid = one.grid;
     const std::string name{level2::moment_name(grid.moment)};
-    const int field = define_field(file, name.c_str(), NC_FLOAT, size, grid.spec, deflate_level);
+    const int field = define_field(file, name, NC_FLOAT, size, grid.spec, deflate_level);
     constexpr float fill = NC_FILL_FLOAT;
     file.fill_value(field, fill);
     const MomentText names = text_of(grid.moment);
@@ -120,23 +162,26 @@ void write_field(NetcdfBuilder& file, const Grid& grid, const Dimensions& size, 
               grid::cell_extent_of(grid.provenance.method) == grid::CellExtent::area
                   ? "area: mean"
                   : "area: point");
-    std::string beside = "status";
+    std::vector<std::string> beside = {one.name_of("status")};
     for (const grid::Detail detail : grid::all_details) {
         if (grid.details.set().has(detail))
-            beside += fmt::format(" {}", describe_detail(detail, grid).name);
+            beside.push_back(one.name_of(describe_detail(detail, grid).name));
     }
-    if (!grid.site_counts.empty()) beside += " site_count";
-    if (!grid.site_weights.empty()) beside += " site_weight";
-    file.text(field, "ancillary_variables", beside);
+    if (!grid.site_counts.empty()) beside.push_back(one.name_of("site_count"));
+    if (!grid.site_weights.empty()) beside.push_back(one.name_of("site_weight"));
+    file.text(field, "ancillary_variables", joined(beside, " "));
+    if (!one.is_alone) write_making(file, field, grid);
     const auto values = in_file_order<float>(grid.spec, [&](std::size_t cell) {
         return grid.status[cell] == CellStatus::value ? grid.values[cell] : fill;
     });
     file.write(field, std::span(values));
 }
 
-void write_status(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
+void write_status(NetcdfBuilder& file, const Field& one, const Dimensions& size,
                   int deflate_level) {
-    const int status = define_field(file, "status", NC_BYTE, size, grid.spec, deflate_level);
+    const Grid& grid = one.grid;
+    const int status =
+        define_field(file, one.name_of("status"), NC_BYTE, size, grid.spec, deflate_level);
     file.text(status, "long_name", "what a cell holds");
     file.text(status, "standard_name", "status_flag");
     std::array<signed char, 4> flags{};
@@ -157,13 +202,14 @@ void write_status(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
     file.write(status, std::span(cells));
 }
 
-void write_details(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
+void write_details(NetcdfBuilder& file, const Field& one, const Dimensions& size,
                    int deflate_level) {
+    const Grid& grid = one.grid;
     for (const grid::Detail detail : grid::all_details) {
         if (!grid.details.set().has(detail)) continue;
         const DetailText text = describe_detail(detail, grid);
         const int variable =
-            define_field(file, text.name, NC_FLOAT, size, grid.spec, deflate_level);
+            define_field(file, one.name_of(text.name), NC_FLOAT, size, grid.spec, deflate_level);
         constexpr float fill = NC_FILL_FLOAT;
         file.fill_value(variable, fill);
         file.text(variable, "long_name", text.long_name);
@@ -178,11 +224,12 @@ void write_details(NetcdfBuilder& file, const Grid& grid, const Dimensions& size
 
 // Writes the counts and weights of a mosaic. Both are known everywhere, and are 0 where no site
 // sees a cell.
-void write_overlap(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
+void write_overlap(NetcdfBuilder& file, const Field& one, const Dimensions& size,
                    int deflate_level) {
+    const Grid& grid = one.grid;
     if (!grid.site_counts.empty()) {
         const int count =
-            define_field(file, "site_count", NC_SHORT, size, grid.spec, deflate_level);
+            define_field(file, one.name_of("site_count"), NC_SHORT, size, grid.spec, deflate_level);
         file.text(count, "long_name", "number of sites that see the cell");
         file.text(count, "standard_name", "number_of_observations");
         file.text(count, "units", "1");
@@ -191,8 +238,8 @@ void write_overlap(NetcdfBuilder& file, const Grid& grid, const Dimensions& size
         file.write(count, std::span(cells));
     }
     if (!grid.site_weights.empty()) {
-        const int weight =
-            define_field(file, "site_weight", NC_FLOAT, size, grid.spec, deflate_level);
+        const int weight = define_field(file, one.name_of("site_weight"), NC_FLOAT, size, grid.spec,
+                                        deflate_level);
         file.text(weight, "long_name", "sum of the weights of the sites that see the cell");
         file.text(weight, "units", "1");
         file.text(weight, "comment",
@@ -228,35 +275,45 @@ std::string audit_text(const Grid& grid) {
     return joined(lines, "\n");
 }
 
-void write_provenance(NetcdfBuilder& file, const Grid& grid) {
+// Writes what all grids of the file have in common, and what only a single grid says of the file.
+void write_provenance(NetcdfBuilder& file, std::span<const Grid> grids) {
     constexpr int global = NetcdfBuilder::file;
+    const Grid& grid = grids.front();
+    const bool is_alone = grids.size() == 1;
     const grid::Provenance& from = grid.provenance;
     const std::string stations = joined(from.stations, " ");
     const std::string version = "stormcellar " + from.software_version;
+    std::vector<std::string> moments;
+    std::vector<std::string> methods;
+    for (const Grid& one : grids) {
+        moments.emplace_back(level2::moment_name(one.moment));
+        const std::string& method = one.provenance.method;
+        if (std::ranges::find(methods, method) == methods.end()) methods.push_back(method);
+    }
+    const auto first = std::ranges::min_element(grids, {}, &Grid::start_time);
+    const auto last = std::ranges::max_element(grids, {}, &Grid::end_time);
     file.text(global, "Conventions", "CF-1.8");
-    file.text(global, "title",
-              fmt::format("{} {} gridded, {}", stations, level2::moment_name(grid.moment),
-                          format_utc(grid.time)));
+    file.text(
+        global, "title",
+        fmt::format("{} {} gridded, {}", stations, joined(moments, " "), format_utc(grid.time)));
     file.text(global, "source", "weather radar Level II volumes");
     file.text(global, "history",
-              fmt::format("{}: {} of {}", version, from.method, joined(from.source_files, ", ")));
+              fmt::format("{}: {} of {}", version, joined(methods, ", "),
+                          joined(from.source_files, ", ")));
     file.text(global, "software_version", version);
     file.text(global, "stations", stations);
     write_sites(file, grid);
     file.text(global, "source_files", joined(from.source_files, "\n"));
-    file.text(global, "time_coverage_start", format_utc(grid.start_time));
-    file.text(global, "time_coverage_end", format_utc(grid.end_time));
-    file.text(global, "method", from.method);
-    if (!from.effects.empty()) file.text(global, "effects", from.effects);
-    if (!from.predicted_error.empty()) {
-        file.text(global, "predicted_error", from.predicted_error);
-    }
-    file.text(global, "beam_model", from.beam_model);
-    file.text(global, "averaging", from.averaging);
+    file.text(global, "time_coverage_start", format_utc(first->start_time));
+    file.text(global, "time_coverage_end", format_utc(last->end_time));
+    if (is_alone) write_making(file, global, grid);
     if (from.vcp != 0) file.number(global, "vcp", from.vcp);
-    file.text(global, "volume", from.partial ? "partial" : "complete");
-    if (!from.notes.empty()) file.text(global, "notes", joined(from.notes, "\n"));
-    if (!from.audit.empty()) file.text(global, "audit", audit_text(grid));
+    const bool is_partial =
+        std::ranges::any_of(grids, [](const Grid& one) { return one.provenance.partial; });
+    file.text(global, "volume", is_partial ? "partial" : "complete");
+    const std::vector<std::string> notes = notes_of(grids);
+    if (!notes.empty()) file.text(global, "notes", joined(notes, "\n"));
+    if (is_alone && !from.audit.empty()) file.text(global, "audit", audit_text(grid));
 }
 
 Status check(const Grid& grid, const GridWriteOptions& options) {
@@ -282,31 +339,65 @@ Status check(const Grid& grid, const GridWriteOptions& options) {
     return {};
 }
 
-Result<std::vector<std::byte>> build(const Grid& grid, const GridWriteOptions& options) {
+// Grids that one file can hold share the coordinates of the file.
+Status check_together(std::span<const Grid> grids) {
+    if (grids.empty()) return fail(ErrorCode::bad_argument, "there is no grid to write");
+    const Grid& first = grids.front();
+    for (std::size_t at = 1; at < grids.size(); ++at) {
+        const Grid& grid = grids[at];
+        const std::string_view name = level2::moment_name(grid.moment);
+        if (std::ranges::find(grids.first(at), grid.moment, &Grid::moment) !=
+            grids.first(at).end()) {
+            return fail(ErrorCode::bad_argument, "there are two grids of {}", name);
+        }
+        if (grid.spec != first.spec || grid.time != first.time ||
+            grid.frame_time != first.frame_time) {
+            return fail(ErrorCode::bad_argument,
+                        "the grid of {} has other cells or another time than that of {}", name,
+                        level2::moment_name(first.moment));
+        }
+    }
+    return {};
+}
+
+Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWriteOptions& options) {
     const std::lock_guard lock(library_mutex());
     NetcdfBuilder file;
-    const Dimensions size{file.dimension("time", 1), file.dimension("z", grid.spec.levels_m.size()),
-                          file.dimension("y", static_cast<std::size_t>(grid.spec.ny)),
-                          file.dimension("x", static_cast<std::size_t>(grid.spec.nx))};
-    write_provenance(file, grid);
-    write_axes(file, grid, size);
-    write_mapping(file, grid.spec);
-    write_positions(file, grid.spec, {size.y, size.x}, options.deflate_level);
-    write_field(file, grid, size, options.deflate_level);
-    write_status(file, grid, size, options.deflate_level);
-    write_details(file, grid, size, options.deflate_level);
-    write_overlap(file, grid, size, options.deflate_level);
+    const grid::GridSpec& spec = grids.front().spec;
+    const MapNames names = map_names(spec);
+    const Dimensions size{file.dimension("time", 1), file.dimension("z", spec.levels_m.size()),
+                          file.dimension(names.y, static_cast<std::size_t>(spec.ny)),
+                          file.dimension(names.x, static_cast<std::size_t>(spec.nx))};
+    write_provenance(file, grids);
+    write_axes(file, grids.front(), size);
+    write_mapping(file, spec);
+    write_positions(file, spec, {size.y, size.x}, options.deflate_level);
+    for (const Grid& grid : grids) {
+        const Field field{grid, grids.size() == 1};
+        write_field(file, field, size, options.deflate_level);
+        write_status(file, field, size, options.deflate_level);
+        write_details(file, field, size, options.deflate_level);
+        write_overlap(file, field, size, options.deflate_level);
+    }
     return file.finish();
 }
 
 }  // namespace
 
-Status write_grid(FileSystem& file_system, const std::filesystem::path& path, const Grid& grid,
-                  const GridWriteOptions& options) {
-    if (auto good = check(grid, options); !good) return pass_on(good);
-    const auto bytes = build(grid, options);
+Status write_grids(FileSystem& file_system, const std::filesystem::path& path,
+                   std::span<const Grid> grids, const GridWriteOptions& options) {
+    if (auto good = check_together(grids); !good) return pass_on(good);
+    for (const Grid& grid : grids) {
+        if (auto good = check(grid, options); !good) return pass_on(good);
+    }
+    const auto bytes = build(grids, options);
     if (!bytes) return fail(bytes.error().code, "{}: {}", path.string(), bytes.error().message);
     return write_file_atomically(file_system, path, *bytes);
+}
+
+Status write_grid(FileSystem& file_system, const std::filesystem::path& path, const Grid& grid,
+                  const GridWriteOptions& options) {
+    return write_grids(file_system, path, {&grid, 1}, options);
 }
 
 }  // namespace stormcellar::netcdf

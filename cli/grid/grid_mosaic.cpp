@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "base/name_list.h"
 #include "cli/shared/commands.h"
 #include "grid/place/site_extent.h"
+#include "level2/decode/volume_checks.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -80,7 +82,8 @@ void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& ef
 }
 
 Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const EffectOptions& effects,
-                                         std::size_t files, const GridRequest& request) {
+                                         std::size_t files, const GridRequest& request,
+                                         level2::Moment moment) {
     grid::MosaicOptions mosaic;
     if (files == 1) {
         const std::string_view given = !options.overlap.empty()       ? "--overlap"
@@ -90,8 +93,8 @@ Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const Eff
         if (given.empty()) return mosaic;
         return fail(ErrorCode::bad_argument, "{} needs several FILEs", given);
     }
-    mosaic.moment = request.moment;
-    mosaic.overlap = grid::default_overlap(request.moment);
+    mosaic.moment = moment;
+    mosaic.overlap = grid::default_overlap(moment);
     mosaic.threads = request.threads;
     mosaic.counts = request.site_counts;
     mosaic.weights = request.site_weights;
@@ -120,6 +123,14 @@ std::vector<pipeline::SceneVolume> MosaicSources::scene_volumes() const {
         made.push_back({&source.volume, source.site, files[at], source.partial, source.notes});
     }
     return made;
+}
+
+std::vector<pipeline::SceneVolume> MosaicSources::scene_volumes(level2::Moment moment) const {
+    std::vector<pipeline::SceneVolume> all = scene_volumes();
+    std::vector<pipeline::SceneVolume> holding;
+    std::ranges::copy_if(all, std::back_inserter(holding),
+                         [&](const auto& volume) { return level2::holds(*volume.volume, moment); });
+    return holding.empty() ? all : holding;
 }
 
 std::size_t MosaicSources::site_count() const {
@@ -161,7 +172,7 @@ pipeline::MosaicRequest mosaic_request(const MosaicSources& sources, const GridR
     mosaic.frame.overlap = overlap;
     mosaic.frame.overlap.averaging = effects.averaging;
     mosaic.frame.threads = request.threads;
-    mosaic.partial.gridder.moment = request.moment;
+    mosaic.partial.gridder.moment = overlap.moment;
     mosaic.partial.gridder.threads = request.threads;
     mosaic.partial.gridder.profile = effects.profile;
     mosaic.instant = request.frame_time;

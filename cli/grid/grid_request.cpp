@@ -169,6 +169,36 @@ Result<level2::Moment> parse_moment(const std::string& name) {
                 level2::moment_names(" ", " "), name);
 }
 
+constexpr std::string_view every_moment = "all";
+
+// Reads one moment, or where several are taken a list of them or "all".
+Status parse_moments(const GridOptions& options, GridRequest& request) {
+    const std::string& text = options.moment;
+    request.any_moment = options.takes_moments && text == every_moment;
+    std::vector<level2::Moment> moments;
+    if (request.any_moment) {
+        moments.assign(level2::all_moments.begin(), level2::all_moments.end());
+    } else if (!options.takes_moments) {
+        const auto moment = parse_moment(text);
+        if (!moment) return pass_on(moment);
+        moments = {*moment};
+    } else {
+        for (std::size_t from = 0; from <= text.size();) {
+            const std::size_t to = std::min(text.find(',', from), text.size());
+            const auto moment = parse_moment(text.substr(from, to - from));
+            if (!moment) return pass_on(moment);
+            moments.push_back(*moment);
+            from = to + 1;
+        }
+        std::ranges::sort(moments);
+        const auto twice = std::ranges::unique(moments);
+        moments.erase(twice.begin(), twice.end());
+    }
+    request.moment = moments.front();
+    request.more_moments.assign(moments.begin() + 1, moments.end());
+    return {};
+}
+
 constexpr std::string_view counts_field = "counts";
 constexpr std::string_view weights_field = "weights";
 
@@ -260,6 +290,12 @@ Status size_in_degrees(const GridRequest& request, grid::GridSpec& spec) {
 
 }  // namespace
 
+std::vector<level2::Moment> GridRequest::moments() const {
+    std::vector<level2::Moment> all = {moment};
+    all.insert(all.end(), more_moments.begin(), more_moments.end());
+    return all;
+}
+
 Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options) {
     auto inputs = InputFiles::find(options.files);
     if (!inputs) return pass_on(inputs);
@@ -278,9 +314,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
         if (!levels_m) return pass_on(levels_m);
         request.levels_m = *levels_m;
     }
-    const auto moment = parse_moment(options.moment);
-    if (!moment) return pass_on(moment);
-    request.moment = *moment;
+    if (auto done = parse_moments(options, request); !done) return pass_on(done);
     auto site = parse_site(options.site);
     if (!site) return pass_on(site);
     request.site = std::move(*site);
@@ -316,6 +350,7 @@ Result<grid::GridSpec> spec_about(const GridRequest& request, double center_lati
 }
 
 void add_grid_options(CLI::App& app, GridOptions& options) {
+    options.takes_moments = true;
     app.add_option("FILE", options.files,
                    "The Level II files to grid; several files give a mosaic of their sites and "
                    "times. Tar and zip archives, directories and - for standard input work too")
@@ -370,7 +405,11 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
     add_site_options(app, options.site);
     app.add_option("--moment", options.moment,
-                   fmt::format("The moment to grid: {}", level2::moment_names(", ", " or ")))
+                   fmt::format("The moment to grid: {}{}", level2::moment_names(", ", " or "),
+                               options.takes_moments
+                                   ? "; several, separated by commas, or all that the volume holds "
+                                     "(all) become one file, decoded once, with a variable each"
+                                   : ""))
         ->capture_default_str();
     app.add_option("--threads", options.threads,
                    options.threads == 0

@@ -32,13 +32,15 @@ struct GridOptions {
     std::optional<double> spacing_km, spacing_deg;
     std::string levels_km;
     std::string moment{level2::moment_name(level2::Moment::ref)};
+    bool takes_moments = false;  // --moment may name several, or all
     std::string time, fields;
     SiteOptions site;
     int threads = 0;  // 0: as many as the machine has
     bool json = false;
 };
 
-// Adds FILE, --output, --time, --fields and the options of add_spec_options().
+// Adds FILE, --output, --time, --fields and the options of add_spec_options(); --moment may then
+// name several moments.
 void add_grid_options(CLI::App& app, GridOptions& options);
 // Adds the options for the place of the grid, and its cells and levels.
 void add_place_options(CLI::App& app, GridOptions& options);
@@ -59,6 +61,8 @@ struct GridRequest {
     SizeUnit spacing_unit = SizeUnit::km;  // degrees are only for latitude_longitude
     std::vector<double> levels_m;          // empty: those of grid::default_spec()
     level2::Moment moment = level2::Moment::ref;
+    std::vector<level2::Moment> more_moments;  // beside it, in the order of the list of moments
+    bool any_moment = false;            // --moment all: a moment that no volume holds is left out
     std::optional<UtcTime> frame_time;  // the sweeps nearest to this time are then used
     grid::DetailSet details;            // of one file
     bool site_counts = false;           // of several files
@@ -67,6 +71,9 @@ struct GridRequest {
     // The files that the names refer to; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;
     int threads = 1;
+
+    // Returns all moments to be gridded.
+    [[nodiscard]] std::vector<level2::Moment> moments() const;
 };
 
 // Returns the files that were named, with archives and directories replaced by the files in them.

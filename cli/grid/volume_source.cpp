@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/ranges.h>
+
 #include "base/steady_time.h"
 #include "cli/shared/problem_notes.h"
 #include "level2/decode/volume_checks.h"
@@ -13,9 +15,9 @@
 namespace stormcellar::cli {
 namespace {
 
-bool holds(const level2::Volume& volume, level2::Moment moment) {
-    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
-                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
+bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& moments) {
+    return std::ranges::any_of(
+        moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
 }
 
 Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& file,
@@ -23,7 +25,7 @@ Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& fil
     Stopwatch watch;
     level2::DecodeOptions options;
     options.threads = request.threads;
-    options.selection.moments = {request.moment};
+    options.selection.moments = request.moments();
     options.fallback_station = station_in_name(file.file_name());
     std::error_code ignored;
     if (file.member.empty() && std::filesystem::is_directory(file.path, ignored)) {
@@ -42,13 +44,14 @@ Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& fil
     return decoded;
 }
 
-// Takes the first volume of a file that holds the moment. If the file has several volumes, a note
-// says so.
-level2::Volume take_volume(level2::Decoded decoded, level2::Moment moment, SourceVolume& source) {
+// Takes the first volume of a file that holds one of the moments. If the file has several volumes,
+// a note says so.
+level2::Volume take_volume(level2::Decoded decoded, const std::vector<level2::Moment>& moments,
+                           SourceVolume& source) {
     const bool damaged = decoded.report.damaged;
     std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     const auto found = std::find_if(volumes.begin(), volumes.end(),
-                                    [&](const auto& volume) { return holds(volume, moment); });
+                                    [&](const auto& volume) { return holds_any(volume, moments); });
     const std::size_t index =
         found == volumes.end() ? 0 : static_cast<std::size_t>(found - volumes.begin());
     if (volumes.size() > 1) {
@@ -77,10 +80,16 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     auto decoded = read_and_decode(*inputs, *named, request, source);
     if (!decoded) return pass_on(decoded);
     source.partial = !decoded->report.complete;
+    std::vector<std::string> troubles;
+    if (decoded->report.rda_status) troubles = level2::rda_troubles(*decoded->report.rda_status);
     source.notes = notes_of(decoded->report);
-    source.volume = take_volume(std::move(*decoded), request.moment, source);
+    source.volume = take_volume(std::move(*decoded), request.moments(), source);
     if (Status applied = apply_site(request.site, source.volume); !applied) {
         return fail(applied.error().code, "{}: {}", file, applied.error().message);
+    }
+    if (!troubles.empty()) {
+        source.radar_troubles = {
+            fmt::format("{}: {}", source.volume.station, fmt::join(troubles, ", "))};
     }
     const auto antenna = level2::antenna_position(source.volume);
     if (!antenna) {

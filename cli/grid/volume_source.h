@@ -16,10 +16,12 @@ struct SourceVolume {
     grid::SitePosition site;
     bool partial = false;
     std::vector<std::string> notes;  // what readers of the result should know
+    // What the radar reported to be wrong, as grids store it: "KTLX: standby, ...".
+    std::vector<std::string> radar_troubles = {};
     double read_s = 0, decode_s = 0;
 };
 
-// Returns the first volume of the file that holds the requested moment, with that moment alone.
+// Returns the first volume of the file that holds one of the requested moments, with these alone.
 // Errors name the file: those of reading and decoding, and of apply_site(); not_found if the
 // position of the radar is not known.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request);

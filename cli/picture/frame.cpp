@@ -1,7 +1,10 @@
-// stormcellar frame: draws one still picture of a grid in the cache.
+// stormcellar frame: draws one still picture, of files or of a grid in the cache.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
@@ -11,6 +14,7 @@
 #include "base/steady_time.h"
 #include "cli/picture/fitted_view.h"
 #include "cli/picture/picture.h"
+#include "cli/picture/picture_grid.h"
 #include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/scene_file.h"
@@ -18,6 +22,8 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/output_file.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/service_places.h"
+#include "cli/shared/source_names.h"
 #include "render/frame/probe.h"
 #include "render/products/section.h"
 #include "stormcellar/base/file_system.h"
@@ -30,8 +36,10 @@ namespace stormcellar::cli {
 namespace {
 
 struct FrameOptions {
-    std::string cache;
+    std::vector<std::string> sources;  // files, or a domain
     std::string domain;
+    PlaceOption cache;
+    GridOptions grid;      // of files
     std::string time;      // empty: the latest
     std::string output;    // empty: nothing is drawn, only probed
     std::string probe;     // "X,Y"
@@ -140,7 +148,7 @@ void report_frame(const FrameOptions& options, const render::Scene& scene,
 }
 
 Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
-                              const cache::GridFile& file) {
+                              const PictureGrid& file) {
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
     const int threads = thread_count(options.scene);
     const auto as_maybe = [](Result<render::Probe> probe) -> Result<MaybeProbe> {
@@ -175,7 +183,7 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
 }
 
 Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scene,
-                          const cache::GridFile& file, SteadyTime start) {
+                          const PictureGrid& file, SteadyTime start) {
     Timing timing;
     timing.read_s = seconds_since(start);
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
@@ -215,6 +223,77 @@ Status check_options(const FrameOptions& options) {
     return check_output_file(options.output, {".png"}, "a frame is written as PNG", options.json);
 }
 
+// Says which domain is meant where none is named: the only one of the cache.
+Status take_only_domain(const cache::StoreReader& store, std::string& domain) {
+    const auto domains = store.domains();
+    if (!domains) return pass_on(domains);
+    if (domains->size() == 1) {
+        domain = domains->front();
+        return {};
+    }
+    if (domains->empty()) {
+        return fail(ErrorCode::not_found, "{}: the cache is empty", store.directory().native());
+    }
+    return fail(ErrorCode::bad_argument,
+                "name a domain of the cache, or a file: the domains are {}",
+                fmt::join(*domains, ", "));
+}
+
+// Returns none, after it was reported, if no grid matched.
+Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+    if (has_picture_grid_options(options.grid)) {
+        return fail(ErrorCode::bad_argument,
+                    "options of the grid, such as --center, are for files; the grids of the cache "
+                    "are made already");
+    }
+    if (Status found = options.cache.find(); !found) {
+        if (options.sources.empty()) return pass_on(found);
+        return fail(ErrorCode::bad_argument,
+                    "'{}' names no file here, and there is no cache to look for such a domain; {}",
+                    options.domain, found.error().message);
+    }
+    const auto store = cache::StoreReader::open(options.cache.directory);
+    if (!store) return pass_on(store);
+    if (options.domain.empty()) {
+        if (Status taken = take_only_domain(*store, options.domain); !taken) return pass_on(taken);
+    }
+    const auto entry = find_grid(*store, options, moment);
+    if (!entry) return pass_on(entry);
+    if (!*entry) {
+        report_nothing(*store, options, moment);
+        return std::optional<PictureGrid>{};
+    }
+    auto grid = PictureGrid::open((*entry)->path);
+    if (!grid) return pass_on(grid);
+    return std::optional{std::move(*grid)};
+}
+
+Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options) {
+    options.grid.moment = options.scene.moment;
+    options.grid.threads = thread_count(options.scene);
+    options.grid.time = options.time;
+    auto grid = PictureGrid::make(options.grid);
+    if (!grid) return pass_on(grid);
+    options.domain = grid->name();
+    return std::optional{std::move(*grid)};
+}
+
+// Sorts the words of the command line into files and a domain.
+Status take_sources(FrameOptions& options) {
+    const auto is_domain = [&](const std::string& word) {
+        PlaceOption cache = options.cache;
+        if (!cache.find()) return false;
+        const auto store = cache::StoreReader::open(cache.directory);
+        const auto domains = store ? store->domains() : Result<std::vector<std::string>>{};
+        return domains && std::ranges::find(*domains, word) != domains->end();
+    };
+    auto names = tell_apart(options.sources, options.domain, is_domain);
+    if (!names) return pass_on(names);
+    options.grid.files = std::move(names->files);
+    options.domain = std::move(names->domain);
+    return {};
+}
+
 int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
@@ -224,27 +303,25 @@ int run_frame(FrameOptions options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
     options.plan = std::move(*plan);
-    const auto store = cache::StoreReader::open(options.cache);
-    if (!store) return report_error(store.error());
-    const auto entry = find_grid(*store, options, scene->moment);
-    if (!entry) return report_error(entry.error());
-    if (!*entry) return report_nothing(*store, options, scene->moment);
-    const auto file = cache::GridFile::open((*entry)->path);
-    if (!file) return report_error(file.error());
-    const auto facts = facts_of(options.domain, file->description(), options.scene.time_zone);
-    const render::EchoOutline outline(file->view(), scene->moment);
-    const auto fitted = fit_picture(outline, file->view(), facts, options.scene, *scene);
+    if (const Status taken = take_sources(options); !taken) return report_error(taken.error());
+    const auto grid =
+        options.grid.files.empty() ? stored_grid(options, scene->moment) : grid_of_files(options);
+    if (!grid) return report_error(grid.error());
+    if (!*grid) return exit_nothing_matched;
+    const auto facts = facts_of(options.domain, (*grid)->description(), options.scene.time_zone);
+    const render::EchoOutline outline((*grid)->view(), scene->moment);
+    const auto fitted = fit_picture(outline, (*grid)->view(), facts, options.scene, *scene);
     if (!fitted) return report_error(fitted.error());
-    const auto probe = probe_grid(options, *scene, *file);
+    const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
-    if (const Status whole = file->check_whole(); !whole) return report_error(whole.error());
+    if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
     Timing timing{seconds_since(start), 0, 0, seconds_since(start)};
     if (!options.output.empty()) {
-        const auto drawn = make_frame(options, *scene, *file, start);
+        const auto drawn = make_frame(options, *scene, **grid, start);
         if (!drawn) return report_error(drawn.error());
         timing = *drawn;
     }
-    report_frame(options, *scene, file->description(), timing, *probe);
+    report_frame(options, *scene, (*grid)->description(), timing, *probe);
     return exit_done;
 }
 
@@ -253,14 +330,21 @@ int run_frame(FrameOptions options) {
 Run set_up_frame(CLI::App& frame) {
     const auto options = std::make_shared<FrameOptions>();
     add_scene_file(frame, options->scene_file, options->scene, options->plan, nullptr);
-    frame.add_option("--cache", options->cache, "Directory of the cache")->required();
     frame
-        .add_option("DOMAIN,--domain", options->domain,
-                    "Domain of the grid; a station's own domain is its ICAO identifier")
-        ->required();
+        .add_option("FILE", options->sources,
+                    "Level II files to draw, or a domain of the cache. Several files give a mosaic "
+                    "of their sites. Tar and zip archives, directories and - for standard input "
+                    "work too. A word with a slash, or one that names a file, is a file; every "
+                    "other word is a domain")
+        ->option_text("FILE...|DOMAIN");
+    frame.add_option("--domain", options->domain,
+                     "Domain of the cache; a station's own domain is its ICAO identifier. Default: "
+                     "the only one");
+    add_place(frame, options->cache);
     frame.add_option("--time", options->time,
-                     "Draw the newest grid at or before this time, in UTC or relative as -1h. "
-                     "Default: the latest grid");
+                     "Of a domain, draw the newest grid at or before this time, in UTC or relative "
+                     "as -1h. Default: the latest grid. Of files, the time of the grid, as for "
+                     "stormcellar grid");
     frame.add_option("-o,--output", options->output,
                      "The picture to write (.png), or - for standard output. It may be left out "
                      "with --probe and --probe-at");
@@ -272,6 +356,7 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);
+    add_picture_grid_options(frame, options->grid);
     return [options] { return run_frame(*options); };
 }
 

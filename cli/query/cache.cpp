@@ -9,6 +9,7 @@
 #include "cli/query/cache_change.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/service_places.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/audit_row.h"
 
@@ -19,7 +20,7 @@ using cache::StoreEntry;
 using cache::StoreReader;
 
 struct CacheOptions {
-    std::string directory;
+    PlaceOption cache;
     std::string domain;
     TimeRangeOptions times;
     bool json = false;
@@ -29,7 +30,7 @@ struct CacheOptions {
 Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
-    const auto store = StoreReader::open(options.directory);
+    const auto store = StoreReader::open(options.cache.directory);
     if (!store) return pass_on(store);
     auto domains = store->domains();
     if (!domains) return pass_on(domains);
@@ -198,7 +199,7 @@ Run set_up_cache(CLI::App& command) {
     CLI::App* stat = command.add_subcommand("stat", "Show the totals of each domain");
     CLI::App* verify = command.add_subcommand("verify", "Read every grid and verify it");
     for (CLI::App* one : {list, stat, verify}) {
-        one->add_option("--cache", options->directory, "Directory of the cache")->required();
+        add_place(*one, options->cache);
         one->add_option("--domain", options->domain, "Name of one domain. Default: all domains");
         add_time_range(*one, options->times);
         one->add_flag("--json", options->json, "Print one JSON document");
@@ -208,6 +209,7 @@ Run set_up_cache(CLI::App& command) {
         for (const Command& change : changes) {
             if (change.app->parsed()) return change.run();
         }
+        if (Status found = options->cache.find(); !found) return report_error(found.error());
         const auto entries = matching(*options);
         if (!entries) return report_error(entries.error());
         const int status = stat->parsed()     ? run_stat(*options, *entries)

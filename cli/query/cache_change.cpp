@@ -11,6 +11,7 @@
 #include "cache/evict.h"
 #include "cache/pins.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/service_places.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -19,7 +20,8 @@ using cache::StoreEntry;
 using cache::StoreReader;
 
 struct EvictOptions {
-    std::string directory, domain;
+    PlaceOption cache;
+    std::string domain;
     std::string to, bytes;
     std::optional<double> older_than_h;
     bool dry_run = false, json = false;
@@ -88,7 +90,7 @@ void print_evicted(const EvictOptions& options, const cache::EvictionPlan& plan,
 int run_evict(const EvictOptions& options) {
     const auto order = order_of(options);
     if (!order) return report_error(order.error());
-    const auto store = StoreReader::open(options.directory);
+    const auto store = StoreReader::open(options.cache.directory);
     if (!store) return report_error(store.error());
     const auto plan = cache::plan_eviction(*store, *order, now_utc());
     if (!plan) return report_error(plan.error());
@@ -109,7 +111,8 @@ int run_evict(const EvictOptions& options) {
 }
 
 struct PinOptions {
-    std::string directory, domain;
+    PlaceOption cache;
+    std::string domain;
     TimeRangeOptions times;
     bool json = false;
 };
@@ -118,7 +121,7 @@ struct PinOptions {
 int run_pin(const PinOptions& options, bool pin) {
     const auto range = parse_time_range(options.times);
     if (!range) return report_error(range.error());
-    const auto store = StoreReader::open(options.directory);
+    const auto store = StoreReader::open(options.cache.directory);
     if (!store) return report_error(store.error());
     nlohmann::json changed = nlohmann::json::array();
     for (const level2::Moment moment : level2::all_moments) {
@@ -144,7 +147,7 @@ Command add_evict(CLI::App& cache) {
     CLI::App* evict = cache.add_subcommand(
         "evict", "Remove the oldest grids, even while a daemon runs; pinned grids stay");
     const auto options = std::make_shared<EvictOptions>();
-    evict->add_option("--cache", options->directory, "Directory of the cache")->required();
+    add_place(*evict, options->cache);
     evict->add_option("--domain", options->domain,
                       "Name of one domain, whose partials are included. Default: all domains");
     evict->add_option("--to", options->to,
@@ -159,7 +162,11 @@ Command add_evict(CLI::App& cache) {
                       "of their domain");
     evict->add_flag("--dry-run", options->dry_run, "Only print what would be removed");
     evict->add_flag("--json", options->json, "Print one JSON document");
-    return {evict, [=] { return run_evict(*options); }};
+    return {evict, [=] {
+                if (Status found = options->cache.find(); !found)
+                    return report_error(found.error());
+                return run_evict(*options);
+            }};
 }
 
 Command add_pin(CLI::App& cache, bool pin) {
@@ -167,11 +174,15 @@ Command add_pin(CLI::App& cache, bool pin) {
         pin ? cache.add_subcommand("pin", "Pin grids, so that they stay until they are unpinned")
             : cache.add_subcommand("unpin", "Unpin grids, so that they may be removed again");
     const auto options = std::make_shared<PinOptions>();
-    command->add_option("--cache", options->directory, "Directory of the cache")->required();
+    add_place(*command, options->cache);
     command->add_option("--domain", options->domain, "Domain of the grids")->required();
     add_time_range(*command, options->times);
     command->add_flag("--json", options->json, "Print one JSON document");
-    return {command, [=] { return run_pin(*options, pin); }};
+    return {command, [=] {
+                if (Status found = options->cache.find(); !found)
+                    return report_error(found.error());
+                return run_pin(*options, pin);
+            }};
 }
 
 }  // namespace

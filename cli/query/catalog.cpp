@@ -11,6 +11,7 @@
 #include "cli/query/catalog_get.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/service_places.h"
 #include "stormcellar/level2/chunk_name.h"
 
 namespace stormcellar::cli {
@@ -21,7 +22,7 @@ using catalog::CatalogEntry;
 using catalog::CatalogReader;
 
 struct CatalogOptions {
-    std::string directory;
+    PlaceOption place{Directory::catalog, {}, {}};
     std::string drop;
     std::string station;
     TimeRangeOptions times;
@@ -91,7 +92,7 @@ int report_troubles(const CatalogReader& catalog, int status) {
 }
 
 int run_stations(const CatalogOptions& options) {
-    auto opened = CatalogReader::open(options.directory);
+    auto opened = CatalogReader::open(options.place.directory);
     if (!opened) return report_error(opened.error());
     const auto stations = opened->stations();
     if (!stations) return report_error(stations.error());
@@ -150,12 +151,13 @@ Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
 // For a station that the catalog does not know, nothing matched; a missing catalog is a failure.
 int report_query_error(const Error& error, const CatalogOptions& options) {
     const int status = report_error(error);
-    const bool unknown = error.code == ErrorCode::not_found && fs::is_directory(options.directory);
+    const bool unknown =
+        error.code == ErrorCode::not_found && fs::is_directory(options.place.directory);
     return unknown ? exit_nothing_matched : status;
 }
 
 int run_list(const CatalogOptions& options) {
-    auto opened = CatalogReader::open(options.directory);
+    auto opened = CatalogReader::open(options.place.directory);
     if (!opened) return report_query_error(opened.error(), options);
     const auto entries = matching(options, *opened);
     if (!entries) return report_query_error(entries.error(), options);
@@ -167,7 +169,7 @@ int run_list(const CatalogOptions& options) {
 }
 
 int run_one(const CatalogOptions& options, bool latest) {
-    auto opened = CatalogReader::open(options.directory);
+    auto opened = CatalogReader::open(options.place.directory);
     if (!opened) return report_error(opened.error());
     const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
     if (!entry) return report_query_error(entry.error(), options);
@@ -187,7 +189,7 @@ int run_one(const CatalogOptions& options, bool latest) {
 }
 
 int run_get(const CatalogOptions& options) {
-    auto opened = CatalogReader::open(options.directory);
+    auto opened = CatalogReader::open(options.place.directory);
     if (!opened) return report_query_error(opened.error(), options);
     const auto entries = matching(options, *opened);
     if (!entries) return report_query_error(entries.error(), options);
@@ -195,11 +197,21 @@ int run_get(const CatalogOptions& options) {
     return get_files(*opened, *entries, options.get);
 }
 
+// Looks the drop directory up if it was not typed.
+Status find_drop(CatalogOptions& options) {
+    if (!options.drop.empty()) return {};
+    const auto places = service_places(options.place.config);
+    if (!places) return pass_on(places);
+    if (*places) options.drop = (*places)->drop.native();
+    if (!options.drop.empty()) return {};
+    return fail(ErrorCode::bad_argument,
+                "say which directory the raw files are in: --drop DIRECTORY, or --config FILE");
+}
+
 CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string& name,
                     const std::string& about) {
     CLI::App* app = parent.add_subcommand(name, about);
-    app->add_option("--catalog", options.directory, "Directory of the catalog (state/catalog)")
-        ->required();
+    add_place(*app, options.place);
     return app;
 }
 
@@ -244,19 +256,22 @@ Run set_up_catalog(CLI::App& command) {
                         "any, or a list such as known,XABC");
     check->add_flag("--clear-unknown", options->clear_unknown,
                     "First remove the databases of all other stations (only while no daemon runs)");
-    rebuild
-        ->add_option("--drop", options->drop,
-                     "The drop directory, into which LDM writes the raw files")
-        ->required();
+    rebuild->add_option("--drop", options->drop,
+                        "The drop directory, into which LDM writes the raw files. Default: that of "
+                        "the service");
     for (CLI::App* one : {stations, list, latest, oldest, check, rebuild})
         one->add_flag("--json", options->json, "Print one JSON document");
 
     return [=] {
+        if (Status found = options->place.find(); !found) return report_error(found.error());
         if (stations->parsed()) return run_stations(*options);
         if (list->parsed()) return run_list(*options);
         if (get->parsed()) return run_get(*options);
-        const CareOptions care{options->directory, options->drop,          options->station,
-                               options->stations,  options->clear_unknown, options->json};
+        if (rebuild->parsed()) {
+            if (Status found = find_drop(*options); !found) return report_error(found.error());
+        }
+        const CareOptions care{options->place.directory, options->drop,          options->station,
+                               options->stations,        options->clear_unknown, options->json};
         if (check->parsed()) return check_catalog(care);
         if (rebuild->parsed()) return rebuild_catalog(care);
         return run_one(*options, latest->parsed());

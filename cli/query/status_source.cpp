@@ -19,7 +19,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "base/toml_file.h"
+#include "cli/shared/service_places.h"
 #include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/file_system.h"
 
@@ -32,7 +32,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds longest_wait{5};
 constexpr std::size_t most_bytes = std::size_t{16} << 20;
 constexpr const char* usual_runtime = "/run/stormcellar";
-constexpr const char* usual_state = "/var/lib/stormcellar";
 constexpr const char* socket_name = "status.sock";
 constexpr const char* file_name = "status.json";
 constexpr const char* loops_file_name = "loops/status.json";
@@ -144,24 +143,17 @@ void add_named_socket(StatusPlaces& places) {
         places.sockets.push_back(named);
 }
 
-Result<StatusPlaces> places_of_config(const fs::path& file) {
-    auto toml = TomlFile::open(file);
-    if (!toml) return pass_on(toml);
-    TomlTable root = toml->root();
-    const fs::path directory = fs::absolute(file).parent_path();
-    const auto path_of = [&](TomlTable table, const char* key) -> std::optional<fs::path> {
-        const auto text = table.text(key);
-        if (!text || text->empty()) return std::nullopt;
-        return (directory / *text).lexically_normal();
-    };
-    const fs::path state = path_of(root.section("paths"), "state").value_or(usual_state);
-    const auto socket = path_of(root.section("status"), "socket");
-    StatusPlaces places{{}, state / file_name, state / loops_file_name};
-    if (socket) {
-        places.sockets = {*socket};
+StatusPlaces places_in(const ServicePlaces& service) {
+    StatusPlaces places{{}, service.state / file_name, service.state / loops_file_name};
+    if (service.socket) {
+        places.sockets = {*service.socket};
         return places;
     }
-    places.sockets = {state / socket_name};
+    places.sockets = {service.state / socket_name};
+    // The runtime directory of a service is that of systemd, where its state is the usual one.
+    if (service.state == usual_state) {
+        places.sockets.insert(places.sockets.begin(), fs::path{usual_runtime} / socket_name);
+    }
     add_named_socket(places);
     return places;
 }
@@ -170,7 +162,11 @@ Result<StatusPlaces> places_of_config(const fs::path& file) {
 
 Result<StatusPlaces> places_of(const StatusOptions& options) {
     if (!options.socket.empty()) return StatusPlaces{{options.socket}, {}, {}};
-    if (!options.config.empty()) return places_of_config(options.config);
+    if (options.state.empty()) {
+        const auto service = service_places(options.config);
+        if (!service) return pass_on(service);
+        if (*service) return places_in(**service);
+    }
     StatusPlaces places;
     const fs::path state = options.state.empty() ? usual_state : options.state;
     if (options.state.empty()) places.sockets.push_back(fs::path{usual_runtime} / socket_name);

@@ -255,6 +255,11 @@ bool is_complete(const Volume& volume) {
     return is_complete(volume.sweeps);
 }
 
+bool holds(const Volume& volume, Moment moment) {
+    return std::ranges::any_of(volume.sweeps,
+                               [&](const Sweep& sweep) { return sweep.find(moment) != nullptr; });
+}
+
 std::vector<VolumePart> volumes_in(const Decoded& decoded) {
     const std::vector<Sweep>& sweeps = decoded.volume.sweeps;
     std::vector<std::size_t> starts = {0};

@@ -40,6 +40,9 @@ struct VolumeFacts {
 [[nodiscard]] bool is_complete(const Volume& volume);
 [[nodiscard]] bool is_complete(std::span<const Sweep> sweeps);
 
+// Returns true if a sweep of the volume has the moment.
+[[nodiscard]] bool holds(const Volume& volume, Moment moment);
+
 // One of the volumes that a file holds.
 struct VolumePart {
     std::size_t first_sweep = 0;

@@ -19,11 +19,6 @@ using catalog::FileState;
 // them are gridded in one job.
 constexpr std::size_t most_volumes = 64;
 
-bool has_moment(const level2::Volume& volume, level2::Moment moment) {
-    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
-                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
-}
-
 // The row and the log name the station, because the row is among those of no known station.
 std::string of_other_station(const std::string& station, const std::string& reason) {
     const std::string text =
@@ -157,7 +152,7 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
         (void)SiteGrids::has_place(volume, outcome_);
         return {};
     }
-    if (!has_moment(volume, context_.options.moment)) return {};
+    if (!level2::holds(volume, context_.options.moment)) return {};
     const GridSource source{facts_.path.filename().string(), believed_ns(facts_.modified_ns),
                             is_partial(volume), troubles_of(volume.station)};
     return context_.site_grids->keep(volume, source,

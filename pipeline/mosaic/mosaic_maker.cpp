@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "grid/plan/grid_effects.h"
+#include "level2/decode/volume_checks.h"
 #include "pipeline/keep/keep_rule.h"
 #include "pipeline/keep/site_grids.h"
 #include "pipeline/mosaic/mapped_partials.h"
@@ -18,11 +19,6 @@ namespace {
 constexpr std::size_t kept_geometries = 16;
 // A site's grid of a domain of 1000 km at 1 km takes 3 to 10 MiB.
 constexpr std::size_t kept_instants_bytes = std::size_t{192} << 20U;
-
-bool has_moment(const level2::Volume& volume, level2::Moment moment) {
-    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
-                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
-}
 
 std::string site_domain(const std::string& domain, const std::string& icao) {
     return domain + "." + icao;
@@ -99,7 +95,7 @@ Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     for (const Domain& domain : domains_) {
         if (!domain.takes(source.site.icao)) continue;
         for (const level2::Moment moment : domain.moments) {
-            if (!has_moment(source.volume, moment)) continue;
+            if (!level2::holds(source.volume, moment)) continue;
             const Status done = keep(domain, moment, source, threads, kept);
             if (done) continue;
             if (may_pass(done.error())) {

@@ -70,9 +70,9 @@ grid::Grid dense_grid_of(const MosaicFrame& frame) {
 }
 
 Result<MosaicFrame> frame_plainly(const std::vector<SceneVolume>& volumes,
-                                  const MosaicRequest& request, MosaicOfVolumes& made) {
+                                  const MosaicRequest& request, GeometryCache& geometries,
+                                  MosaicOfVolumes& made) {
     Stopwatch watch;
-    GeometryCache geometries(mosaic_geometries);
     const auto partials = grid_volumes(volumes, request, geometries);
     if (!partials) return pass_on(partials);
     made.grid_s = watch.lap_s();
@@ -134,6 +134,12 @@ Result<MosaicScene> scene_of(const std::vector<SceneVolume>& volumes,
 
 Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                     const MosaicRequest& request) {
+    GeometryCache geometries(mosaic_geometries);
+    return make_mosaic(volumes, request, geometries);
+}
+
+Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
+                                    const MosaicRequest& request, GeometryCache& geometries) {
     MosaicOfVolumes made;
     std::optional<MosaicFrame> frame;
     if (request.is_planned) {
@@ -141,7 +147,7 @@ Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
         if (!planned) return pass_on(planned);
         frame = std::move(*planned);
     } else {
-        auto plain = frame_plainly(volumes, request, made);
+        auto plain = frame_plainly(volumes, request, geometries, made);
         if (!plain) return pass_on(plain);
         frame = std::move(*plain);
     }

@@ -39,6 +39,10 @@ struct MosaicOfVolumes {
 // make_partials(), make_frame() and plan_mosaic().
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request);
+// Does the same with geometries that several calls share; a plan measures with its own.
+[[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
+                                                  const MosaicRequest& request,
+                                                  GeometryCache& geometries);
 
 // Returns one partial for each volume. The chain's settings decide how it is gridded, the defaults
 // decide the rest. Errors: those of make_partials().

@@ -8,6 +8,7 @@
 
 #include "base/floating_point.h"
 #include "render/animation/animation_format.h"
+#include "render/image/xmp.h"
 
 namespace stormcellar::render {
 namespace {
@@ -216,19 +217,11 @@ std::int64_t frame_duration(const AnimationOptions& options, std::size_t index, 
 }
 
 std::string metadata_text(const AnimationOptions& options) {
-    std::string text;
-    for (const auto& [keyword, value] : options.metadata) {
-        if (!text.empty()) text += '\n';
-        text += fmt::format("{}: {}", keyword, value);
-    }
-    return text;
+    return text_of(options.metadata);
 }
 
 std::string metadata_title(const AnimationOptions& options) {
-    for (const auto& [keyword, value] : options.metadata) {
-        if (keyword == "Title") return value;
-    }
-    return {};
+    return title_of(options.metadata);
 }
 
 }  // namespace stormcellar::render

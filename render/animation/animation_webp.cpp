@@ -9,6 +9,7 @@
 #include <webp/mux.h>
 
 #include "render/animation/animation_format.h"
+#include "render/image/xmp.h"
 
 namespace stormcellar::render {
 namespace {
@@ -38,49 +39,6 @@ struct Picture {
     Picture& operator=(const Picture&) = delete;
     ~Picture() { WebPPictureFree(&picture); }
 };
-
-std::string xml_escaped(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '>':
-                escaped += "&gt;";
-                break;
-            default:
-                // XML 1.0 allows no other control characters.
-                escaped += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-        }
-    }
-    return escaped;
-}
-
-// Makes an XMP packet. Source: ISO 16684-1 (XMP), with Dublin Core properties as language
-// alternatives.
-std::string xmp_packet(const AnimationOptions& options) {
-    const auto property = [](const char* name, const std::string& text) {
-        return fmt::format(
-            "<dc:{0}><rdf:Alt><rdf:li xml:lang=\"x-default\">{1}</rdf:li></rdf:Alt>"
-            "</dc:{0}>",
-            name, xml_escaped(text));
-    };
-    std::string properties;
-    if (const std::string title = metadata_title(options); !title.empty()) {
-        properties += property("title", title);
-    }
-    properties += property("description", metadata_text(options));
-    return fmt::format(
-        "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">"
-        "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
-        "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\">"
-        "{}</rdf:Description></rdf:RDF></x:xmpmeta>",
-        properties);
-}
 
 class WebpEncoder final : public FrameEncoder {
   public:
@@ -152,7 +110,7 @@ class WebpEncoder final : public FrameEncoder {
     Result<std::vector<std::byte>> with_metadata(const WebPData& assembled) const {
         if (options_.metadata.empty()) return bytes_of(assembled);
         const std::unique_ptr<WebPMux, MuxDeleter> mux(WebPMuxCreate(&assembled, 0));
-        const std::string packet = xmp_packet(options_);
+        const std::string packet = xmp_packet(options_.metadata);
         const WebPData xmp{reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size()};
         Data whole;
         if (!mux || WebPMuxSetChunk(mux.get(), "XMP ", &xmp, 0) != WEBP_MUX_OK ||

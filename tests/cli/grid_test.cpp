@@ -155,6 +155,39 @@ TEST_F(GridTest, ReportsFactsAndTimings) {
     EXPECT_TRUE(std::filesystem::exists(file("out.nc")));
 }
 
+TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
+    STORMCELLAR_NEED_DATA();
+    const auto moments_of = [&](const std::vector<std::string>& arguments) {
+        std::vector<std::string> all = {"-o", file("out.nc"), "--json", "--extent-km", "60,60"};
+        all.insert(all.begin(), arguments.begin(), arguments.end());
+        const ProgramResult ran = grid(all);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        const auto json = nlohmann::json::parse(ran.out);
+        std::vector<std::string> names;
+        for (const auto& one : json["moments"])
+            names.push_back(one["moment"]);
+        return names;
+    };
+    using Names = std::vector<std::string>;
+    const std::string of_1999 = volume("KTLX19990503_235621.gz");
+    EXPECT_EQ(moments_of({of_1999, "--moment", "all"}), (Names{"REF", "VEL", "SW"}));
+    EXPECT_EQ(moments_of({of_1999, "--moment", "VEL,REF,VEL"}), (Names{"REF", "VEL"}));
+    const std::string of_2022 = volume("KLOT20220317_000842_V06");
+    EXPECT_EQ(moments_of({of_2022, "--moment", "all"}),
+              (Names{"REF", "VEL", "SW", "ZDR", "PHI", "RHO", "CFP"}));
+    // Of several files one instant serves every moment, though their sweeps are of other times.
+    EXPECT_EQ(moments_of({of_1999, volume("KTLX19990503_235621.gz"), "--moment", "REF,VEL"}),
+              (Names{"REF", "VEL"}));
+    const ProgramResult missing = grid({of_1999, "-o", file("no.nc"), "--moment", "REF,RHO"});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.err.find("has no sweep with RHO"), std::string::npos) << missing.err;
+    EXPECT_FALSE(std::filesystem::exists(file("no.nc")));
+    std::filesystem::remove(file("out.nc"));
+    expect_usage({of_1999, "--moment", "REF,ALL"}, "--moment takes one of");
+    expect_usage({of_1999, "--moment", "REF,"}, "--moment takes one of");
+    expect_usage({of_1999, "--moment", "REF,VEL", "--tolerance", "0.5 dB"}, "VEL is in");
+}
+
 TEST_F(GridTest, AFrameTimeChoosesSweepsAndIsNamed) {
     STORMCELLAR_NEED_DATA();
     const std::vector<std::string> common = {

@@ -92,17 +92,23 @@ def check_lambert(data, mapping, facts):
 
 
 def check_degrees(data, facts):
-    assert "lat" not in data.variables and "coordinates" not in data["REF"].ncattrs()
+    assert not {"x", "y"} & set(data.variables) and "coordinates" not in data["REF"].ncattrs()
     for name, count, center, units, standard in (
-            ("y", facts["ny"], facts["center"][0], "degrees_north", "latitude"),
-            ("x", facts["nx"], facts["center"][1], "degrees_east", "longitude")):
+            ("lat", facts["ny"], facts["center"][0], "degrees_north", "latitude"),
+            ("lon", facts["nx"], facts["center"][1], "degrees_east", "longitude")):
+        assert data[name].dimensions == (name,)
         assert data[name].units == units and data[name].standard_name == standard
         expected = center + (np.arange(count) - (count - 1) / 2) * facts["spacing_deg"]
         assert np.abs(data[name][:] - expected).max() < 1e-10
 
 
+def axes(in_degrees):
+    return ("lat", "lon") if in_degrees else ("y", "x")
+
+
 def check_coordinates(data, facts):
-    assert data["REF"].dimensions == ("time", "z", "y", "x"), data["REF"].dimensions
+    in_degrees = facts["projection"] == "latitude_longitude"
+    assert data["REF"].dimensions == ("time", "z", *axes(in_degrees)), data["REF"].dimensions
     assert data["REF"].shape == (1, len(facts["levels_m"]), facts["ny"], facts["nx"])
     assert list(data["z"][:]) == facts["levels_m"]
     assert data["z"].positive == "up" and data["z"].units == "m"
@@ -129,9 +135,8 @@ def check_coordinates(data, facts):
 
 def places(dataset):
     """Latitude and longitude of every column."""
-    if "lat" in dataset.coords:
-        return dataset["lat"].values, dataset["lon"].values
-    return np.meshgrid(dataset["y"].values, dataset["x"].values, indexing="ij")
+    lat, lon = dataset["lat"].values, dataset["lon"].values
+    return (lat, lon) if lat.ndim == 2 else np.meshgrid(lat, lon, indexing="ij")
 
 
 def middle_of_storms(path, site):
@@ -144,7 +149,7 @@ def middle_of_storms(path, site):
         near = np.hypot(north, east) < 1.2
         weight = np.where(near & (field > 30), field - 30, 0)
         # A cell of degrees is smaller to the north: weigh by area on the map it stands on.
-        if "lat" not in dataset.coords:
+        if dataset["lat"].ndim == 1:
             weight = weight * np.cos(np.radians(lat))
         if weight.sum() == 0:
             return None
@@ -172,14 +177,16 @@ def check_xarray(path, facts):
         assert dataset.attrs["Conventions"] == "CF-1.8"
         assert dataset.attrs["source_files"] == facts["file"]
         assert str(dataset["time"].values[0])[:19] == facts["frame_time"][:19]
-        assert set(dataset["REF"].coords) >= {"time", "z", "y", "x"}
         in_degrees = facts["projection"] == "latitude_longitude"
-        assert ("lat" in dataset["REF"].coords) != in_degrees
+        rows, columns = axes(in_degrees)
+        assert set(dataset["REF"].coords) >= {"time", "z", "lat", "lon", rows, columns}
+        assert dataset["lat"].dims == ((rows,) if in_degrees else (rows, columns))
+        assert set(dataset.indexes) == {"time", "z", rows, columns}
         valued = int(dataset["REF"].notnull().sum())
         assert valued == facts["cells"]["value"]
         middle = facts["center"] if in_degrees else (0, 0)
         strongest = dataset["REF"].max("z").isel(time=0).sel(
-            y=middle[0], x=middle[1], method="nearest")
+            {rows: middle[0], columns: middle[1]}, method="nearest")
         assert strongest.dims == ()
 
 
@@ -228,6 +235,36 @@ def check_details(program, level2_file, path):
         assert (distance <= np.abs(offset) * 1.01 + half_m).all()
 
 
+def check_moments(program, level2_file, path):
+    """One file of all moments holds what a file of each moment holds, under names of its own."""
+    options = ["--extent-km", "120,120", "--fields", "age"]
+    facts = make(program, level2_file, path, ["--moment", "all", *options])
+    names = [one["moment"] for one in facts["moments"]]
+    assert len(names) >= 3 and names[0] == "REF", names
+    single = path + ".single.nc"
+    with netCDF4.Dataset(path) as data, xarray.open_dataset(path) as dataset:
+        assert data.title.split()[1:-2] == names, data.title
+        for one in facts["moments"]:
+            name = one["moment"]
+            alone = make(program, level2_file, single, ["--moment", name, *options])
+            assert {key: alone[key] for key in one} == one
+            assert data[name].ancillary_variables.split() == [f"{name}_status", f"{name}_age"]
+            assert data[name].method == one["method"]
+            assert {"time", "z", "y", "x", "lat", "lon"} <= set(dataset[name].coords)
+            with netCDF4.Dataset(single) as of_one:
+                for together, apart in (
+                        (name, name), (f"{name}_status", "status"), (f"{name}_age", "age")):
+                    assert data[together].dtype == of_one[apart].dtype
+                    assert np.array_equal(np.ma.getdata(data[together][:]),
+                                          np.ma.getdata(of_one[apart][:])), together
+                assert set(of_one[name].ncattrs()) <= set(data[name].ncattrs())
+                assert not {"method", "predicted_error"} & set(of_one[name].ncattrs())
+                for variable in ("time", "x", "y", "z", "lat", "lon"):
+                    assert np.array_equal(data[variable][:], of_one[variable][:])
+    listed = make(program, level2_file, path, ["--moment", f"{names[1]},REF", *options])
+    assert [one["moment"] for one in listed["moments"]] == ["REF", names[1]]
+
+
 def make(program, level2_file, path, options):
     command = [program, "grid", level2_file, "-o", path, "--json", *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
@@ -255,6 +292,7 @@ def main():
             check_xarray(path, facts)
             echoes.append(middle_of_storms(path, site))
         check_details(program, level2_file, path)
+        check_moments(program, level2_file, path)
         # The storms stand at the same places on every map, within a cell.
         stormy = facts["cells"]["value"] > 0.02 * facts["nx"] * facts["ny"] * len(facts["levels_m"])
         assert not stormy or None not in echoes

@@ -45,12 +45,12 @@ TEST(GridFormat, NetcdfIsTheDefaultAndWritesWhatWriteGridWrites) {
     const auto direct = directory.path() / "direct.nc";
     const auto by_format = directory.path() / "format.nc";
     ASSERT_TRUE(netcdf::write_grid(real_file_system(), direct, grid));
-    const Status written = grid_formats().front().write(real_file_system(), by_format, grid);
+    const Status written = grid_formats().front().write(real_file_system(), by_format, {&grid, 1});
     ASSERT_TRUE(written) << written.error().message;
     EXPECT_EQ(std::filesystem::file_size(direct), std::filesystem::file_size(by_format));
     // A grid whose arrays do not fit is refused by the format, too.
     grid.values.pop_back();
-    EXPECT_FALSE(grid_formats().front().write(real_file_system(), by_format, grid));
+    EXPECT_FALSE(grid_formats().front().write(real_file_system(), by_format, {&grid, 1}));
 }
 
 }  // namespace

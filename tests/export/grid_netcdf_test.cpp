@@ -1,6 +1,7 @@
 // Tests what a reader finds in the file; tests/export/check_grid.py opens real ones in Python.
 #include "stormcellar/export/grid_netcdf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -188,6 +189,80 @@ TEST_F(GridNetcdf, DetailsStandBesideTheFieldWhereTheyAreKnown) {
             }
         }
     }
+}
+
+// 2026-11-25: the dimensions were y and x, and readers that look for lat and lon found none.
+TEST_F(GridNetcdf, ALatitudeLongitudeGridHasTheDimensionsLatAndLon) {
+    Grid grid = small_grid();
+    grid.spec.projection = grid::Projection::latitude_longitude;
+    grid.spec.spacing_m = 0;
+    grid.spec.spacing_deg = 0.5;
+    ASSERT_TRUE(write_grid(real_file_system(), path_, grid));
+    Reader reader(path_);
+    EXPECT_EQ(reader.values("lat", 4), (std::vector<double>{34.25, 34.75, 35.25, 35.75}));
+    EXPECT_EQ(reader.values("lon", 5), (std::vector<double>{-98, -97.5, -97, -96.5, -96}));
+    EXPECT_EQ(reader.text("lat", "units"), "degrees_north");
+    EXPECT_EQ(reader.text("lon", "axis"), "X");
+    EXPECT_FALSE(reader.has_variable("x"));
+    EXPECT_FALSE(reader.has_variable("y"));
+}
+
+std::vector<Grid> two_moments() {
+    std::vector<Grid> grids = {small_grid(), small_grid()};
+    grids[1].moment = level2::Moment::vel;
+    grids[1].end_time += std::chrono::minutes(1);
+    grids[1].provenance.method = "column-nearest";
+    grids[1].provenance.partial = false;
+    grids[1].provenance.notes = {"second", "third"};
+    for (float& value : grids[1].values)
+        value = -value;
+    std::ranges::reverse(grids[1].status);
+    return grids;
+}
+
+TEST_F(GridNetcdf, SeveralMomentsAreOneFileWithAFieldEach) {
+    const std::vector<Grid> grids = two_moments();
+    ASSERT_TRUE(write_grids(real_file_system(), path_, grids));
+    Reader reader(path_);
+    for (const Grid& grid : grids) {
+        const std::string name{level2::moment_name(grid.moment)};
+        const auto field = reader.values(name.c_str(), grid.spec.cell_count());
+        const auto status = reader.values((name + "_status").c_str(), grid.spec.cell_count());
+        std::size_t at = 0;
+        for (int iz = 0; iz < 3; ++iz) {
+            for (int iy = 0; iy < 4; ++iy) {
+                for (int ix = 0; ix < 5; ++ix, ++at) {
+                    const std::size_t cell = grid.spec.index(ix, iy, iz);
+                    ASSERT_EQ(status[at], static_cast<double>(grid.status[cell]));
+                    const bool value = grid.status[cell] == CellStatus::value;
+                    ASSERT_EQ(field[at],
+                              static_cast<double>(value ? grid.values[cell] : NC_FILL_FLOAT));
+                }
+            }
+        }
+        EXPECT_EQ(reader.text(name.c_str(), "ancillary_variables"), name + "_status");
+        EXPECT_EQ(reader.text(name.c_str(), "method"), grid.provenance.method);
+    }
+    EXPECT_EQ(reader.text(nullptr, "notes"), "first\nsecond\nthird");
+    EXPECT_EQ(reader.text(nullptr, "volume"), "partial");
+    EXPECT_EQ(reader.text(nullptr, "title"), "KTLX REF VEL gridded, " + format_utc(grids[0].time));
+    EXPECT_EQ(reader.text(nullptr, "time_coverage_end"), format_utc(grids[1].end_time));
+    EXPECT_FALSE(reader.has_variable("status"));
+}
+
+TEST_F(GridNetcdf, GridsThatDoNotBelongTogetherAreRefused) {
+    const auto refused = [&](auto&& change) {
+        std::vector<Grid> grids = two_moments();
+        change(grids);
+        const Status written = write_grids(real_file_system(), path_, grids);
+        EXPECT_FALSE(std::filesystem::exists(path_));
+        return !written && written.error().code == ErrorCode::bad_argument;
+    };
+    EXPECT_TRUE(refused([](auto& grids) { grids.clear(); }));
+    EXPECT_TRUE(refused([](auto& grids) { grids[1].moment = level2::Moment::ref; }));
+    EXPECT_TRUE(refused([](auto& grids) { grids[1].spec.spacing_m = 500; }));
+    EXPECT_TRUE(refused([](auto& grids) { grids[1].time += std::chrono::seconds(1); }));
+    EXPECT_TRUE(refused([](auto& grids) { grids[1].values.pop_back(); }));
 }
 
 TEST_F(GridNetcdf, TheSameGridGivesTheSameBytes) {

@@ -70,6 +70,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"map", {"colour", "image", "products", "view", "volume"}},
       {"plan", {"colour", "image", "view", "volume"}},
       {"frame", {"image", "map", "products", "view", "volume"}},
+      {"still", {"image", "colour", "view", "products", "map", "frame"}},
       {"animation", {"image"}}}},
     {"pipeline",
      {{"drop", {}},

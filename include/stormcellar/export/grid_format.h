@@ -20,10 +20,11 @@ namespace stormcellar::grid_export {
 struct GridFormat {
     std::string_view name;                      // "netCDF"
     std::span<const std::string_view> endings;  // of its files; the first one is the usual one
-    // Writes the whole file or nothing. Errors: bad_argument for a grid that the format does not
-    // hold, and those of the file system.
+    // Writes the grids of one or several moments into one file, whole or not at all. They share
+    // their cells and their time. Errors: bad_argument for grids that the format does not hold, and
+    // those of the file system.
     Status (*write)(FileSystem& file_system, const std::filesystem::path& path,
-                    const grid::Grid& grid);
+                    std::span<const grid::Grid> grids);
 };
 
 // The first one is the default, where no name says which.

@@ -1,7 +1,8 @@
-// stormcellar/export/grid_netcdf.h -- writes a grid as a CF-1.8 netCDF-4 file that xarray, IDV and
-// ParaView open.
+// stormcellar/export/grid_netcdf.h -- writes a grid, or the grids of several moments, as a CF-1.8
+// netCDF-4 file that xarray, IDV and ParaView open.
 //
-// The dimensions are time (1), z, y and x. The field has the name of its moment (REF); it is a
+// The dimensions are time (1), z, y and x; of a latitude-longitude grid they are time, z, lat and
+// lon. The field has the name of its moment (REF); it is a
 // float, with _FillValue in every cell that holds no value. The byte variable `status` tells the
 // four states apart by flag_values and flag_meanings.
 //
@@ -10,8 +11,13 @@
 // where nothing is known. If a mosaic has them, site_count (short) says how many sites see a cell
 // and site_weight (float) is the sum of their weights; both are 0 where no site sees the cell.
 //
+// Several grids, of different moments on the same cells and at the same time, become one file with
+// one field each. What belongs to a moment then has its name in front (REF_status, VEL_age), and
+// the method, the effects, the predicted error, the beam model and the averaging are attributes of
+// the field instead of the file; audits are left out.
+//
 // The time is the frame time: the start of the volume, unless the grid was made for another time.
-// The coordinates time, z, y and x are in CF units, with the grid mapping of the projection on
+// The coordinates are in CF units, with the grid mapping of the projection on
 // WGS84 (export/grid_coordinates.h). Global attributes hold the provenance.
 //
 // The file is made in memory and appears whole or not at all (stormcellar/base/file_system.h). The
@@ -25,6 +31,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/result.h"
@@ -41,5 +48,11 @@ struct GridWriteOptions {
 // netCDF refuses.
 [[nodiscard]] Status write_grid(FileSystem& file_system, const std::filesystem::path& path,
                                 const grid::Grid& grid, const GridWriteOptions& options = {});
+// Does the same with the grids of several moments. A single grid gives the file of write_grid().
+// Errors: also bad_argument for no grid, for two grids of one moment, and for grids whose cells or
+// times differ.
+[[nodiscard]] Status write_grids(FileSystem& file_system, const std::filesystem::path& path,
+                                 std::span<const grid::Grid> grids,
+                                 const GridWriteOptions& options = {});
 
 }  // namespace stormcellar::netcdf

@@ -1,0 +1,192 @@
+#include "cli/grid/grid_files.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "base/steady_time.h"
+#include "grid/plan/grid_effects.h"
+#include "grid/plan/position_error.h"
+#include "level2/decode/volume_checks.h"
+#include "pipeline/keep/geometry_cache.h"
+#include "pipeline/plan/mosaic_of_volumes.h"
+#include "stormcellar/grid/gridder.h"
+
+namespace stormcellar::cli {
+namespace {
+
+// A table of the site frame, and the exact geometry.
+constexpr std::size_t most_geometries = 2;
+
+grid::GridderOptions gridder_options(const GridRequest& request, const MomentRequest& of,
+                                     const grid::Method& method) {
+    grid::GridderOptions gridder;
+    gridder.moment = of.moment;
+    gridder.threads = request.threads;
+    gridder.method = method;
+    gridder.profile = of.effects.profile;
+    gridder.details = request.details;
+    gridder.frame_time = request.frame_time;
+    if (request.frame_time) gridder.repeats = grid::GridderOptions::Repeats::nearest_in_time;
+    return gridder;
+}
+
+// The moments of one file that are gridded share what is here.
+struct FileScene {
+    const SourceVolume& source;
+    grid::GridSpec spec;
+    pipeline::GeometryCache geometries{most_geometries};
+};
+
+// Without a plan: the default, changed by the settings of the effects.
+Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, const MomentRequest& of,
+                              GridTimings& timings) {
+    Stopwatch watch;
+    const level2::Volume& volume = scene.source.volume;
+    const grid::SitePosition& site = scene.source.site;
+    const double beam_width_deg = grid::beam_width_of(site.icao);
+    const accuracy::Choice rungs =
+        grid::default_choice(of.effects.chain, scene.spec, beam_width_deg);
+    const grid::SceneChoice choice = grid::scene_choice(of.effects.chain, rungs);
+    const auto geometry = scene.geometries.get(site, scene.spec, choice.frame);
+    timings.geometry_s += watch.lap_s();
+    if (!geometry) return pass_on(geometry);
+    const grid::GridderOptions options = gridder_options(request, of, choice.method);
+    auto grid = grid::make_grid(volume, site, **geometry, options);
+    timings.grid_s += watch.lap_s();
+    if (!grid) return pass_on(grid);
+    grid->provenance.effects = accuracy::describe(of.effects.chain, rungs);
+    grid->provenance.predicted_error =
+        grid::unplanned_error(volume, site, scene.spec, choice.frame, options);
+    return MadeGrid{std::move(*grid), {}};
+}
+
+Result<MadeGrid> grid_by_plan(FileScene& scene, const GridRequest& request, const MomentRequest& of,
+                              GridTimings& timings) {
+    Stopwatch watch;
+    const SourceVolume& source = scene.source;
+    auto measured = grid::GridScene::make(
+        source.volume, source.site, scene.spec,
+        {of.moment, 0, of.effects.profile, request.threads, request.frame_time});
+    if (!measured) return pass_on(measured);
+    auto planned = grid::plan_grid(*measured, of.effects.chain, of.effects.budget);
+    timings.plan_s += watch.lap_s();
+    if (!planned) return pass_on(planned);
+    MadeGrid made;
+    made.plan = std::move(planned->plan);
+    if (!made.plan->meets_budget) return made;
+    const auto geometry = measured->geometry(planned->choice.frame);
+    timings.geometry_s += watch.lap_s();
+    if (!geometry) return pass_on(geometry);
+    auto grid = grid::make_grid(source.volume, source.site, **geometry,
+                                gridder_options(request, of, planned->choice.method));
+    timings.grid_s += watch.lap_s();
+    if (!grid) return pass_on(grid);
+    made.grid = std::move(*grid);
+    made.grid.provenance.predicted_error = grid::predicted_error(*made.plan);
+    made.grid.provenance.effects = made.plan->description;
+    return made;
+}
+
+// Returns true if the moment is gridded: one that was named always, and of all that the volumes may
+// hold those that one of them holds.
+bool is_gridded(const GridRequest& request, level2::Moment moment,
+                const std::vector<const level2::Volume*>& volumes) {
+    const auto has = [&](const level2::Volume* volume) { return level2::holds(*volume, moment); };
+    return !request.any_moment || std::ranges::any_of(volumes, has);
+}
+
+// Returns a grid of each moment; after one that does not meet its budget there are no more.
+Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridRequest& request,
+                                        const std::vector<MomentRequest>& moments,
+                                        GridTimings& timings, std::vector<SourceVolume>* kept) {
+    auto source = load_volume(path, request);
+    if (!source) return pass_on(source);
+    timings.read_s = source->read_s;
+    timings.decode_s = source->decode_s;
+    const auto [latitude_deg, longitude_deg] = request.center_deg.value_or(
+        std::array<double, 2>{source->site.latitude_deg, source->site.longitude_deg});
+    const auto spec = spec_about(request, latitude_deg, longitude_deg);
+    if (!spec) return pass_on(spec);
+    FileScene scene{*source, *spec};
+    std::vector<MadeGrid> all;
+    for (const MomentRequest& of : moments) {
+        if (!is_gridded(request, of.moment, {&source->volume})) continue;
+        auto made = of.effects.needs_plan() ? grid_by_plan(scene, request, of, timings)
+                                            : grid_plainly(scene, request, of, timings);
+        if (!made) return fail(made.error().code, "{}: {}", path, made.error().message);
+        grid::Provenance& provenance = made->grid.provenance;
+        provenance.source_files = {std::filesystem::path{path}.filename().string()};
+        provenance.partial = source->partial;
+        provenance.notes.insert(provenance.notes.begin(), source->notes.begin(),
+                                source->notes.end());
+        all.push_back(std::move(*made));
+        if (all.back().has_failed()) break;
+    }
+    if (all.empty()) return fail(ErrorCode::not_found, "{}: the volume holds no moment", path);
+    if (kept != nullptr) kept->push_back(std::move(*source));
+    return all;
+}
+
+// All moments are brought to one instant: the one that was asked for, or that of the first moment.
+Result<std::vector<MadeGrid>> grid_files(const std::vector<std::string>& files, GridRequest request,
+                                         const std::vector<MomentRequest>& moments,
+                                         GridTimings& timings, std::vector<SourceVolume>* kept) {
+    auto sources = load_mosaic(files, request);
+    if (!sources) return pass_on(sources);
+    timings.read_s = sources->read_s;
+    timings.decode_s = sources->decode_s;
+    std::vector<const level2::Volume*> volumes;
+    for (const SourceVolume& source : sources->volumes)
+        volumes.push_back(&source.volume);
+    pipeline::GeometryCache geometries(pipeline::mosaic_geometries);
+    std::vector<MadeGrid> all;
+    for (const MomentRequest& of : moments) {
+        if (!is_gridded(request, of.moment, volumes)) continue;
+        const auto scene =
+            request.any_moment ? sources->scene_volumes(of.moment) : sources->scene_volumes();
+        auto made = pipeline::make_mosaic(
+            scene, mosaic_request(*sources, request, of.mosaic, of.effects), geometries);
+        if (!made) return pass_on(made);
+        timings.plan_s += made->plan_s;
+        timings.grid_s += made->grid_s;
+        timings.merge_s += made->merge_s;
+        all.push_back({std::move(made->grid), std::move(made->plan)});
+        if (all.back().has_failed()) break;
+        request.frame_time = all.back().grid.frame_time;
+    }
+    if (all.empty()) return fail(ErrorCode::not_found, "the volumes hold no moment");
+    if (kept != nullptr) *kept = std::move(sources->volumes);
+    return all;
+}
+
+}  // namespace
+
+Result<std::vector<MomentRequest>> parse_each_moment(const GridOptions& options,
+                                                     const GridRequest& request,
+                                                     const EffectOptions& effect_options,
+                                                     const MosaicOptions& mosaic_options) {
+    const bool is_mosaic = options.files.size() > 1;
+    std::vector<MomentRequest> all;
+    for (const level2::Moment moment : request.moments()) {
+        auto mosaic =
+            parse_mosaic(mosaic_options, effect_options, options.files.size(), request, moment);
+        if (!mosaic) return pass_on(mosaic);
+        auto effects = parse_effects(effect_options, moment,
+                                     is_mosaic ? std::optional(mosaic->overlap) : std::nullopt);
+        if (!effects) return pass_on(effects);
+        all.push_back({moment, std::move(*effects), *mosaic});
+    }
+    return all;
+}
+
+Result<std::vector<MadeGrid>> grid_inputs(const std::vector<std::string>& files,
+                                          const GridRequest& request,
+                                          const std::vector<MomentRequest>& moments,
+                                          GridTimings& timings, std::vector<SourceVolume>* kept) {
+    if (files.size() > 1) return grid_files(files, request, moments, timings, kept);
+    return grid_file(files.front(), request, moments, timings, kept);
+}
+
+}  // namespace stormcellar::cli

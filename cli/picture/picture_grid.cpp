@@ -1,0 +1,96 @@
+#include "cli/picture/picture_grid.h"
+
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
+
+#include "cli/grid/grid_files.h"
+#include "stormcellar/grid/brick_grid.h"
+
+namespace stormcellar::cli {
+
+struct PictureGrid::Stored {
+    cache::GridFile file;
+    std::string name;
+    std::vector<SourceVolume> no_volumes;
+};
+
+struct PictureGrid::Made {
+    std::string name;
+    cache::GridDescription description;
+    grid::BrickGrid bricks;
+    std::vector<SourceVolume> volumes;
+};
+
+void add_picture_grid_options(CLI::App& app, GridOptions& options) {
+    add_place_options(app, options);
+    add_site_options(app, options.site);
+}
+
+bool has_picture_grid_options(const GridOptions& options) {
+    const GridOptions usual;
+    return !options.center.empty() || options.projection != usual.projection ||
+           !options.parallels.empty() || !options.extent_km.empty() ||
+           !options.extent_deg.empty() || options.spacing_km || options.spacing_deg ||
+           !options.levels_km.empty() || !options.site.station.empty() ||
+           !options.site.position.empty();
+}
+
+PictureGrid::PictureGrid(std::unique_ptr<Stored> stored) : stored_(std::move(stored)) {}
+PictureGrid::PictureGrid(std::unique_ptr<Made> made) : made_(std::move(made)) {}
+PictureGrid::PictureGrid(PictureGrid&&) noexcept = default;
+PictureGrid& PictureGrid::operator=(PictureGrid&&) noexcept = default;
+PictureGrid::~PictureGrid() = default;
+
+Result<PictureGrid> PictureGrid::open(const std::filesystem::path& file) {
+    auto opened = cache::GridFile::open(file);
+    if (!opened) return pass_on(opened);
+    return PictureGrid(std::make_unique<Stored>(Stored{std::move(*opened), {}, {}}));
+}
+
+Result<PictureGrid> PictureGrid::make(GridOptions options) {
+    const auto inputs = find_inputs(options);
+    if (!inputs) return pass_on(inputs);
+    auto request = parse_request(options);
+    if (!request) return pass_on(request);
+    request->inputs = *inputs;
+    const auto moments = parse_each_moment(options, *request, EffectOptions{}, MosaicOptions{});
+    if (!moments) return pass_on(moments);
+    GridTimings timings;
+    std::vector<SourceVolume> volumes;
+    auto grids = grid_inputs(options.files, *request, *moments, timings, &volumes);
+    if (!grids) return pass_on(grids);
+    grid::Grid& grid = grids->front().grid;
+    for (const SourceVolume& source : volumes) {
+        auto& troubles = grid.provenance.radar_troubles;
+        troubles.insert(troubles.end(), source.radar_troubles.begin(), source.radar_troubles.end());
+    }
+    auto made = std::make_unique<Made>(
+        Made{fmt::format("{}", fmt::join(grid.provenance.stations, "+")), cache::describe(grid),
+             grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), request->threads),
+             std::move(volumes)});
+    return PictureGrid(std::move(made));
+}
+
+grid::BrickView PictureGrid::view() const {
+    return stored_ ? stored_->file.view() : made_->bricks.view();
+}
+
+const cache::GridDescription& PictureGrid::description() const {
+    return stored_ ? stored_->file.description() : made_->description;
+}
+
+const std::string& PictureGrid::name() const {
+    return stored_ ? stored_->name : made_->name;
+}
+
+const std::vector<SourceVolume>& PictureGrid::volumes() const {
+    return stored_ ? stored_->no_volumes : made_->volumes;
+}
+
+Status PictureGrid::check_whole() const {
+    return stored_ ? stored_->file.check_whole() : Status{};
+}
+
+}  // namespace stormcellar::cli

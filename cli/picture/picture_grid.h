@@ -1,0 +1,57 @@
+// cli/picture/picture_grid.h -- what a picture is drawn from: a grid of the cache, or one that was
+// made in memory from files.
+//
+// Threads   A PictureGrid may be used by one thread at a time, its view by any.
+// Errors    See each function.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/grid/grid_request.h"
+#include "cli/grid/volume_source.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_view.h"
+
+namespace stormcellar::cli {
+
+// The options of a grid that is made for a picture, beside those of the picture itself.
+void add_picture_grid_options(CLI::App& app, GridOptions& options);
+// True if one of them was typed, which makes no sense for a grid of the cache.
+[[nodiscard]] bool has_picture_grid_options(const GridOptions& options);
+
+class PictureGrid {
+  public:
+    // Errors: those of GridFile::open().
+    [[nodiscard]] static Result<PictureGrid> open(const std::filesystem::path& file);
+    // Decodes the files and grids their moment, as `stormcellar grid` does. The options say the
+    // files, the moment, the place of the grid and the number of threads. Errors name the file or
+    // the option.
+    [[nodiscard]] static Result<PictureGrid> make(GridOptions options);
+    PictureGrid(PictureGrid&&) noexcept;
+    PictureGrid& operator=(PictureGrid&&) noexcept;
+    ~PictureGrid();
+
+    [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
+    [[nodiscard]] const cache::GridDescription& description() const;
+    // Of files: the station, or the stations of a mosaic with "+" between them.
+    [[nodiscard]] const std::string& name() const;
+    // The decoded volumes that it was made from; empty for a grid of the cache.
+    [[nodiscard]] const std::vector<SourceVolume>& volumes() const;
+    // To be asked after the view was used: a file of the cache may have been cut meanwhile.
+    [[nodiscard]] Status check_whole() const;
+
+  private:
+    struct Stored;
+    struct Made;
+    explicit PictureGrid(std::unique_ptr<Stored> stored);
+    explicit PictureGrid(std::unique_ptr<Made> made);
+
+    std::unique_ptr<Stored> stored_;  // one of the two
+    std::unique_ptr<Made> made_;
+};
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,86 @@
+// stormcellar/render/still.h -- the formats of a single picture, and of a map as data for other
+// programs.
+//
+// Formats of pictures take the pixels of any product, drawn by render_frame():
+//   PNG      lossless; alpha is kept; metadata as tEXt chunks
+//   JPEG     quality 92 without subsampling of colors; alpha is dropped; metadata as XMP
+//   WebP     lossless; alpha is kept; metadata as XMP
+// Formats of maps take a 2D product of a grid, without the map and the labels around it:
+//   GeoTIFF  the values of the cells in the grid's own projection: a cloud-optimized file for GIS
+//   KMZ      the map's colors over latitude and longitude, with a legend, for Google Earth
+// One row a format. What writes a still takes the format from the name of the file; help and
+// messages list what the registry holds.
+//
+// Threads   Any thread may call.
+// Errors    See each function.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/frame_facts.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::render {
+
+// What a pixel of a GeoTIFF is.
+enum class TiffContent {
+    values,   // float: what the product shows, in its unit; NaN where a column has no value
+    states,   // byte: 0 not seen, 1 no echo, 2 range folded, 3 value, 4 value or more (tops)
+    colours,  // red, green, blue, alpha: as the color table has it
+};
+struct TiffContentFacts {
+    TiffContent content = TiffContent::values;
+    std::string_view name = {};
+};
+inline constexpr TiffContentFacts tiff_contents[] = {
+    {TiffContent::values, "values"},
+    {TiffContent::states, "states"},
+    {TiffContent::colours, "colors"},
+};
+[[nodiscard]] std::optional<TiffContent> tiff_content_from_name(std::string_view name);
+
+struct StillOptions {
+    // Pairs of keyword and text, in ASCII. "Title" becomes the title if the format has one.
+    std::vector<std::pair<std::string, std::string>> metadata{};
+    TiffContent tiff = TiffContent::values;
+    int threads = 1;
+};
+
+// A 2D product of a grid. What is referred to must outlive it.
+struct StillMap {
+    const grid::BrickView& view;
+    const FrameFacts& facts;
+    const Scene& scene;  // its product is a map
+};
+
+struct StillFormat {
+    std::string_view name;                      // "JPEG"
+    std::span<const std::string_view> endings;  // of its files; the first one is the usual one
+    // Exactly one of these is there. Errors: bad_argument for a picture that the format does not
+    // hold, for example because it is too large; internal if a library refuses.
+    Result<std::vector<std::byte>> (*encode_picture)(const Image& picture,
+                                                     const StillOptions& options) = nullptr;
+    // Errors: bad_argument for a product that is no map, and those of check_frame(); unsupported
+    // for a grid that the format cannot place.
+    Result<std::vector<std::byte>> (*encode_map)(const StillMap& map,
+                                                 const StillOptions& options) = nullptr;
+};
+
+// The first one is the default, where no name says which.
+[[nodiscard]] std::span<const StillFormat> still_formats();
+// By the ending of a file's name. Null: no format has this ending.
+[[nodiscard]] const StillFormat* still_format_of(std::string_view file_name);
+// The endings of all formats, and the names with them: "PNG (.png), JPEG (.jpg, .jpeg), ...".
+[[nodiscard]] std::vector<std::string_view> still_endings();
+[[nodiscard]] std::string known_still_formats();
+
+}  // namespace stormcellar::render

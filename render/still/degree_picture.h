@@ -1,0 +1,37 @@
+// render/still/degree_picture.h -- a map drawn over latitude and longitude, whatever the projection
+// of its grid.
+//
+// Pixels are regular in degrees and show the cell that holds their center. Two pixels are as wide
+// as a cell at the center of the grid, unless a side would then have more than 4096 pixels.
+//
+// Accuracy  Places are computed every eight pixels, and straight between: within 0.02 cells.
+// Threads   Pure; the same bits for any number of threads.
+// Errors    unsupported for a grid that holds a pole, which no map of degrees can show.
+#pragma once
+
+#include "render/products/flat_field.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/image.h"
+
+namespace stormcellar::render {
+
+// The edges of the outer pixels. West is at least -180 and below 180; across the antimeridian, east
+// is above 180.
+struct DegreeBox {
+    double north_deg = 0, south_deg = 0, east_deg = 0, west_deg = 0;
+};
+
+struct DegreePicture {
+    DegreeBox box;
+    Image image;  // clear outside of the grid
+};
+
+[[nodiscard]] Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec,
+                                                    const FlatField& field,
+                                                    const ColourTable& table, int threads);
+
+inline constexpr int most_degree_pixels = 4096;  // along a side: what globes take as a texture
+
+}  // namespace stormcellar::render

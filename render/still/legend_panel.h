@@ -1,0 +1,16 @@
+// render/still/legend_panel.h -- a small panel that says what an overlay of a globe shows: product,
+// place, time and colors.
+//
+// Threads   Pure.
+// Errors    Those of Fonts::load().
+#pragma once
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/still.h"
+
+namespace stormcellar::render {
+
+[[nodiscard]] Result<Image> draw_legend_panel(const StillMap& map);
+
+}  // namespace stormcellar::render

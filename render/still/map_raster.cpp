@@ -1,0 +1,34 @@
+#include "render/still/map_raster.h"
+
+#include "render/products/column_summary.h"
+#include "stormcellar/render/product.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::render {
+
+Result<FlatField> still_field(const StillMap& map, int threads) {
+    if (!is_map(map.scene.product)) {
+        return fail(ErrorCode::bad_argument,
+                    "{} is no map; GeoTIFF and KMZ hold products that are maps, such as {}",
+                    product_name(map.scene.product), product_name(Product::composite));
+    }
+    if (auto valid = check_frame(map.view, map.facts, map.scene); !valid) return pass_on(valid);
+    return map_field(map.view, map.scene, summarize_columns(map.view, threads), threads);
+}
+
+Rgba8 overlay_colour(const FlatField& field, std::size_t place, const ColourTable& table) {
+    constexpr Rgba8 clear = {0, 0, 0, 0};
+    switch (field.status[place]) {
+        case grid::CellStatus::not_seen:
+            return unseen_veil;
+        case grid::CellStatus::no_echo:
+            return clear;
+        case grid::CellStatus::range_folded:
+            return table.range_folded;
+        case grid::CellStatus::value:
+            return colour_of(table, field.values[place]).value_or(clear);
+    }
+    return clear;
+}
+
+}  // namespace stormcellar::render

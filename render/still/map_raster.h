@@ -1,0 +1,23 @@
+// render/still/map_raster.h -- a 2D product as formats of maps need it: its field, and the color of
+// each cell where it lies over another map.
+//
+// Threads   Pure functions; the same bits for any number of threads.
+#pragma once
+
+#include "render/products/flat_field.h"
+#include "stormcellar/render/still.h"
+
+namespace stormcellar::render {
+
+// Checks the scene and makes the field of its product. Errors: bad_argument for a product that is
+// no map, and those of check_frame().
+[[nodiscard]] Result<FlatField> still_field(const StillMap& map, int threads);
+
+// Returns the color over another map. No echo, and values that the table does not show, are clear;
+// what was not seen is a thin gray veil, which no echo looks like.
+[[nodiscard]] Rgba8 overlay_colour(const FlatField& field, std::size_t place,
+                                   const ColourTable& table);
+
+inline constexpr Rgba8 unseen_veil = {96, 100, 108, 72};
+
+}  // namespace stormcellar::render

@@ -1,0 +1,25 @@
+// render/still/zip_file.h -- writes a zip archive of a few members as they are: pictures are packed
+// already.
+//
+// Source    APPNOTE.TXT 6.3 (PKWARE), sections 4.3.7, 4.3.12 and 4.3.16. Members have no time of
+//           their own, so the same members give the same bytes.
+// Threads   Pure.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::render {
+
+struct ZipMember {
+    std::string name;  // in ASCII
+    std::vector<std::byte> bytes;
+};
+
+// Errors: unsupported for more than the 4 GiB, or the 65,535 members, that a zip can have.
+[[nodiscard]] Result<std::vector<std::byte>> write_zip(const std::vector<ZipMember>& members);
+
+}  // namespace stormcellar::render
