@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/steady_time.h"
+#include "cli/loop/loop_camera.h"
 #include "cli/loop/loop_draw.h"
 #include "cli/loop/loop_encoding.h"
 #include "cli/loop/loop_grids.h"
@@ -29,24 +30,16 @@
 namespace stormcellar::cli {
 namespace {
 
-// What is drawn, and the view that was fitted to it.
-struct LoopScene {
-    render::Scene scene;
-    render::FittedView view;
-};
-
 Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& shown,
                 const std::atomic<bool>& stop, Encoding& encoding, LoopReport& report) {
     const std::vector<LoopFrame>& frames = grids.frames;
     Progress progress("frames", frames.size(), !options.quiet);
-    const render::Scene& scene = shown.scene;
-    Drawing drawing{scene, {}};
+    const auto cameras = cameras_of(options, shown, grids.frames_there, frames.size());
+    if (!cameras) return pass_on(cameras);
+    Drawing drawing{shown.scene, {}, {}, {}};
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (stop) return {};
-        drawing.scene.camera = render::turned(
-            shown.view,
-            options.orbit_deg * static_cast<double>(i) / static_cast<double>(frames.size()),
-            scene.curved_earth);
+        drawing.scene.camera = (*cameras)[i];
         auto picture = draw(frames[i], options, grids.between, drawing, report);
         if (!picture) return pass_on(picture);
         if (*picture) {
@@ -126,7 +119,7 @@ Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const Loop
     }
     const auto facts = facts_of(options.domain, first.description(), options.scene.time_zone);
     const auto fitted = fit_picture(outline, first.view(), facts, options.scene, scene,
-                                    options.orbit_deg != 0, options.kept_view);
+                                    moves_camera(options), options.kept_view);
     if (!fitted) return pass_on(fitted);
     shown.view = *fitted;
     return {};
@@ -149,6 +142,22 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     options.animation.metadata =
         metadata_of({options.domain, from->time, to->time, grids.frames.size(), between, *error},
                     description, scene);
+    return {};
+}
+
+// Spreads the frames over as many as the loop is to have; each grid has its share of them. A loop
+// that is followed may begin with a single grid, and its camera then stands until there are more.
+Status spread(LoopGrids& grids, const LoopOptions& options) {
+    auto& frames = grids.frames;
+    grids.frames_there = frames.size();
+    if (frames.empty()) return {};
+    const auto count = frame_count(options, frames.size());
+    if (!count) return options.follow.wanted ? Status{} : pass_on(count);
+    std::vector<LoopFrame> all;
+    for (std::size_t i = 0; i < *count; ++i)
+        all.push_back(frames[i * frames.size() / *count]);
+    frames = std::move(all);
+    grids.frames_there = frames.size();
     return {};
 }
 
@@ -177,6 +186,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
             return report_error(fitted.error());
         }
     }
+    if (auto fine = spread(grids, options); !fine) return report_error(fine.error());
     if (options.ping_pong) turn_back(frames);
     if (first) {
         if (auto prepared = prepare(grids, *first, options, shown.scene); !prepared) {
@@ -244,10 +254,26 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
                   options.follow, interrupt.flag());
 }
 
+// A way of the camera in the scene file is left out beside options that say how it moves or where
+// it is. Else the camera is first where the way begins.
+void take_camera_keys(LoopOptions& options) {
+    if (options.camera.empty()) return;
+    for (const PictureOption* row : options.scene.typed) {
+        if (row->key == "orbit_deg" || row->key == "at_km" || row->key == "look_at_km") {
+            options.camera.clear();
+            return;
+        }
+    }
+    render::Camera& camera = options.scene.scene.camera;
+    if (options.camera.front().eye) camera.eye = options.camera.front().eye;
+    if (options.camera.front().look_at) camera.look_at = options.camera.front().look_at;
+}
+
 // Makes all checks that need no grid, and resolves options that depend on each other.
 Result<render::Scene> check(LoopOptions& options) {
     if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return pass_on(fine);
+    take_camera_keys(options);
     auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return scene;
     auto plan = plan_beside_slices(options.plan, options.scene);

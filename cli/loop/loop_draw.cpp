@@ -12,7 +12,7 @@ namespace {
 // An existing grid, or one made for the instant.
 struct FrameGrid {
     std::optional<cache::GridFile> file;
-    std::optional<pipeline::MosaicFrame> made;
+    const pipeline::MosaicFrame* made = nullptr;
 
     [[nodiscard]] const cache::GridDescription& description() const {
         return file ? file->description() : made->description;
@@ -24,7 +24,8 @@ struct FrameGrid {
 };
 
 // Errors: not_found if no volume is near.
-Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between) {
+Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between,
+                          Drawing& drawing) {
     FrameGrid grid;
     if (frame.stored) {
         auto file = cache::GridFile::open(frame.stored->path);
@@ -32,12 +33,16 @@ Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::Betwee
         grid.file.emplace(std::move(*file));
         return grid;
     }
-    auto made = between->at(frame.time);
-    if (!made) return pass_on(made);
-    if (!*made) {
-        return fail(ErrorCode::not_found, "there is no volume near {}", format_utc(frame.time));
+    if (!drawing.made || drawing.made_for != frame.time) {
+        auto made = between->at(frame.time);
+        if (!made) return pass_on(made);
+        if (!*made) {
+            return fail(ErrorCode::not_found, "there is no volume near {}", format_utc(frame.time));
+        }
+        drawing.made = std::move(**made);
+        drawing.made_for = frame.time;
     }
-    grid.made = std::move(**made);
+    grid.made = &*drawing.made;
     return grid;
 }
 
@@ -52,12 +57,12 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
             {frame.stored ? frame.stored->path : std::filesystem::path{}, error.message});
         return std::optional<render::Image>{};
     };
-    const auto grid = grid_of(frame, between);
+    const auto grid = grid_of(frame, between, drawing);
     (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
     if (!grid) return skip(grid.error());
     const auto opened = steady_now();
     auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
-    facts.interpolated = grid->made && options.time_method != "nearest";
+    facts.interpolated = grid->made != nullptr && options.time_method != "nearest";
     const int threads = thread_count(options.scene);
     const auto render = [&] {
         return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.cache);
@@ -73,7 +78,7 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     if (report.frames == 0) report.from = report.to = frame.time;
     report.to = std::max(report.to, frame.time);
     ++report.frames;
-    if (grid->made) ++report.interpolated;
+    if (grid->made != nullptr) ++report.interpolated;
     return std::optional{std::move(*picture)};
 }
 

@@ -17,6 +17,9 @@ namespace stormcellar::cli {
 struct Drawing {
     render::Scene scene;
     render::FrameCache cache;
+    // The last grid that was made between others, and its time.
+    std::optional<pipeline::MosaicFrame> made;
+    UtcTime made_for{};
 };
 
 // Returns one frame; none if the file of the grid is damaged, which the report records.

@@ -27,6 +27,7 @@ struct LoopGrids {
     std::string domain;
     TimeRange range;
     std::vector<LoopFrame> frames;  // ascending in time; empty: nothing matched, which was reported
+    std::size_t frames_there = 0;   // of them; the others are the way back
     std::filesystem::path sample;   // an existing grid
     std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not exist
     std::optional<ArchiveCall> call;                // for an archive: the call and its result

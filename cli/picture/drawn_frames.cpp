@@ -6,18 +6,23 @@
 namespace stormcellar::cli {
 namespace {
 
+std::string text_of(const std::optional<render::Eye>& place) {
+    return place ? fmt::format("{},{},{}", place->x_m, place->y_m, place->height_m) : "-";
+}
+
 // Returns an empty key if there is no such file.
 std::string key_of(const std::filesystem::path& grid, const render::Scene& scene) {
     struct stat facts {};
     if (::stat(grid.c_str(), &facts) != 0) return {};
-    const render::Eye eye = scene.camera.eye.value_or(render::Eye{});
+    const render::Camera& camera = scene.camera;
     return fmt::format("{} {}.{:09} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", facts.st_ino,
                        facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_size,
-                       scene.camera.azimuth_deg, scene.camera.tilt_deg, eye.x_m, eye.y_m,
-                       eye.height_m, scene.vertical_exaggeration, scene.opacity,
-                       scene.light.sun_azimuth_deg, scene.slices,
+                       camera.azimuth_deg, camera.tilt_deg, camera.zoom, camera.field_of_view_deg,
+                       text_of(camera.eye), text_of(camera.look_at), scene.vertical_exaggeration,
+                       scene.opacity, scene.light.sun_azimuth_deg, scene.slices,
                        static_cast<int>(scene.integration), scene.pixel_tolerance,
-                       render::light_names(scene.light), grid.native());
+                       render::light_names(scene.light)) +
+           grid.native();
 }
 
 }  // namespace

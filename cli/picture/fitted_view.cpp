@@ -36,13 +36,14 @@ render::FitParts parts_to_fit(const SceneOptions& options) {
     if (file_has_a_view(options)) return render::FitParts::none();
     render::FitParts parts;
     const auto is_open = [&](std::string_view key) { return !is_typed(options, key); };
-    const bool has_place = is_typed(options, "at_km");
+    const render::Camera& camera = options.scene.camera;
+    const bool has_place = camera.eye.has_value();
     const bool is_parallel =
-        is_typed(options, "field_of_view_deg") && options.scene.camera.field_of_view_deg == 0;
+        is_typed(options, "field_of_view_deg") && camera.field_of_view_deg == 0;
     parts.azimuth = is_open("azimuth_deg") && !has_place;
     parts.tilt = is_open("tilt_deg") && !has_place;
     parts.field_of_view = is_open("field_of_view_deg") && !has_place;
-    parts.place = is_open("zoom") && !has_place && !is_parallel;
+    parts.place = is_open("zoom") && !has_place && !camera.look_at && !is_parallel;
     parts.exaggeration = is_open("exaggeration") && !has_place;
     parts.opacity = is_open("opacity");
     parts.sun = is_open("sun_deg");

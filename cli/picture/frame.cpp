@@ -308,10 +308,9 @@ int run_frame(FrameOptions options) {
         options.grid.files.empty() ? stored_grid(options, scene->moment) : grid_of_files(options);
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
-    const grid::BrickView view = (*grid)->view();
     const auto facts = facts_of(options.domain, (*grid)->description(), options.scene.time_zone);
-    const render::EchoOutline outline(view, scene->moment);
-    const auto fitted = fit_picture(outline, view, facts, options.scene, *scene);
+    const render::EchoOutline outline((*grid)->view(), scene->moment);
+    const auto fitted = fit_picture(outline, (*grid)->view(), facts, options.scene, *scene);
     if (!fitted) return report_error(fitted.error());
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());

@@ -47,6 +47,10 @@ void set_camera(To to, std::span<const double> at) {
     to.scene.camera.eye = render::Eye{at[0] * per_km, at[1] * per_km, at[2] * per_km};
 }
 
+void set_look_at(To to, std::span<const double> at) {
+    to.scene.camera.look_at = render::Eye{at[0] * per_km, at[1] * per_km, at[2] * per_km};
+}
+
 void set_sun(To to, std::span<const double> sun) {
     to.scene.light.sun_azimuth_deg = sun[0];
     to.scene.light.sun_elevation_deg = sun[1];
@@ -196,6 +200,14 @@ constexpr std::array option_rows{
                   .used_by = by_volume,
                   .help = "Position of the camera in km from the grid's middle and above sea "
                           "level: EAST,NORTH,UP. Default: outside the grid, looking at its middle"},
+    PictureOption{.option = "--look-at-km",
+                  .section = "camera",
+                  .key = "look_at_km",
+                  .value = NumbersValue{camera_places, set_look_at},
+                  .used_by = by_volume,
+                  .help = "Point in the middle of the picture, in km from the grid's middle and "
+                          "above sea level: EAST,NORTH,UP. With --camera-km, it takes the place of "
+                          "--azimuth and --tilt"},
     PictureOption{
         .option = "--light",
         .section = "light",
@@ -295,6 +307,14 @@ constexpr std::array option_rows{
         .value = NumberValue{.field = [](To to) { return &to.loop->animation.last_frame_dwell_s; },
                              .range = limits::last_frame_dwell_s},
         .help = "Seconds by which the last frame stays longer than the others, {} to {}"},
+    PictureOption{.option = "--frames",
+                  .section = "loop",
+                  .key = "frames",
+                  .value = WholeValue{.field = [](To to) { return &to.loop->frames; },
+                                      .range = {1, 100'000},
+                                      .checked = Checked::by_the_parser},
+                  .help = "Number of frames, spread evenly over the grids, for a camera that moves "
+                          "faster than time. Default: one for each grid"},
     PictureOption{
         .option = "--orbit",
         .section = "loop",

@@ -159,6 +159,43 @@ void read_plan(TomlTable& plan, PicturePlanOptions& options) {
     }
 }
 
+std::optional<render::Eye> read_place(TomlTable& table, std::string_view key) {
+    constexpr double per_km = 1000;
+    const auto km = table.numbers(key);
+    if (!km) return std::nullopt;
+    if (km->size() != 3) {
+        table.complain(key, "must be [east, north, up]");
+        return std::nullopt;
+    }
+    return render::Eye{(*km)[0] * per_km, (*km)[1] * per_km, (*km)[2] * per_km};
+}
+
+// The camera's way, of [[loop.camera]]; what makes no sense together is found by CameraPath.
+void read_camera_keys(TomlTable& loop, const render::Camera& usual,
+                      std::vector<render::CameraKey>& keys) {
+    namespace limits = render::limits;
+    constexpr NumberRange any_azimuth{-3600, 3600}, whole_turns{-100, 100}, day_s{0, 86'400};
+    if (!loop.has("camera")) return;
+    keys.clear();
+    for (TomlTable& table : loop.tables("camera")) {
+        render::CameraKey key;
+        const auto time_s = table.number("time_s", day_s);
+        if (!time_s && !table.has("time_s")) table.complain("time_s", "is missing");
+        key.time_s = time_s.value_or(0);
+        key.azimuth_deg = table.number("azimuth_deg", any_azimuth);
+        key.tilt_deg = table.number("tilt_deg", limits::tilt_of_eye_deg);
+        key.zoom = table.number("zoom", limits::zoom);
+        key.field_of_view_deg = table.number("field_of_view_deg", limits::field_of_view_deg);
+        key.turns = table.whole_number("turns", whole_turns).value_or(0);
+        key.eye = read_place(table, "at_km");
+        key.look_at = read_place(table, "look_at_km");
+        keys.push_back(key);
+    }
+    if (const auto path = render::CameraPath::make(keys, usual); !path) {
+        loop.complain("camera", path.error().message);
+    }
+}
+
 // What [loop] has beside the rows of the table: whose grids, of which times, and where to.
 void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSettings& loop) {
     read_text(table, "domain", loop.domain, [](const std::string& name) -> Status {
@@ -223,6 +260,7 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     new_scene.file_product = new_scene.product;
     read_plan(tables["plan"], new_plan);
     read_loop(tables["loop"], file.parent_path(), new_loop);
+    read_camera_keys(tables["loop"], new_scene.scene.camera, new_loop.camera);
     if (auto fine = toml->finish(); !fine) return fine;
     scene = std::move(new_scene);
     plan = std::move(new_plan);

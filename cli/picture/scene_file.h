@@ -20,6 +20,7 @@
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/scene_options.h"
 #include "cli/shared/query_options.h"
+#include "render/view/camera_path.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/animation.h"
 
@@ -29,8 +30,10 @@ namespace stormcellar::cli {
 struct LoopSettings {
     std::string domain;
     TimeRangeOptions range;
-    int last = 0;          // of the grids only so many; 0: all
+    int last = 0;    // of the grids only so many; 0: all
+    int frames = 0;  // spread over the grids; 0: one for each, or as many as the camera's way lasts
     double orbit_deg = 0;  // how far the camera moves around the grid during the loop
+    std::vector<render::CameraKey> camera;  // places on its way; empty: it has none
     bool ping_pong = false;
     std::vector<std::string> outputs;
     render::AnimationOptions animation;

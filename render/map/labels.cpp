@@ -13,6 +13,7 @@
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 namespace {
@@ -48,10 +49,11 @@ std::string title_of(const FrameFacts& facts) {
 }
 
 std::string view_text(const Scene& scene) {
-    const double tilt = scene.camera.tilt_deg;
+    const Camera camera = aimed(scene.camera, scene.vertical_exaggeration, scene.curved_earth);
+    const double tilt = std::round(camera.tilt_deg);
     std::string text = tilt == 0 ? "Seen from above"
                                  : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
-                                               direction_name(scene.camera.azimuth_deg), tilt);
+                                               direction_name(camera.azimuth_deg), tilt);
     text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
     if (scene.light.any()) text += fmt::format("  \u00B7  lit ({})", light_names(scene.light));
     return text;

@@ -63,6 +63,15 @@ Status check_colours(const Scene& scene) {
                 wanted.empty() ? "without a unit" : "in " + wanted);
 }
 
+Status check_look_at(const Camera& camera) {
+    if (!camera.eye || !camera.look_at) return {};
+    const double apart_m =
+        std::hypot(camera.eye->x_m - camera.look_at->x_m, camera.eye->y_m - camera.look_at->y_m,
+                   camera.eye->height_m - camera.look_at->height_m);
+    if (apart_m > 0) return {};
+    return fail(ErrorCode::bad_argument, "the camera stands at the very point that it looks at");
+}
+
 }  // namespace
 
 Status validate(const Scene& scene) {
@@ -80,7 +89,8 @@ Status validate(const Scene& scene) {
                     "a camera with a position of its own needs a field of view above 0 degrees");
     }
     const Eye eye = camera.eye.value_or(Eye{});
-    const std::array<Status, 18> checks = {
+    const Eye look_at = camera.look_at.value_or(Eye{});
+    const std::array<Status, 22> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -91,6 +101,10 @@ Status validate(const Scene& scene) {
         check_range("the camera's place to the east (m)", eye.x_m, limits::eye_m),
         check_range("the camera's place to the north (m)", eye.y_m, limits::eye_m),
         check_range("the camera's height (m)", eye.height_m, limits::eye_height_m),
+        check_range("the point to look at, to the east (m)", look_at.x_m, limits::eye_m),
+        check_range("the point to look at, to the north (m)", look_at.y_m, limits::eye_m),
+        check_range("the height to look at (m)", look_at.height_m, limits::eye_height_m),
+        check_look_at(camera),
         check_range("zoom", camera.zoom, limits::zoom),
         check_range("slices", scene.slices, limits::slices),
         check_range("exaggeration", scene.vertical_exaggeration, limits::exaggeration),

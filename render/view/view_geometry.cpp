@@ -47,6 +47,27 @@ Turn turn_of(double degrees) {
 
 }  // namespace
 
+Camera aimed(const Camera& camera, double vertical_exaggeration, bool curved_earth) {
+    if (!camera.eye || !camera.look_at) return camera;
+    const auto drawn_z = [&](const Eye& at) {
+        const double drop_m =
+            curved_earth ? 0.5 / earth_radius_m * (at.x_m * at.x_m + at.y_m * at.y_m) : 0;
+        return (at.height_m - drop_m) * vertical_exaggeration;
+    };
+    const double east_m = camera.look_at->x_m - camera.eye->x_m;
+    const double north_m = camera.look_at->y_m - camera.eye->y_m;
+    const double up_m = drawn_z(*camera.look_at) - drawn_z(*camera.eye);
+    const double aside_m = std::hypot(east_m, north_m);
+    constexpr double degrees = 180 / std::numbers::pi;
+    Camera turned = camera;
+    if (aside_m > 0 || up_m != 0) turned.tilt_deg = std::atan2(aside_m, -up_m) * degrees;
+    if (aside_m > 0) {
+        const double azimuth_deg = std::atan2(-east_m, -north_m) * degrees;
+        turned.azimuth_deg = azimuth_deg < 0 ? azimuth_deg + 360 : azimuth_deg;
+    }
+    return turned;
+}
+
 HeightRange height_range(const grid::GridSpec& spec) {
     const auto& levels = spec.levels_m;
     if (levels.size() == 1) {
@@ -57,7 +78,7 @@ HeightRange height_range(const grid::GridSpec& spec) {
             levels[last] + (levels[last] - levels[last - 1]) / 2};
 }
 
-ViewGeometry::ViewGeometry(const grid::GridSpec& spec, const Camera& camera,
+ViewGeometry::ViewGeometry(const grid::GridSpec& spec, const Camera& given,
                            double vertical_exaggeration, int width, int height, bool curved_earth)
     : width_(width),
       height_(height),
@@ -68,6 +89,7 @@ ViewGeometry::ViewGeometry(const grid::GridSpec& spec, const Camera& camera,
       top_m_(height_range(spec).top_m),
       ground_m_(std::min(0.0, bottom_m_)),
       drop_per_m2_(curved_earth ? 0.5 / earth_radius_m : 0) {
+    const Camera camera = aimed(given, vertical_exaggeration, curved_earth);
     const Turn azimuth = turn_of(camera.azimuth_deg);
     const Turn tilt = turn_of(camera.tilt_deg);
     forward_ = {-tilt.sine * azimuth.sine, -tilt.sine * azimuth.cosine, -tilt.cosine};
@@ -81,6 +103,7 @@ ViewGeometry::ViewGeometry(const grid::GridSpec& spec, const Camera& camera,
     } else {
         fit_picture(camera);
     }
+    if (camera.look_at && !camera.eye) look_at(*camera.look_at);
     find_depths();
 }
 
@@ -126,6 +149,14 @@ void ViewGeometry::place_eye(const Camera& camera) {
     }
     const double to_middle = dot(minus(middle_, eye_), forward_);
     metres_per_pixel_ = std::max(to_middle, half_x_m_ * 1e-3) / focal_pixels_;
+}
+
+// Moves the camera aside, so that the point is where the middle of the box was.
+void ViewGeometry::look_at(const Eye& point) {
+    const Vec3 drawn = {point.x_m, point.y_m,
+                        (point.height_m - drop_m(point.x_m, point.y_m)) * exaggeration_};
+    for (std::size_t i = 0; i < 3; ++i)
+        eye_[i] += drawn[i] - middle_[i];
 }
 
 void ViewGeometry::find_depths() {

@@ -45,8 +45,8 @@ inline constexpr NumberRange opacity{1e-3, 1e3};
 inline constexpr NumberRange ring_spacing_m{1e3, 1e6};
 }  // namespace limits
 
-// The place of a camera: meters east and north of the middle of the grid, and a height above sea
-// level.
+// The place of a camera, or of what it looks at: meters east and north of the middle of the grid, and
+// a height above sea level.
 struct Eye {
     double x_m = 0, y_m = 0, height_m = 0;
 };
@@ -60,6 +60,9 @@ struct Camera {
     double zoom = 1;           // 1: the whole grid fits into the image
     double field_of_view_deg = 0;           // across the image at zoom 1; 0: orthographic
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
+    // What is in the middle of the picture. A camera with a place of its own turns to it, whatever
+    // its azimuth and tilt are; one that looks from outside keeps these two.
+    std::optional<Eye> look_at = std::nullopt;
 };
 
 // A vertical section along the geodesic between two places.

@@ -8,7 +8,8 @@
 //              than 1 % of the drop within 1,000 km.
 // Camera       Orthographic or perspective. Without a place of its own it looks at the middle of
 //              the box that holds the grid (the cells and the ground below them). At zoom 1 that
-//              box just fits into the picture.
+//              box just fits into the picture. Another point to look at moves the picture and keeps
+//              its scale.
 // Pixels       (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first
 //              pixel.
 // Depth        Meters along forward(), from the camera (perspective) or from the middle
@@ -94,6 +95,7 @@ class ViewGeometry {
   private:
     void fit_picture(const Camera& camera);
     void place_eye(const Camera& camera);
+    void look_at(const Eye& point);
     void find_depths();
     [[nodiscard]] std::array<Vec3, 8> corners(double low_m) const;
 
@@ -107,6 +109,11 @@ class ViewGeometry {
     double metres_per_pixel_ = 1;
     double near_m_ = 0, far_m_ = 0;
 };
+
+// Returns the camera with the azimuth and the tilt by which it looks at its look_at, if it has a place
+// of its own. A camera that is right above or below that point keeps its azimuth.
+[[nodiscard]] Camera aimed(const Camera& camera, double vertical_exaggeration,
+                           bool curved_earth = false);
 
 // The range of heights of the cells: half a spacing beyond the first and the last level.
 struct HeightRange {

@@ -1,0 +1,84 @@
+// render/view/camera_path.h -- the way of a camera through a loop, between places that a user
+// names.
+//
+// A CameraKey says where the camera is at an instant, and what it does not say is that of the usual
+// camera. Between two keys the camera goes smoothly, without a jump of its velocity:
+//   ground plan   Catmull and Rom's curve through the places (also through the points looked at),
+//                 with the knots at the keys' times. Two keys at the same place hold the camera.
+//   heights, tilt, zoom (its logarithm), field of view, azimuth
+//                 Monotone cubics (Fritsch and Carlson 1980): between two keys they stay between
+//                 the values of these, so that no camera dips below the lower of two keys.
+//   azimuth       The shortest way from key to key, and `turns` whole turns more.
+// The camera starts and ends at rest, unless it ends where it began: then it goes on, and the loop
+// may be played for ever without a jolt.
+//
+// Units     Each member names its unit; heights are above sea level.
+// Threads   A CameraPath is immutable.
+// Errors    See make().
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::render {
+
+struct CameraKey {
+    double time_s = 0;  // only the proportions of the times count
+    std::optional<double> azimuth_deg, tilt_deg, zoom, field_of_view_deg;
+    int turns = 0;  // on the way from the key before, clockwise seen from above
+    std::optional<Eye> eye, look_at;
+};
+
+// One number that varies with time: a cubic Hermite curve between its knots.
+class KeyedCurve {
+  public:
+    enum class Shape { smooth, monotone };
+
+    // `times` rise; there are at least two. The slope of `is_held` knots is 0 (empty: of none).
+    KeyedCurve(std::vector<double> times, std::vector<double> values, Shape shape, bool is_closed,
+               const std::vector<bool>& is_held = {});
+    // Before the first knot it has the first value, after the last the last.
+    [[nodiscard]] double at(double time) const;
+
+  private:
+    std::vector<double> times_, values_, slopes_;
+};
+
+class CameraPath {
+  public:
+    // Errors: bad_argument that names the key (1 is the first) and what is wrong with it: times
+    // that do not rise, keys of which only some have a place or a point to look at, azimuth or tilt
+    // beside these two, values out of the ranges of a scene.
+    [[nodiscard]] static Result<CameraPath> make(const std::vector<CameraKey>& keys,
+                                                 const Camera& usual);
+
+    [[nodiscard]] double duration_s() const { return times_.back() - times_.front(); }
+    // It ends where it began.
+    [[nodiscard]] bool is_closed() const { return is_closed_; }
+    // Returns the camera at a share of the way, 0 to 1.
+    [[nodiscard]] Camera at(double share) const;
+
+  private:
+    struct PlaceCurves {
+        KeyedCurve x_m, y_m, height_m;
+        [[nodiscard]] Eye at(double time) const {
+            return {x_m.at(time), y_m.at(time), height_m.at(time)};
+        }
+    };
+    struct Full;  // the cameras at the keys
+    CameraPath(std::vector<double> times, const Full& full);
+    [[nodiscard]] KeyedCurve curve(const std::vector<double>& values) const {
+        return {times_, values, KeyedCurve::Shape::monotone, is_closed_};
+    }
+    [[nodiscard]] PlaceCurves place_curves(const std::vector<Eye>& places) const;
+
+    std::vector<double> times_;
+    bool is_closed_;
+    KeyedCurve azimuth_deg_, tilt_deg_, log_zoom_, field_of_view_deg_;
+    std::optional<PlaceCurves> eye_, look_at_;
+};
+
+}  // namespace stormcellar::render
