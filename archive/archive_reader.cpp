@@ -144,7 +144,7 @@ struct ArchiveReader::Impl {
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }
 
-    void leave_out(std::string name, std::string reason) {
+    void leave_out(const std::string& name, std::string reason) {
         if (left_out.size() == most_left_out) {
             left_out.push_back({{}, "more members are left out than are named here"});
         } else if (left_out.size() < most_left_out) {
