@@ -1,0 +1,151 @@
+// Pictures of files, without a daemon, and where commands find the service's directories.
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "tests/cli/run_stormcellar.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class FrameFiles : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        data_ = *testing::data_directory();
+        std::ofstream(directory_ / "config.toml")
+            << "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n";
+    }
+
+    [[nodiscard]] std::string volume(const char* name) const {
+        return (data_ / "volumes" / name).native();
+    }
+    [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).native(); }
+
+    [[nodiscard]] std::string bytes_of(const std::string& path) const {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    // The compressed pixels of a PNG, without what its texts say of the grid.
+    [[nodiscard]] std::string pixels_of(const std::string& path) const {
+        const std::string png = bytes_of(path);
+        std::string pixels;
+        for (std::size_t at = 8; at + 12 <= png.size();) {
+            std::size_t length = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                length = length * 256 + static_cast<unsigned char>(png[at + i]);
+            if (png.compare(at + 4, 4, "IDAT") == 0) pixels += png.substr(at + 8, length);
+            at += 12 + length;
+        }
+        return pixels;
+    }
+
+    // As the daemon does: the raw file to catalog and cache.
+    void ingest(const std::string& file) {
+        fs::create_directories(directory_ / "drop");
+        fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());
+        testing::RunningProgram daemon(STORMCELLARD, {"--config", out("config.toml")});
+        ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
+            return fs::is_directory(directory_ / "cache") &&
+                   run({"cache", "list", "--cache", out("cache")}).status == 0;
+        })) << daemon.err();
+        EXPECT_EQ(daemon.end(SIGTERM), 0);
+    }
+
+    testing::TemporaryDirectory directory_;
+    fs::path data_;
+};
+
+// The daemon's own grid of the file is drawn to the same pixel, with the same words.
+TEST_F(FrameFiles, IsThePictureOfTheStoredGrid) {
+    const std::string file = volume("KTLX19990503_235621.gz");
+    ingest(file);
+    for (const std::string product : {"volume", "composite"}) {
+        const auto from_file =
+            run({"frame", file, "--product", product, "-o", out("file.png"), "--threads", "2"});
+        ASSERT_EQ(from_file.status, 0) << from_file.err;
+        const auto from_cache = run({"frame", "KTLX", "--config", out("config.toml"), "--product",
+                                     product, "-o", out("cache.png")});
+        ASSERT_EQ(from_cache.status, 0) << from_cache.err;
+        EXPECT_FALSE(pixels_of(out("file.png")).empty());
+        EXPECT_TRUE(pixels_of(out("file.png")) == pixels_of(out("cache.png"))) << product;
+    }
+}
+
+TEST_F(FrameFiles, SeveralSitesAreAMosaic) {
+    const fs::path northeast = data_ / "mosaic-northeast";
+    const auto drawn =
+        run({"frame", (northeast / "KBGM20100911_012056_V03.gz").native(),
+             (northeast / "KENX20100911_011108_V03.gz").native(), "--product", "composite",
+             "--spacing-km", "4", "--levels-km", "1:9:2", "--json", "-o", out("a.png")});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    const auto json = nlohmann::json::parse(drawn.out);
+    EXPECT_EQ(json["domain"], "KBGM+KENX");
+    EXPECT_THAT(bytes_of(out("a.png")), HasSubstr("KBGM KENX"));
+}
+
+TEST_F(FrameFiles, TheGridIsWhereItWasAskedFor) {
+    const auto probed = run({"frame", volume("KTLX19990503_235621.gz"), "--center", "35.3,-97.6",
+                             "--extent-km", "60,40", "--spacing-km", "0.5", "--product",
+                             "composite", "--probe-at", "35.3,-97.6", "--json"});
+    ASSERT_EQ(probed.status, 0) << probed.err;
+    const auto json = nlohmann::json::parse(probed.out);
+    EXPECT_EQ(json["probe"]["status"], "value");
+    EXPECT_NEAR(json["probe"]["latitude_deg"].get<double>(), 35.3, 0.003);
+    const auto outside =
+        run({"frame", volume("KTLX19990503_235621.gz"), "--center", "35.3,-97.6", "--extent-km",
+             "60,40", "--product", "composite", "--probe-at", "37,-97.6"});
+    EXPECT_NE(outside.status, 0);
+    EXPECT_THAT(outside.err, HasSubstr("outside"));
+}
+
+TEST_F(FrameFiles, OptionsOfTheGridAreForFiles) {
+    ingest(volume("KTLX20170101_030027_V06"));
+    const auto refused =
+        run({"frame", "KTLX", "--cache", out("cache"), "--extent-km", "60,60", "-o", out("a.png")});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("for files"));
+}
+
+TEST_F(FrameFiles, TheServiceSaysWhereThingsAre) {
+    ingest(volume("KTLX20170101_030027_V06"));
+    // The only domain needs no name.
+    const auto only = run(
+        {"frame", "--config", out("config.toml"), "--product", "composite", "-o", out("a.png")});
+    EXPECT_EQ(only.status, 0) << only.err;
+    const auto list = run({"catalog", "list", "--config", out("config.toml")});
+    EXPECT_THAT(list.out, HasSubstr("KTLX"));
+    ASSERT_EQ(::setenv("STORMCELLAR_CONFIG", out("config.toml").c_str(), 1), 0);
+    const auto by_variable = run({"cache", "stat"});
+    const auto option_wins = run({"cache", "stat", "--cache", out("nowhere")});
+    const auto named_wins = run({"cache", "stat", "--config", out("missing.toml")});
+    ::unsetenv("STORMCELLAR_CONFIG");
+    EXPECT_THAT(by_variable.out, HasSubstr("KTLX"));
+    EXPECT_NE(option_wins.status, 0);
+    EXPECT_THAT(option_wins.err, HasSubstr("nowhere"));
+    EXPECT_THAT(named_wins.err, HasSubstr("missing.toml"));
+}
+
+TEST_F(FrameFiles, NothingSaysWhereTheCacheIs) {
+    if (::access("/etc/stormcellar/stormcellard.toml", R_OK) == 0)
+        GTEST_SKIP() << "a service is here";
+    const auto lost = run({"frame", "KTLX", "-o", out("a.png")});
+    EXPECT_EQ(lost.status, 2);
+    EXPECT_THAT(lost.err, HasSubstr("'KTLX' names no file here"));
+    EXPECT_THAT(lost.err, HasSubstr("--cache"));
+    EXPECT_THAT(lost.err, HasSubstr("STORMCELLAR_CONFIG"));
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
