@@ -1,6 +1,7 @@
 // stormcellar frame: draws one still picture, of files or of a grid in the cache.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/floating_point.h"
+#include "base/name_list.h"
 #include "base/steady_time.h"
 #include "cli/picture/fitted_view.h"
 #include "cli/picture/picture.h"
@@ -19,8 +21,8 @@
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
+#include "cli/picture/still_output.h"
 #include "cli/shared/commands.h"
-#include "cli/shared/output_file.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"
 #include "cli/shared/source_names.h"
@@ -29,8 +31,8 @@
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/store.h"
-#include "stormcellar/render/png_file.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/render/still.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -44,6 +46,8 @@ struct FrameOptions {
     std::string output;    // empty: nothing is drawn, only probed
     std::string probe;     // "X,Y"
     std::string probe_at;  // "LAT,LON"
+    std::string geotiff;   // what a GeoTIFF holds
+    render::TiffContent tiff = render::TiffContent::values;
     bool json = false;
     SceneFile scene_file;
     SceneOptions scene;
@@ -182,6 +186,20 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
     return MaybeProbe{};
 }
 
+// Draws the scene and encodes the picture; of a format of maps, encodes the map of the grid
+// instead. Calls `drawn` between the two.
+Result<std::vector<std::byte>> encode_frame(const render::StillFormat& format,
+                                            const render::StillMap& shown,
+                                            const render::StillOptions& options,
+                                            const std::function<void()>& drawn) {
+    if (format.encode_map != nullptr) return format.encode_map(shown, options);
+    const auto picture =
+        render::render_frame(shown.view, shown.facts, shown.scene, options.threads);
+    if (!picture) return pass_on(picture);
+    drawn();
+    return format.encode_picture(*picture, options);
+}
+
 Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scene,
                           const PictureGrid& file, SteadyTime start) {
     Timing timing;
@@ -192,19 +210,18 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     const auto done =
         plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
     if (!done) return pass_on(done);
-    const auto picture = render::render_frame(file.view(), facts, planned, threads);
-    if (!picture) return pass_on(picture);
-    if (Status whole = file.check_whole(); !whole) return pass_on(whole);
-    timing.render_s = seconds_since(start) - timing.read_s;
-    const auto bytes = render::encode_png(*picture, metadata_of({options.domain,
-                                                                 file.description().time,
-                                                                 file.description().time,
-                                                                 std::nullopt,
-                                                                 {},
-                                                                 *done},
-                                                                file.description(), planned));
+    const PictureFacts told{
+        options.domain, file.description().time, file.description().time, std::nullopt, {}, *done};
+    const render::StillOptions still{.metadata = metadata_of(told, file.description(), planned),
+                                     .tiff = options.tiff,
+                                     .threads = threads};
+    const render::StillMap map{file.view(), facts, planned};
+    const auto bytes = encode_frame(still_format(options.output), map, still, [&] {
+        timing.render_s = seconds_since(start) - timing.read_s;
+    });
     if (!bytes) return pass_on(bytes);
-    if (auto written = write_output(options.output, *bytes); !written) return pass_on(written);
+    if (Status whole = file.check_whole(); !whole) return pass_on(whole);
+    if (auto written = write_still(options.output, *bytes); !written) return pass_on(written);
     timing.total_s = seconds_since(start);
     timing.write_s = timing.total_s - timing.read_s - timing.render_s;
     return timing;
@@ -220,7 +237,17 @@ Status check_options(const FrameOptions& options) {
         return fail(ErrorCode::bad_argument,
                     "there is nothing to do; give -o, --probe or --probe-at");
     }
-    return check_output_file(options.output, {".png"}, "a frame is written as PNG", options.json);
+    return {};
+}
+
+// Checks what -o and --geotiff say together with the product.
+Status check_output(FrameOptions& options, render::Product product) {
+    if (options.output.empty()) return {};
+    if (Status fits = check_still_output(options.output, product, options.json); !fits) return fits;
+    const auto tiff = parse_tiff_content(options.geotiff, options.output);
+    if (!tiff) return pass_on(tiff);
+    options.tiff = *tiff;
+    return {};
 }
 
 // Says which domain is meant where none is named: the only one of the cache.
@@ -300,6 +327,8 @@ int run_frame(FrameOptions options) {
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
     auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
+    if (const Status fine = check_output(options, scene->product); !fine)
+        return report_error(fine.error());
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
     options.plan = std::move(*plan);
@@ -346,8 +375,13 @@ Run set_up_frame(CLI::App& frame) {
                      "as -1h. Default: the latest grid. Of files, the time of the grid, as for "
                      "stormcellar grid");
     frame.add_option("-o,--output", options->output,
-                     "The picture to write (.png), or - for standard output. It may be left out "
-                     "with --probe and --probe-at");
+                     still_help() + ". It may be left out with --probe and --probe-at");
+    frame.add_option(
+        "--geotiff", options->geotiff,
+        fmt::format("What a GeoTIFF holds: {}. values are those of the product, states "
+                    "say why a place has none, colors are those of the color table. "
+                    "Default: {}",
+                    names_in(render::tiff_contents, ", ", " or "), render::tiff_contents[0].name));
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");

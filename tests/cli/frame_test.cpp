@@ -71,6 +71,39 @@ TEST_F(Frame, DrawsTheLatestGridAsPng) {
     EXPECT_THAT(png, ::testing::HasSubstr("2005-08-22T02:50:00Z"));
 }
 
+TEST_F(Frame, TheEndingOfTheOutputIsItsFormat) {
+    using ::testing::HasSubstr;
+    using ::testing::StartsWith;
+    const auto made = [&](const char* name, const std::string& more) {
+        EXPECT_EQ(run("--domain KBGM -o " + out(name) + more), exit_done) << messages_;
+        return text_of(out(name));
+    };
+    for (const char* name : {"a.jpg", "a.webp"})
+        EXPECT_THAT(made(name, " --slices 16"), HasSubstr("2005-08-22T02:50:00Z")) << name;
+    EXPECT_THAT(text_of(out("a.jpg")), StartsWith("\xFF\xD8\xFF"));
+    EXPECT_THAT(text_of(out("a.webp")), StartsWith("RIFF"));
+    const std::string map = " --product composite";
+    EXPECT_THAT(made("a.tif", map), HasSubstr("2005-08-22T02:50:00Z"));
+    EXPECT_THAT(text_of(out("a.tif")), StartsWith("II*"));
+    EXPECT_THAT(made("a.kmz", map), HasSubstr("<when>2005-08-22T02:50:00Z</when>"));
+    const std::string values = text_of(out("a.tif"));
+    EXPECT_NE(made("a.tif", map + " --geotiff states"), values);
+    EXPECT_NE(made("a.tif", map + " --geotiff colors"), values);
+    EXPECT_EQ(made("a.tif", map + " --geotiff values"), values);
+}
+
+TEST_F(Frame, WhatAFormatCannotHoldIsBadUsage) {
+    EXPECT_EQ(run("--domain KBGM -o " + out("b.tif")), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("GeoTIFF holds maps; volume is none"));
+    EXPECT_EQ(run("--domain KBGM -o " + out("b.png") + " --geotiff states"), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --product vil --geotiff grey -o " + out("b.tif")), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("values, states, colors"));
+    EXPECT_EQ(run("--domain KBGM -o -.bmp"), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --json -o -.webp"), exit_bad_usage);
+    for (const char* name : {"b.tif", "b.png", "-.bmp"})
+        EXPECT_FALSE(fs::exists(out(name)));
+}
+
 TEST_F(Frame, TakesTheGridAtOrBeforeTheTime) {
     EXPECT_EQ(run("--domain KBGM --time 2005-08-22T02:49 --product composite -o " + out("a.png")),
               exit_done);
@@ -93,7 +126,8 @@ TEST_F(Frame, NothingMatchedIsStatusThreeAndWritesNothing) {
 }
 
 TEST_F(Frame, NonsenseIsBadUsage) {
-    EXPECT_EQ(run("--domain KBGM -o " + out("a.jpeg")), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM -o " + out("a.bmp")), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("JPEG (.jpg, .jpeg), WebP (.webp), GeoTIFF"));
     EXPECT_EQ(run("--domain KBGM --time noon -o " + out("a.png")), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --tilt 100 -o " + out("a.png")), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --width 100 -o " + out("a.png")), exit_bad_usage)
