@@ -129,9 +129,11 @@ void report_frame(const FrameOptions& options, const render::Scene& scene,
     if (!options.json) {
         if (probe) print_probe(*probe, options, scene, grid);
         if (options.output.empty()) return;
-        fmt::print(stderr, "{}: {} {}, {}, {} x {} pixels, {:.0f} ms\n", printable(options.output),
+        const bool is_data = still_format(options.output).encode_map != nullptr;
+        fmt::print(stderr, "{}: {} {}, {}, {} x {} {}, {:.0f} ms\n", printable(options.output),
                    printable(options.domain), format_utc(grid.time), options.scene.product,
-                   scene.width, scene.height, timing.total_s * 1e3);
+                   is_data ? grid.spec.nx : scene.width, is_data ? grid.spec.ny : scene.height,
+                   is_data ? "cells" : "pixels", timing.total_s * 1e3);
         return;
     }
     Json json;
@@ -212,9 +214,12 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     if (!done) return pass_on(done);
     const PictureFacts told{
         options.domain, file.description().time, file.description().time, std::nullopt, {}, *done};
-    const render::StillOptions still{.metadata = metadata_of(told, file.description(), planned),
-                                     .tiff = options.tiff,
-                                     .threads = threads};
+    render::StillOptions still{.metadata = metadata_of(told, file.description(), planned),
+                               .tiff = options.tiff,
+                               .threads = threads};
+    // A map as data has no picture's size.
+    if (still_format(options.output).encode_map != nullptr)
+        std::erase_if(still.metadata, [](const auto& text) { return text.first == "Picture"; });
     const render::StillMap map{file.view(), facts, planned};
     const auto bytes = encode_frame(still_format(options.output), map, still, [&] {
         timing.render_s = seconds_since(start) - timing.read_s;

@@ -13,7 +13,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr double margin_px = 12;
-constexpr double bar_height_px = 220;
+constexpr double bar_height_px = 240;
 constexpr double bar_width_px = 18;
 constexpr double line_px = 17;
 constexpr double text_px = 12;

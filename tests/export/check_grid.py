@@ -6,6 +6,7 @@ on WGS84), so that a wrong projection, axis or unit cannot pass.
 """
 import json
 import math
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -265,6 +266,48 @@ def check_moments(program, level2_file, path):
     assert [one["moment"] for one in listed["moments"]] == ["REF", names[1]]
 
 
+def check_maps(program, level2_file, path, options):
+    """The GeoTIFF of a map, read by GDAL, against the column maxima of the netCDF."""
+    make(program, level2_file, path, options)
+    raster = path + ".tif"
+    subprocess.run([program, "frame", level2_file, "--product", "composite", "-o", raster, *options],
+                   check=True, stderr=subprocess.DEVNULL)
+    facts = json.loads(subprocess.run(["gdalinfo", "-json", raster], check=True,
+                                      capture_output=True).stdout)
+    subprocess.run(["gdal_translate", "-q", "-of", "ENVI", raster, path + ".raw"], check=True)
+    west, step_x, _, north, _, step_y = facts["geoTransform"]
+    with xarray.open_dataset(path) as dataset:
+        rows, columns = dataset["REF"].dims[2:]
+        highest = dataset["REF"].isel(time=0).max("z").values[::-1]
+        found = np.fromfile(path + ".raw", dtype="<f4").reshape(highest.shape)
+        assert np.array_equal(np.isnan(found), np.isnan(highest))
+        # Pictures take grids as the cache has them: reflectivity in steps of half a decibel.
+        assert np.nanmax(np.abs(found - highest)) <= 0.2501
+        assert np.isfinite(found).sum() > 0
+        half = abs(step_x) / 2
+        assert abs(west + half - float(dataset[columns][0])) < 1e-6 * half
+        assert abs(north - half - float(dataset[rows][-1])) < 1e-6 * half
+        assert abs(step_x + step_y) < 1e-12 * step_x
+    corners = json.loads(subprocess.run(
+        ["gdalinfo", "-json", overlay_of(program, level2_file, path, options)], check=True,
+        capture_output=True).stdout)["cornerCoordinates"]
+    with xarray.open_dataset(path) as dataset:
+        lat, lon = places(dataset)
+    # The overlay reaches half a cell beyond the outermost centers.
+    for edge, inside in ((corners["upperLeft"][1], lat.max()),
+                         (-corners["lowerRight"][1], -lat.min()),
+                         (-corners["upperLeft"][0], -lon.min()),
+                         (corners["lowerRight"][0], lon.max())):
+        assert 0 < edge - inside < 0.01, (edge, inside)
+
+
+def overlay_of(program, level2_file, path, options):
+    overlay = path + ".kmz"
+    subprocess.run([program, "frame", level2_file, "--product", "composite", "-o", overlay,
+                    *options], check=True, stderr=subprocess.DEVNULL)
+    return overlay
+
+
 def make(program, level2_file, path, options):
     command = [program, "grid", level2_file, "-o", path, "--json", *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
@@ -293,6 +336,9 @@ def main():
             echoes.append(middle_of_storms(path, site))
         check_details(program, level2_file, path)
         check_moments(program, level2_file, path)
+        if shutil.which("gdalinfo"):
+            for projection in ("aeqd", "lat-lon", "lambert"):
+                check_maps(program, level2_file, path, ["--projection", projection])
         # The storms stand at the same places on every map, within a cell.
         stormy = facts["cells"]["value"] > 0.02 * facts["nx"] * facts["ny"] * len(facts["levels_m"])
         assert not stormy or None not in echoes
