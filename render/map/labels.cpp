@@ -223,7 +223,7 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     LabelLayout layout;
     layout.scale = space.scale;
     layout.shades = &shades_of(scene.theme);
-    LabelBuilder builder(fonts, *layout.shades, layout.scale, layout.texts, layout.blocks);
+    LabelBuilder builder(fonts, *layout.shades, layout.scale, layout);
     layout.top = space.header;
     layout.width = scene.width - space.panel;
     layout.height = scene.height - space.header - space.footer - space.band;
@@ -260,6 +260,16 @@ void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout) 
             }
         }
         canvas.place(swatch, static_cast<int>(block.box.x), static_cast<int>(block.box.y));
+    }
+    for (const Rect& box : layout.outlines) {
+        Rgba8 colour = layout.shades->border;
+        colour[3] = 110;
+        const double half = 0.5;
+        canvas.line({{box.x - half, box.y - half},
+                     {box.right() + half, box.y - half},
+                     {box.right() + half, box.bottom() + half},
+                     {box.x - half, box.bottom() + half}},
+                    1, colour, true);
     }
     for (const LabelText& text : layout.texts) {
         canvas.text(fonts, text.text, {text.box.x, text.baseline}, text.size, text.bold,

@@ -27,13 +27,11 @@ namespace stormcellar::render {
 inline constexpr int smallest_labelled_width = 400;
 inline constexpr int smallest_labelled_height = 300;
 
-struct LabelLayout {
+struct LabelLayout : LabelParts {
     double scale = 1;                              // of text and lines; 1 for 796 x 532 pixels
     int left = 0, top = 0, width = 0, height = 0;  // the picture
     std::optional<Rect> inset;                     // of a section: the small map of its line
     const Shades* shades = &shades::dark;
-    std::vector<LabelBlock> blocks;                // color bar and legend
-    std::vector<LabelText> texts;
 };
 
 // What the labels say about the picture beside the facts of its grid.

@@ -24,6 +24,7 @@ void lay_out_upright_bar(LabelBuilder& builder, const ColourTable& table, const 
     const ColourBar bar = colour_bar(table, box, 1.15 * text_height, builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
+    builder.outline(box);
     for (const BarTick& tick : bar.ticks) {
         builder.put(tick.text, box.right() + builder.scaled(6), tick.at + 0.3 * text_height,
                     builder.scaled(72), builder.plain(bar_text));
@@ -46,6 +47,7 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
                                     builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
+    builder.outline(box);
     const double baseline = top + height + builder.scaled(11);
     for (const BarTick& tick : bar.ticks) {
         const double half = width_of(tick.text) / 2;

@@ -75,13 +75,11 @@ Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene, const
                                                   static_cast<int>(grid.height)).scale);
     layout.labels.scale = layout.scale;
     layout.labels.shades = &shades_of(scene.theme);
-    LabelBuilder whole(fonts, *layout.labels.shades, space.scale, layout.labels.texts,
-                       layout.labels.blocks);
+    LabelBuilder whole(fonts, *layout.labels.shades, space.scale, layout.labels);
     lay_out_header(whole, space.shape, scene.width, header_of(facts, picture.legend.product));
     lay_out_footer(whole, scene.width, scene.height,
                    footer_of(scene, facts, picture.ring_spacing_m, picture.coverage));
-    LabelBuilder part(fonts, *layout.labels.shades, layout.scale, layout.labels.texts,
-                      layout.labels.blocks);
+    LabelBuilder part(fonts, *layout.labels.shades, layout.scale, layout.labels);
     const double title = std::round(part.scaled(title_height));
     const double legend = std::round(part.scaled(legend_height));
     const double between = std::round(part.scaled(gap));

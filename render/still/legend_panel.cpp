@@ -22,18 +22,19 @@ constexpr double title_px = 13;
 struct PanelLine {
     std::string text;
     bool bold = false;
-    Rgba8 colour = shades::text;
+    Rgba8 colour{};
 };
 
-std::vector<PanelLine> lines_of(const StillMap& map) {
-    std::vector<PanelLine> lines = {{product_title(map.scene), true, shades::text},
-                                    {map.facts.domain, false, shades::quiet_text}};
+std::vector<PanelLine> lines_of(const StillMap& map, const Shades& shades) {
+    std::vector<PanelLine> lines = {{product_title(map.scene), true, shades.text},
+                                    {map.facts.domain, false, shades.quiet_text}};
     const std::string time = format_utc(map.facts.time);  // 2022-03-17T00:08:42.596Z
-    lines.push_back({time.substr(0, 10) + " " + time.substr(11, 8) + " UTC"});
+    lines.push_back(
+        {time.substr(0, 10) + " " + time.substr(11, 8) + " UTC", false, shades.text});
     if (!map.facts.local_time.empty())
-        lines.push_back({map.facts.local_time, false, shades::quiet_text});
-    if (map.facts.interpolated) lines.push_back({"interpolated", false, shades::warning_text});
-    if (map.facts.partial) lines.push_back({"partial volume", false, shades::warning_text});
+        lines.push_back({map.facts.local_time, false, shades.quiet_text});
+    if (map.facts.interpolated) lines.push_back({"interpolated", false, shades.warning_text});
+    if (map.facts.partial) lines.push_back({"partial volume", false, shades.warning_text});
     return lines;
 }
 
@@ -48,11 +49,12 @@ Result<Image> draw_legend_panel(const StillMap& map) {
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
     const ColourTable& table = colours_of(map.scene);
-    const std::vector<PanelLine> lines = lines_of(map);
+    const Shades& shades = shades_of(map.scene.theme);
+    const std::vector<PanelLine> lines = lines_of(map, shades);
     std::vector<PanelState> states;
     if (facts_of(map.scene.product).has_echo_states)
         states.push_back({"range folded", table.range_folded});
-    states.push_back({"not seen", over(unseen_veil, shades::text)});
+    states.push_back({"not seen", over(unseen_veil, shades.text)});
 
     double widest = 0;
     for (const PanelLine& line : lines)
@@ -63,7 +65,7 @@ Result<Image> draw_legend_panel(const StillMap& map) {
     const double states_top = bar_top + bar_height_px + margin_px;
     const double height = states_top + line_px * static_cast<double>(states.size()) + margin_px / 2;
     Canvas canvas(static_cast<int>(std::ceil(widest + 2 * margin_px)),
-                  static_cast<int>(std::ceil(height)), shades::page);
+                  static_cast<int>(std::ceil(height)), shades.page);
 
     double baseline = margin_px + title_px - 2;
     for (const PanelLine& line : lines) {
@@ -73,19 +75,19 @@ Result<Image> draw_legend_panel(const StillMap& map) {
     }
     const std::string unit = unit_shown(map.scene);
     canvas.text(*fonts, unit.empty() ? std::string(level2::moment_name(map.scene.moment)) : unit,
-                {margin_px, bar_top - 6}, text_px, false, shades::quiet_text);
+                {margin_px, bar_top - 6}, text_px, false, shades.quiet_text);
     const Rect bar{margin_px, bar_top, bar_width_px, bar_height_px};
-    const ColourBar shown = colour_bar(table, bar, line_px - 2);
+    const ColourBar shown = colour_bar(table, bar, line_px - 2, shades.land.seen);
     for (const BarBlock& block : shown.blocks)
         canvas.fill(block.box, block.colour);
     for (const BarTick& tick : shown.ticks) {
-        canvas.text(*fonts, tick.text, {bar.right() + 8, tick.y + text_px / 3}, text_px, false,
-                    shades::text);
+        canvas.text(*fonts, tick.text, {bar.right() + 8, tick.at + text_px / 3}, text_px, false,
+                    shades.text);
     }
     baseline = states_top + text_px - 1;
     for (const PanelState& state : states) {
         canvas.fill({margin_px, baseline - text_px + 1, bar_width_px, text_px}, state.colour);
-        canvas.text(*fonts, state.text, {bar.right() + 8, baseline}, text_px, false, shades::text);
+        canvas.text(*fonts, state.text, {bar.right() + 8, baseline}, text_px, false, shades.text);
         baseline += line_px;
     }
     return canvas.image();
