@@ -409,9 +409,10 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_option("-o,--output", options->output,
                      "The picture to write (.png), or - for standard output. It may be left out "
                      "with --probe and --probe-at");
-    frame.add_option("--panels", options->panels,
-                     "Show several moments of one time side by side, each with its own colors, as in "
-                     "REF,VEL,RHO,ZDR");
+    frame.add_option(
+        "--panels", options->panels,
+        "Show several moments of one time side by side, each with its own colors, as in "
+        "REF,VEL,RHO,ZDR");
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");

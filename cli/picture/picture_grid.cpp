@@ -75,11 +75,11 @@ Result<std::vector<PictureGrid>> PictureGrid::make_each(GridOptions options) {
             troubles.insert(troubles.end(), source.radar_troubles.begin(),
                             source.radar_troubles.end());
         }
-        made.push_back(PictureGrid(std::make_unique<Made>(
-            Made{fmt::format("{}", fmt::join(grid.provenance.stations, "+")), cache::describe(grid),
-                 grid::BrickGrid::from(grid, grid::default_quantization(grid.moment),
-                                       request->threads),
-                 {}})));
+        made.push_back(PictureGrid(std::make_unique<Made>(Made{
+            fmt::format("{}", fmt::join(grid.provenance.stations, "+")),
+            cache::describe(grid),
+            grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), request->threads),
+            {}})));
     }
     made.front().made_->volumes = std::move(volumes);
     return made;

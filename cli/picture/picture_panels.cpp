@@ -29,30 +29,25 @@ Result<std::vector<level2::Moment>> moments_of(const std::string& list) {
     return moments;
 }
 
-bool has_key(const ChosenOptions& chosen, std::string_view key) {
-    return std::ranges::any_of(chosen, [&](const PictureOption* row) {
-        return row->section == "picture" && row->key == key;
-    });
-}
-
 }  // namespace
 
 Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const SceneFile& file,
                                              const SceneOptions& options) {
     const auto moments = moments_of(list);
     if (!moments) return pass_on(moments);
-    for (const char* const key : {"moment", "colors"}) {
-        if (has_key(options.typed, key)) {
+    for (const PictureOption* row : {&moment_option(), &colors_option()}) {
+        if (contains(options.typed, *row)) {
             return fail(ErrorCode::bad_argument,
-                        "--{} is for a picture of one moment; each of the panels has its own", key);
+                        "{} is for a picture of one moment; each of the panels has its own",
+                        row->option);
         }
     }
     SceneOptions panel = options;
     panel.colours.clear();
-    const auto is_sized = [&](std::string_view key) {
-        return has_key(options.typed, key) || has_key(options.in_file, key);
+    const auto is_given = [&](const PictureOption& row) {
+        return contains(options.typed, row) || contains(options.in_file, row);
     };
-    if (!is_sized("width") && !is_sized("height")) {
+    if (!is_given(width_option()) && !is_given(height_option())) {
         panel.scene.width = panels_width;
         panel.scene.height = panels_height;
     }

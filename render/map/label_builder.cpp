@@ -31,11 +31,11 @@ double LabelBuilder::put(std::string text, double x, double baseline, double roo
     const double width = fonts_.width(text, size, style.bold);
     const double left = x - share_before(align) * width;
     parts_.texts.push_back({{left, baseline - 0.8 * size, width, 1.05 * size},
-                      baseline,
-                      size,
-                      style.bold,
-                      style.colour,
-                      std::move(text)});
+                            baseline,
+                            size,
+                            style.bold,
+                            style.colour,
+                            std::move(text)});
     return width;
 }
 

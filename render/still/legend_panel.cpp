@@ -29,8 +29,7 @@ std::vector<PanelLine> lines_of(const StillMap& map, const Shades& shades) {
     std::vector<PanelLine> lines = {{product_title(map.scene), true, shades.text},
                                     {map.facts.domain, false, shades.quiet_text}};
     const std::string time = format_utc(map.facts.time);  // 2022-03-17T00:08:42.596Z
-    lines.push_back(
-        {time.substr(0, 10) + " " + time.substr(11, 8) + " UTC", false, shades.text});
+    lines.push_back({time.substr(0, 10) + " " + time.substr(11, 8) + " UTC", false, shades.text});
     if (!map.facts.local_time.empty())
         lines.push_back({map.facts.local_time, false, shades.quiet_text});
     if (map.facts.interpolated) lines.push_back({"interpolated", false, shades.warning_text});
