@@ -18,6 +18,7 @@
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_grid.h"
 #include "cli/picture/picture_metadata.h"
+#include "cli/picture/picture_panels.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
@@ -44,6 +45,7 @@ struct FrameOptions {
     GridOptions grid;      // of files
     std::string time;      // empty: the latest
     std::string output;    // empty: nothing is drawn, only probed
+    std::string panels;    // moments of a picture with several; empty: one
     std::string probe;     // "X,Y"
     std::string probe_at;  // "LAT,LON"
     std::string geotiff;   // what a GeoTIFF holds
@@ -54,21 +56,25 @@ struct FrameOptions {
     PicturePlanOptions plan;
 };
 
+// Returns the time at or before which a grid is looked for; none: now.
+Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
+    if (options.time.empty()) return std::optional<UtcTime>{};
+    const auto time = parse_utc(options.time, now_utc());
+    if (!time) return fail(time.error().code, "--time: {}", time.error().message);
+    return std::optional{*time};
+}
+
 // Returns the newest grid of the domain at or before the time; none if there is none.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
                                                    level2::Moment moment) {
-    std::optional<UtcTime> until;
-    if (!options.time.empty()) {
-        const auto time = parse_utc(options.time, now_utc());
-        if (!time) return fail(time.error().code, "--time: {}", time.error().message);
-        until = *time;
-    }
-    auto entries = store.list(options.domain, moment, std::nullopt, until);
+    const auto until = until_of(options);
+    if (!until) return pass_on(until);
+    auto entries = store.list(options.domain, moment, std::nullopt, *until);
     if (!entries) return pass_on(entries);
-    if (!until) cache::leave_out_future(*entries, now_utc());
+    if (!*until) cache::leave_out_future(*entries, now_utc());
     if (entries->empty()) return std::optional<cache::StoreEntry>{};
-    if (!until) warn_of_future(entries->back().time);
+    if (!*until) warn_of_future(entries->back().time);
     return std::optional{entries->back()};
 }
 
@@ -271,8 +277,8 @@ Status take_only_domain(const cache::StoreReader& store, std::string& domain) {
                 fmt::join(*domains, ", "));
 }
 
-// Returns none, after it was reported, if no grid matched.
-Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+// Opens the cache and says which domain is meant.
+Result<cache::StoreReader> open_store(FrameOptions& options) {
     if (has_picture_grid_options(options.grid)) {
         return fail(ErrorCode::bad_argument,
                     "options of the grid, such as --center, are for files; the grids of the cache "
@@ -284,11 +290,18 @@ Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Mo
                     "'{}' names no file here, and there is no cache to look for such a domain; {}",
                     options.domain, found.error().message);
     }
-    const auto store = cache::StoreReader::open(options.cache.directory);
-    if (!store) return pass_on(store);
+    auto store = cache::StoreReader::open(options.cache.directory);
+    if (!store) return store;
     if (options.domain.empty()) {
         if (Status taken = take_only_domain(*store, options.domain); !taken) return pass_on(taken);
     }
+    return store;
+}
+
+// Returns none, after it was reported, if no grid matched.
+Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+    const auto store = open_store(options);
+    if (!store) return pass_on(store);
     const auto entry = find_grid(*store, options, moment);
     if (!entry) return pass_on(entry);
     if (!*entry) {
@@ -326,10 +339,70 @@ Status take_sources(FrameOptions& options) {
     return {};
 }
 
+Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
+                                                 const std::vector<PanelScene>& panels) {
+    if (Status taken = take_sources(options); !taken) return pass_on(taken);
+    if (options.grid.files.empty()) {
+        const auto store = open_store(options);
+        if (!store) return pass_on(store);
+        const auto until = until_of(options);
+        if (!until) return pass_on(until);
+        return stored_panels(*store, options.domain, panels, *until);
+    }
+    options.grid.threads = thread_count(options.scene);
+    options.grid.time = options.time;
+    auto grids = gridded_panels(options.grid, panels);
+    if (grids) options.domain = grids->front().name();
+    return grids;
+}
+
+Result<Timing> make_panels(FrameOptions& options, const std::vector<PanelScene>& panels,
+                           const std::vector<PictureGrid>& grids, SteadyTime start) {
+    Timing timing;
+    timing.read_s = seconds_since(start);
+    const auto picture = draw_panels(options.domain, panels, grids, options.scene);
+    if (!picture) return pass_on(picture);
+    timing.render_s = seconds_since(start) - timing.read_s;
+    const auto& first = grids.front().description();
+    const render::StillOptions still{
+        .metadata = metadata_of({options.domain, first.time, first.time, std::nullopt, {}, {}},
+                                first, panels.front().scene)};
+    const auto bytes = still_format(options.output).encode_picture(*picture, still);
+    if (!bytes) return pass_on(bytes);
+    if (auto written = write_still(options.output, *bytes); !written) return pass_on(written);
+    timing.total_s = seconds_since(start);
+    timing.write_s = timing.total_s - timing.read_s - timing.render_s;
+    return timing;
+}
+
+int run_panels(FrameOptions& options, SteadyTime start) {
+    if (!options.probe.empty() || !options.probe_at.empty()) {
+        return report_error({ErrorCode::bad_argument,
+                             "--probe and --probe-at are for a picture of one moment, not for "
+                             "--panels"});
+    }
+    const auto panels = panel_scenes(options.panels, options.scene_file, options.scene);
+    if (!panels) return report_error(panels.error());
+    if (const Status fine = check_output(options, panels->front().scene.product); !fine)
+        return report_error(fine.error());
+    if (still_format(options.output).encode_picture == nullptr) {
+        return report_error(
+            {ErrorCode::bad_argument, "--panels makes a picture; GeoTIFF and KMZ hold one map"});
+    }
+    const auto grids = grids_of_panels(options, *panels);
+    if (!grids) return report_error(grids.error());
+    const auto timing = make_panels(options, *panels, *grids, start);
+    if (!timing) return report_error(timing.error());
+    options.scene.moment = options.panels;
+    report_frame(options, panels->front().scene, grids->front().description(), *timing, {});
+    return exit_done;
+}
+
 int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
+    if (!options.panels.empty()) return run_panels(options, start);
     auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     if (const Status fine = check_output(options, scene->product); !fine)
@@ -387,6 +460,10 @@ Run set_up_frame(CLI::App& frame) {
                     "say why a place has none, colors are those of the color table. "
                     "Default: {}",
                     names_in(render::tiff_contents, ", ", " or "), render::tiff_contents[0].name));
+    frame.add_option(
+        "--panels", options->panels,
+        "Show several moments of one time side by side, each with its own colors, as in "
+        "REF,VEL,RHO,ZDR");
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");

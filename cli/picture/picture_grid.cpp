@@ -50,6 +50,12 @@ Result<PictureGrid> PictureGrid::open(const std::filesystem::path& file) {
 }
 
 Result<PictureGrid> PictureGrid::make(GridOptions options) {
+    auto grids = make_each(std::move(options));
+    if (!grids) return pass_on(grids);
+    return std::move(grids->front());
+}
+
+Result<std::vector<PictureGrid>> PictureGrid::make_each(GridOptions options) {
     const auto inputs = find_inputs(options);
     if (!inputs) return pass_on(inputs);
     auto request = parse_request(options);
@@ -61,16 +67,22 @@ Result<PictureGrid> PictureGrid::make(GridOptions options) {
     std::vector<SourceVolume> volumes;
     auto grids = grid_inputs(options.files, *request, *moments, timings, &volumes);
     if (!grids) return pass_on(grids);
-    grid::Grid& grid = grids->front().grid;
-    for (const SourceVolume& source : volumes) {
-        auto& troubles = grid.provenance.radar_troubles;
-        troubles.insert(troubles.end(), source.radar_troubles.begin(), source.radar_troubles.end());
+    std::vector<PictureGrid> made;
+    for (auto& one : *grids) {
+        grid::Grid& grid = one.grid;
+        for (const SourceVolume& source : volumes) {
+            auto& troubles = grid.provenance.radar_troubles;
+            troubles.insert(troubles.end(), source.radar_troubles.begin(),
+                            source.radar_troubles.end());
+        }
+        made.push_back(PictureGrid(std::make_unique<Made>(Made{
+            fmt::format("{}", fmt::join(grid.provenance.stations, "+")),
+            cache::describe(grid),
+            grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), request->threads),
+            {}})));
     }
-    auto made = std::make_unique<Made>(
-        Made{fmt::format("{}", fmt::join(grid.provenance.stations, "+")), cache::describe(grid),
-             grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), request->threads),
-             std::move(volumes)});
-    return PictureGrid(std::move(made));
+    made.front().made_->volumes = std::move(volumes);
+    return made;
 }
 
 grid::BrickView PictureGrid::view() const {

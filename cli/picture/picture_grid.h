@@ -31,10 +31,15 @@ class PictureGrid {
     // files, the moment, the place of the grid and the number of threads. Errors name the file or
     // the option.
     [[nodiscard]] static Result<PictureGrid> make(GridOptions options);
+    // The same for several moments, "REF,VEL", of one decoding: a grid each, in the order of their
+    // names. The volumes belong to the first.
+    [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
     PictureGrid(PictureGrid&&) noexcept;
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();
 
+    // False once it was moved from.
+    [[nodiscard]] bool has_grid() const { return stored_ != nullptr || made_ != nullptr; }
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
     [[nodiscard]] const cache::GridDescription& description() const;
     // Of files: the station, or the stations of a mosaic with "+" between them.

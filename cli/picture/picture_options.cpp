@@ -375,6 +375,22 @@ const PictureOption& section_option() {
     return row_of("section");
 }
 
+const PictureOption& moment_option() {
+    return row_of("moment");
+}
+
+const PictureOption& colors_option() {
+    return row_of("colors");
+}
+
+const PictureOption& width_option() {
+    return row_of("width");
+}
+
+const PictureOption& height_option() {
+    return row_of("height");
+}
+
 std::string key_of(const PictureOption& option) {
     return fmt::format("[{}] {}", option.section, option.key);
 }

@@ -110,9 +110,13 @@ struct PictureOption {
 // In the order of --help.
 [[nodiscard]] std::span<const PictureOption> picture_options();
 
-// The two that other code asks about.
+// Those that other code asks about.
 [[nodiscard]] const PictureOption& slices_option();
 [[nodiscard]] const PictureOption& section_option();
+[[nodiscard]] const PictureOption& moment_option();
+[[nodiscard]] const PictureOption& colors_option();
+[[nodiscard]] const PictureOption& width_option();
+[[nodiscard]] const PictureOption& height_option();
 
 // As a message names a key: "[volume] slices".
 [[nodiscard]] std::string key_of(const PictureOption& option);

@@ -48,8 +48,8 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         {legend_of(scene), drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m),
          coverage_of(columns, *view.spec)});
     if (!layout) return pass_on(layout);
-    const auto picture = draw_view(drawn, {layout->width, layout->height, layout->scale}, &*fonts,
-                                   threads, cache);
+    const auto picture =
+        draw_view(drawn, {layout->width, layout->height, layout->scale}, &*fonts, threads, cache);
     if (!picture) return picture;
     Canvas canvas(scene.width, scene.height, layout->shades->page);
     canvas.place(*picture, layout->left, layout->top);

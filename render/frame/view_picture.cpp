@@ -66,7 +66,8 @@ std::vector<Point> line_in_picture(const grid::GridSpec& spec, const SectionLine
     std::vector<Point> points;
     constexpr int parts = 48;
     for (int i = 0; i <= parts; ++i) {
-        const GroundPoint at = ground.ground(start.to_geo({end.azimuth_deg, end.arc_m * i / parts}));
+        const GroundPoint at =
+            ground.ground(start.to_geo({end.azimuth_deg, end.arc_m * i / parts}));
         const Pixel pixel = geometry.project(at.x_m, at.y_m, geometry.ground_m());
         if (std::isfinite(pixel.x) && std::isfinite(pixel.y)) points.push_back({pixel.x, pixel.y});
     }
@@ -146,17 +147,18 @@ Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size
     // part about the line is shown.
     const auto whole = picture_geometry(spec, scene, size.width, size.height);
     const auto in_whole = line_in_picture(spec, *scene.section, whole);
-    const double across = std::hypot(in_whole.back().x - in_whole.front().x,
-                                     in_whole.back().y - in_whole.front().y);
-    const double larger = std::clamp(0.6 * std::min(size.width, size.height) / std::max(1.0, across),
-                                     1.0, largest_inset);
+    const double across =
+        std::hypot(in_whole.back().x - in_whole.front().x, in_whole.back().y - in_whole.front().y);
+    const double larger = std::clamp(
+        0.6 * std::min(size.width, size.height) / std::max(1.0, across), 1.0, largest_inset);
     const int width = static_cast<int>(larger * size.width);
     const int height = static_cast<int>(larger * size.height);
     const ViewGeometry geometry = picture_geometry(spec, scene, width, height);
     const auto line = line_in_picture(spec, *scene.section, geometry);
     const Point middle = line[line.size() / 2];
     const auto first_shown = [](double at, int all, int shown) {
-        return static_cast<int>(std::clamp(at - 0.5 * shown, 0.0, static_cast<double>(all - shown)));
+        return static_cast<int>(
+            std::clamp(at - 0.5 * shown, 0.0, static_cast<double>(all - shown)));
     };
     const int left = first_shown(middle.x, width, size.width);
     const int top = first_shown(middle.y, height, size.height);

@@ -1,9 +1,9 @@
 // render/image/shades.h -- the quiet colors behind and around the echo, for each theme.
 //
 // Those of the ground are nearly gray, and far from the lightness of echo, so that none can be
-// taken for a reflectivity. Letters have a contrast of 4.5 and more against everything that they may
-// stand on but echo, and there their halo does the same; lines of the map have less, so that they
-// stay behind the echo (tests/render/shades_test.cpp has the figures).
+// taken for a reflectivity. Letters have a contrast of 4.5 and more against everything that they
+// may stand on but echo, and there their halo does the same; lines of the map have less, so that
+// they stay behind the echo (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
@@ -57,8 +57,14 @@ inline constexpr Shades dark = {
 
 inline constexpr Shades light = {
     .page = {250, 250, 248, 255},
-    .land = {{236, 234, 228, 255}, {219, 217, 211, 255}, {211, 209, 204, 255}, {243, 242, 238, 255}},
-    .water = {{212, 224, 235, 255}, {196, 208, 220, 255}, {190, 201, 212, 255}, {226, 234, 241, 255}},
+    .land = {{236, 234, 228, 255},
+             {219, 217, 211, 255},
+             {211, 209, 204, 255},
+             {243, 242, 238, 255}},
+    .water = {{212, 224, 235, 255},
+              {196, 208, 220, 255},
+              {190, 201, 212, 255},
+              {226, 234, 241, 255}},
     .hatch = {158, 160, 164, 255},
     .haze = {150, 154, 162, 255},
     .border = {112, 118, 128, 255},

@@ -20,8 +20,7 @@ void add_block(ColourBar& bar, const Rect& box, double low_y, double high_y, Rgb
     bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, colour});
 }
 
-ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_tick,
-                      Rgba8 ground) {
+ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_tick, Rgba8 ground) {
     ColourBar bar;
     const std::size_t classes = table.stops.size();
     const double height = box.height / static_cast<double>(classes);
@@ -82,7 +81,8 @@ ColourBar lying_bar(const ColourTable& table, const Rect& box,
     const auto crowded = [&](const std::vector<BarTick>& ticks) {
         for (std::size_t i = 1; i < ticks.size(); ++i) {
             const double apart = std::abs(ticks[i].at - ticks[i - 1].at);
-            if (apart < (width_of(ticks[i].text) + width_of(ticks[i - 1].text)) / 2 + gap) return true;
+            if (apart < (width_of(ticks[i].text) + width_of(ticks[i - 1].text)) / 2 + gap)
+                return true;
         }
         return false;
     };

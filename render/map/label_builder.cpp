@@ -30,12 +30,12 @@ double LabelBuilder::put(std::string text, double x, double baseline, double roo
     if (text.empty()) return 0;
     const double width = fonts_.width(text, size, style.bold);
     const double left = x - share_before(align) * width;
-    texts_.push_back({{left, baseline - 0.8 * size, width, 1.05 * size},
-                      baseline,
-                      size,
-                      style.bold,
-                      style.colour,
-                      std::move(text)});
+    parts_.texts.push_back({{left, baseline - 0.8 * size, width, 1.05 * size},
+                            baseline,
+                            size,
+                            style.bold,
+                            style.colour,
+                            std::move(text)});
     return width;
 }
 

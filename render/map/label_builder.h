@@ -28,6 +28,13 @@ struct LabelBlock {
     bool hatched = false;
 };
 
+// What is drawn around a picture.
+struct LabelParts {
+    std::vector<LabelBlock> blocks;  // color bars and legends
+    std::vector<Rect> outlines;      // around color bars, whose ends may have the color of the page
+    std::vector<LabelText> texts;
+};
+
 struct LabelStyle {
     double size = 10;  // at scale 1
     bool bold = false;
@@ -40,9 +47,8 @@ enum class Align { left, middle, right };
 class LabelBuilder {
   public:
     // All must outlive the builder.
-    LabelBuilder(const Fonts& fonts, const Shades& shades, double scale,
-                 std::vector<LabelText>& texts, std::vector<LabelBlock>& blocks)
-        : fonts_(fonts), shades_(shades), scale_(scale), texts_(texts), blocks_(blocks) {}
+    LabelBuilder(const Fonts& fonts, const Shades& shades, double scale, LabelParts& parts)
+        : fonts_(fonts), shades_(shades), scale_(scale), parts_(parts) {}
 
     [[nodiscard]] double scaled(double length) const { return length * scale_; }
     [[nodiscard]] const Shades& shades() const { return shades_; }
@@ -59,8 +65,9 @@ class LabelBuilder {
     double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
                Align align = Align::left);
     void block(const Rect& box, Rgba8 colour, bool hatched = false) {
-        blocks_.push_back({box, colour, hatched});
+        parts_.blocks.push_back({box, colour, hatched});
     }
+    void outline(const Rect& box) { parts_.outlines.push_back(box); }
 
   private:
     [[nodiscard]] std::string shortened(std::string text, double size, bool bold,
@@ -69,8 +76,7 @@ class LabelBuilder {
     const Fonts& fonts_;
     const Shades& shades_;
     double scale_;
-    std::vector<LabelText>& texts_;
-    std::vector<LabelBlock>& blocks_;
+    LabelParts& parts_;
 };
 
 }  // namespace stormcellar::render

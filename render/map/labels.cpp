@@ -111,8 +111,8 @@ void make_room_for_inset(const PictureSpace& space, const LabelBuilder& builder,
         case PictureShape::wide: {
             const double side = std::round(colours.width - builder.scaled(12 + margin));
             if (side > 0.45 * colours.height) return;
-            layout.inset = Rect{std::round(colours.x + builder.scaled(12)),
-                                std::round(colours.y), side, side};
+            layout.inset =
+                Rect{std::round(colours.x + builder.scaled(12)), std::round(colours.y), side, side};
             colours.y += side + gap;
             colours.height -= side + gap;
             return;
@@ -130,8 +130,8 @@ void make_room_for_inset(const PictureSpace& space, const LabelBuilder& builder,
             break;
     }
     const double height = std::round(0.36 * layout.height);
-    layout.inset = Rect{0, static_cast<double>(layout.top), static_cast<double>(layout.width),
-                        height};
+    layout.inset =
+        Rect{0, static_cast<double>(layout.top), static_cast<double>(layout.width), height};
     layout.top += static_cast<int>(height + gap);
     layout.height -= static_cast<int>(height + gap);
 }
@@ -172,19 +172,19 @@ void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
         const double room = right - left;
         builder.put(texts.title, left, builder.scaled(23), room, builder.strong(17));
         put_product(builder, texts, left, builder.scaled(41), room, 11.5);
-        const double time = builder.put(texts.time, left, builder.scaled(58), 0.6 * room,
-                                        builder.plain(11.5));
+        const double time =
+            builder.put(texts.time, left, builder.scaled(58), 0.6 * room, builder.plain(11.5));
         builder.put(texts.local_time, left + time + gap, builder.scaled(58), room - time - gap,
                     builder.quiet(11.5));
         return;
     }
     const double first = builder.scaled(20);
     const double second = builder.scaled(37);
-    const double time = builder.put(texts.time, right, first, 0.6 * width, builder.plain(13.5),
-                                    Align::right);
+    const double time =
+        builder.put(texts.time, right, first, 0.6 * width, builder.plain(13.5), Align::right);
     builder.put(texts.title, left, first, right - time - gap - left, builder.strong(15));
-    const double local = builder.put(texts.local_time, right, second, 0.4 * width,
-                                     builder.quiet(11), Align::right);
+    const double local =
+        builder.put(texts.local_time, right, second, 0.4 * width, builder.quiet(11), Align::right);
     put_product(builder, texts, left, second, right - local - gap - left, 11);
 }
 
@@ -196,9 +196,9 @@ FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, double ring_s
         texts.age = duration_text(*facts.antenna_to_picture) + " from antenna to picture";
     }
     if (coverage) {
-        texts.seen = fmt::format("Seen: {} of the columns, {} below {}",
-                                 percent_text(coverage->seen), percent_text(coverage->seen_low),
-                                 distance_text(low_coverage_m));
+        texts.seen =
+            fmt::format("Seen: {} of the columns, {} below {}", percent_text(coverage->seen),
+                        percent_text(coverage->seen_low), distance_text(low_coverage_m));
     }
     texts.credit = fmt::format("{}  \u00B7  stormcellar {}", map_credit, software_version);
     return texts;
@@ -211,8 +211,8 @@ void lay_out_footer(LabelBuilder& builder, double width, double height, const Fo
     const double first = height - builder.scaled(21);
     const double second = height - builder.scaled(7);
     const LabelStyle small = builder.quiet(8.5);
-    double taken = builder.put(texts.age, right, first, 0.45 * width, builder.quiet(10),
-                               Align::right);
+    double taken =
+        builder.put(texts.age, right, first, 0.45 * width, builder.quiet(10), Align::right);
     builder.put(texts.view, left, first, right - taken - gap - left, builder.quiet(10));
     taken = builder.put(texts.credit, right, second, 0.55 * width, small, Align::right);
     builder.put(texts.seen, left, second, right - taken - gap - left, small);
@@ -225,7 +225,7 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     LabelLayout layout;
     layout.scale = space.scale;
     layout.shades = &shades_of(scene.theme);
-    LabelBuilder builder(fonts, *layout.shades, layout.scale, layout.texts, layout.blocks);
+    LabelBuilder builder(fonts, *layout.shades, layout.scale, layout);
     layout.top = space.header;
     layout.width = scene.width - space.panel;
     layout.height = scene.height - space.header - space.footer - space.band;
@@ -236,7 +236,8 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
         colours = {left, static_cast<double>(layout.top + layout.height), scene.width - 2 * left,
                    static_cast<double>(space.band)};
     }
-    if (view_of(scene.product) == View::section) make_room_for_inset(space, builder, layout, colours);
+    if (view_of(scene.product) == View::section)
+        make_room_for_inset(space, builder, layout, colours);
     lay_out_header(builder, space.shape, scene.width, header_of(facts, picture.legend.product));
     lay_out_footer(builder, scene.width, scene.height,
                    footer_of(scene, facts, picture.ring_spacing_m, picture.coverage));
@@ -262,6 +263,16 @@ void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout) 
             }
         }
         canvas.place(swatch, static_cast<int>(block.box.x), static_cast<int>(block.box.y));
+    }
+    for (const Rect& box : layout.outlines) {
+        Rgba8 colour = layout.shades->border;
+        colour[3] = 110;
+        const double half = 0.5;
+        canvas.line({{box.x - half, box.y - half},
+                     {box.right() + half, box.y - half},
+                     {box.right() + half, box.bottom() + half},
+                     {box.x - half, box.bottom() + half}},
+                    1, colour, true);
     }
     for (const LabelText& text : layout.texts) {
         canvas.text(fonts, text.text, {text.box.x, text.baseline}, text.size, text.bold,

@@ -2,8 +2,8 @@
 //
 // The picture lies below a header and above a footer; the color bar and the legend stand at its
 // right or below it (render/map/picture_space.h). The place of the picture depends on the scene
-// alone, so that it does not move from frame to frame of a loop. Layout and drawing are separate, so
-// that tests can check that nothing overlaps. Text without enough room becomes smaller, down to
+// alone, so that it does not move from frame to frame of a loop. Layout and drawing are separate,
+// so that tests can check that nothing overlaps. Text without enough room becomes smaller, down to
 // three quarters, and then ends in an ellipsis.
 //
 // Threads   Plain values and pure functions; Fonts may be used by one thread at a time.
@@ -27,13 +27,11 @@ namespace stormcellar::render {
 inline constexpr int smallest_labelled_width = 400;
 inline constexpr int smallest_labelled_height = 300;
 
-struct LabelLayout {
+struct LabelLayout : LabelParts {
     double scale = 1;                              // of text and lines; 1 for 796 x 532 pixels
     int left = 0, top = 0, width = 0, height = 0;  // the picture
     std::optional<Rect> inset;                     // of a section: the small map of its line
     const Shades* shades = &shades::dark;
-    std::vector<LabelBlock> blocks;                // color bar and legend
-    std::vector<LabelText> texts;
 };
 
 // What the labels say about the picture beside the facts of its grid.
@@ -62,8 +60,7 @@ struct FooterTexts {
     std::string view, age, seen, credit;
 };
 [[nodiscard]] FooterTexts footer_of(const Scene& scene, const FrameFacts& facts,
-                                    double ring_spacing_m,
-                                    const std::optional<Coverage>& coverage);
+                                    double ring_spacing_m, const std::optional<Coverage>& coverage);
 void lay_out_footer(LabelBuilder& builder, double width, double height, const FooterTexts& texts);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);

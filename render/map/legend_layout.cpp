@@ -14,9 +14,8 @@ constexpr double swatch_side = 11;
 
 void put_swatch(LabelBuilder& builder, const LegendRow& row, double x, double baseline) {
     const double side = std::round(builder.scaled(swatch_side));
-    builder.block(
-        {std::round(x), std::round(baseline - side + builder.scaled(2)), side, side},
-        row.colour, row.hatched);
+    builder.block({std::round(x), std::round(baseline - side + builder.scaled(2)), side, side},
+                  row.colour, row.hatched);
 }
 
 void lay_out_upright_bar(LabelBuilder& builder, const ColourTable& table, const Rect& box) {
@@ -24,6 +23,7 @@ void lay_out_upright_bar(LabelBuilder& builder, const ColourTable& table, const 
     const ColourBar bar = colour_bar(table, box, 1.15 * text_height, builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
+    builder.outline(box);
     for (const BarTick& tick : bar.ticks) {
         builder.put(tick.text, box.right() + builder.scaled(6), tick.at + 0.3 * text_height,
                     builder.scaled(72), builder.plain(bar_text));
@@ -42,14 +42,16 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     const double aside = builder.scaled(16);
     const double left = std::round(band.x + heading + aside);
     const Rect box = {left, top, std::max(1.0, std::floor(band.right() - aside - left)), height};
-    const ColourBar bar = lying_bar(*legend.table, box, width_of, builder.scaled(7),
-                                    builder.shades().land.seen);
+    const ColourBar bar =
+        lying_bar(*legend.table, box, width_of, builder.scaled(7), builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
+    builder.outline(box);
     const double baseline = top + height + builder.scaled(11);
     for (const BarTick& tick : bar.ticks) {
         const double half = width_of(tick.text) / 2;
-        const double x = std::clamp(tick.at, band.x + half, std::max(band.x + half, band.right() - half));
+        const double x =
+            std::clamp(tick.at, band.x + half, std::max(band.x + half, band.right() - half));
         builder.put(tick.text, x, baseline, band.width, numbers, Align::middle);
     }
     return baseline;
@@ -66,7 +68,8 @@ struct LineItem {
 void lay_out_line(LabelBuilder& builder, const Legend& legend, const Rect& band, double baseline) {
     std::vector<LineItem> items;
     if (!legend.heading.empty()) {
-        items.push_back({legend.heading, {row_text, true, builder.shades().quiet_text}, nullptr, 0});
+        items.push_back(
+            {legend.heading, {row_text, true, builder.shades().quiet_text}, nullptr, 0});
     }
     for (const LegendRow& row : legend.rows)
         items.push_back({row.text, builder.plain(row_text), &row, 0});

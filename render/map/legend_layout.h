@@ -13,7 +13,8 @@ namespace stormcellar::render {
 
 // Upright, at the right of a picture: the bar, then the rows of the legend.
 void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& panel);
-// Lying, below a picture: the bar, then the legend in one line. Without `rows` the bar stands alone.
+// Lying, below a picture: the bar, then the legend in one line. Without `rows` the bar stands
+// alone.
 void lay_out_band(LabelBuilder& builder, const Legend& legend, const Rect& band, bool rows = true);
 
 }  // namespace stormcellar::render

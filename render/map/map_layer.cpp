@@ -275,12 +275,10 @@ void add_cities(const BaseMap& map, const GroundMap& ground, const ViewGeometry&
 class WaterPainter {
   public:
     WaterPainter(const GroundMap& ground, const Box& box, double finest_m)
-        : ground_(ground),
-          mask_(mask_over(box, finest_m)),
-          area_(mask_.width, mask_.height) {}
+        : ground_(ground), mask_(mask_over(box, finest_m)), area_(mask_.width, mask_.height) {}
 
-    // Adds a ring that is straight in degrees, with the ground of each point. The edges of tiles are
-    // long, so they are divided, and at the same places in both tiles.
+    // Adds a ring that is straight in degrees, with the ground of each point. The edges of tiles
+    // are long, so they are divided, and at the same places in both tiles.
     void add(MapKind kind, const std::vector<grid::GeoPoint>& ring,
              const std::vector<GroundPoint>& at) {
         std::vector<Point> cells;

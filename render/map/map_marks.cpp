@@ -230,7 +230,8 @@ class Planner {
             const std::string text = distance_text(i * step_m);
             const double x = tick->x + heights.side * scaled(7) -
                              (heights.side < 0 ? fonts_.width(text, size, false) : 0);
-            auto placed = claim(text, {x, tick->y + 0.36 * size}, size, false, lines_.shades->quiet_text);
+            auto placed =
+                claim(text, {x, tick->y + 0.36 * size}, size, false, lines_.shades->quiet_text);
             if (!placed) continue;
             heights.ticks.push_back(*tick);
             marks_.height_texts.push_back(std::move(*placed));

@@ -48,7 +48,7 @@ struct HeightScale {
 struct MapMarks {
     std::vector<Point> sites;
     std::vector<Point> cities;
-    std::vector<MarkText> site_texts;    
+    std::vector<MarkText> site_texts;
     std::vector<MarkText> ground_texts;  // distances and cities
     std::vector<MarkText> height_texts;
     std::optional<HeightScale> heights;

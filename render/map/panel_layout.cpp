@@ -16,27 +16,31 @@ constexpr int least_panel_height = 150;
 constexpr double title_height = 20;
 constexpr double legend_height = 50;
 constexpr double gap = 8;
+// Lines and letters in a panel, of those of the whole; letters get no smaller than in any picture.
+constexpr double panel_scale = 0.62;
+constexpr double least_scale = 0.85;
 
 struct Grid {
     int columns = 1, rows = 1;
-    double left = 0, top = 0, width = 0, height = 0;  // of one panel, and where the first begins
+    // Where the first panel begins, the whole pixels of each, and those between two in a row.
+    double left = 0, top = 0, width = 0, height = 0, between = 0;
 
     [[nodiscard]] Rect cell(int index) const {
-        const double x = left + index % columns * width;
+        const double x = left + index % columns * (width + between);
         const double y = top + index / columns * height;
-        return {std::round(x), std::round(y), std::round(x + width) - std::round(x),
-                std::round(y + height) - std::round(y)};
+        return {std::round(x), std::round(y), width, height};
     }
 };
 
-Grid grid_of(int count, int width, int height, const PictureSpace& space) {
+Grid grid_of(int count, int width, int height, const PictureSpace& space, double between) {
     Grid grid;
     const double inner = height - space.header - space.footer;
     grid.columns = panels_in_a_row(count, width, static_cast<int>(inner));
     grid.rows = (count + grid.columns - 1) / grid.columns;
     grid.top = space.header;
-    grid.width = static_cast<double>(width) / grid.columns;
-    grid.height = inner / grid.rows;
+    grid.width = std::floor((width - (grid.columns - 1) * between) / grid.columns);
+    grid.between = between;
+    grid.height = std::floor(inner / grid.rows);
     return grid;
 }
 
@@ -62,34 +66,31 @@ Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene, const
                                    const PictureFacts& picture, std::span<const Legend> legends) {
     const PictureSpace space = space_of(scene.width, scene.height);
     const auto count = static_cast<int>(legends.size());
-    const Grid grid = grid_of(count, scene.width, scene.height, space);
+    const double scale = std::max(least_scale, panel_scale * space.scale);
+    const Grid grid =
+        grid_of(count, scene.width, scene.height, space, count > 1 ? std::round(gap * scale) : 0);
     if (grid.width < least_panel_width || grid.height < least_panel_height) {
-        return fail(ErrorCode::bad_argument,
-                    "{} panels need a larger picture than {} by {} pixels: each is {:.0f} by {:.0f}, "
-                    "and needs {} by {}",
-                    count, scene.width, scene.height, grid.width, grid.height, least_panel_width,
-                    least_panel_height);
+        return fail(
+            ErrorCode::bad_argument,
+            "{} panels need a larger picture than {} by {} pixels: each is {:.0f} by {:.0f}, "
+            "and needs {} by {}",
+            count, scene.width, scene.height, grid.width, grid.height, least_panel_width,
+            least_panel_height);
     }
     PanelLayout layout;
-    layout.scale = std::min(space.scale, space_of(static_cast<int>(grid.width),
-                                                  static_cast<int>(grid.height)).scale);
+    layout.scale = scale;
     layout.labels.scale = layout.scale;
     layout.labels.shades = &shades_of(scene.theme);
-    LabelBuilder whole(fonts, *layout.labels.shades, space.scale, layout.labels.texts,
-                       layout.labels.blocks);
+    LabelBuilder whole(fonts, *layout.labels.shades, space.scale, layout.labels);
     lay_out_header(whole, space.shape, scene.width, header_of(facts, picture.legend.product));
     lay_out_footer(whole, scene.width, scene.height,
                    footer_of(scene, facts, picture.ring_spacing_m, picture.coverage));
-    LabelBuilder part(fonts, *layout.labels.shades, layout.scale, layout.labels.texts,
-                      layout.labels.blocks);
+    LabelBuilder part(fonts, *layout.labels.shades, layout.scale, layout.labels);
     const double title = std::round(part.scaled(title_height));
     const double legend = std::round(part.scaled(legend_height));
-    const double between = std::round(part.scaled(gap));
     for (int i = 0; i < count; ++i) {
         const Rect cell = grid.cell(i);
-        const bool is_last = i % grid.columns == grid.columns - 1;
-        const Rect shown = {cell.x, cell.y + title, cell.width - (is_last ? 0 : between),
-                            cell.height - title - legend};
+        const Rect shown = {cell.x, cell.y + title, cell.width, cell.height - title - legend};
         const double room = part.scaled(10);
         const Rect band = {shown.x + room, shown.bottom() - part.scaled(2), shown.width - 2 * room,
                            legend};

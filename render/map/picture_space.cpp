@@ -39,7 +39,8 @@ PictureSpace space_of(int width, int height) {
         space.shape = aspect < most_tall ? PictureShape::tall : PictureShape::square;
     }
     const Measures at = measures_of(space.shape);
-    space.scale = std::clamp(std::min(width / at.width, height / at.height), least_scale, most_scale);
+    space.scale =
+        std::clamp(std::min(width / at.width, height / at.height), least_scale, most_scale);
     const auto scaled = [&](double length) {
         return static_cast<int>(std::lround(length * space.scale));
     };

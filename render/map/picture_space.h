@@ -1,4 +1,5 @@
-// render/map/picture_space.h -- how a picture of a size is divided: title, map, colors, small print.
+// render/map/picture_space.h -- how a picture of a size is divided: title, map, colors, small
+// print.
 //
 // There are three shapes. A wide picture has its colors at the right. A square one and a tall one
 // have them below, so that the map has the whole width; a tall one has more lines in its title.

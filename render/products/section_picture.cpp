@@ -114,8 +114,9 @@ Image draw_section(const Section& section, const ColourTable& table, const Secti
         for (int x = 0; x < place.width; ++x) {
             if (section.in_grid[static_cast<std::size_t>(x)] == 0) continue;
             const std::size_t cell = section.field.index(x, place.height - 1 - y);
-            image.set(place.left + x, place.top + y,
-                      shade_of(section.field, cell, table, {place.left + x, place.top + y, 0}, look));
+            image.set(
+                place.left + x, place.top + y,
+                shade_of(section.field, cell, table, {place.left + x, place.top + y, 0}, look));
         }
     }
     if (fonts == nullptr) return image;

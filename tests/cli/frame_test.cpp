@@ -110,6 +110,29 @@ TEST_F(Frame, TakesTheGridAtOrBeforeTheTime) {
     EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("2005-08-22T02:44:00Z"));
 }
 
+TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
+    EXPECT_EQ(run("--domain KBGM --panels REF --product composite --json -o " + out("a.png")),
+              exit_done)
+        << messages_;
+    EXPECT_THAT(facts_, ::testing::HasSubstr("\"width\": 1280"));
+    const std::string panels = "--domain KBGM -o " + out("b.png") + " --panels ";
+    EXPECT_EQ(run(panels + "REF,REF"), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("names REF twice"));
+    EXPECT_EQ(run(panels + "REF,XYZ"), exit_bad_usage);
+    EXPECT_EQ(run(panels + "REF --moment REF"), exit_bad_usage);
+    EXPECT_EQ(run(panels + "REF --probe 5,5"), exit_bad_usage);
+    EXPECT_EQ(run(panels + "REF,VEL"), exit_nothing_matched);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of VEL"));
+    EXPECT_FALSE(fs::exists(out("b.png")));
+}
+
+TEST_F(Frame, ThemesDiffer) {
+    EXPECT_EQ(run("--domain KBGM --product composite -o " + out("a.png")), exit_done);
+    EXPECT_EQ(run("--domain KBGM --product composite --theme light -o " + out("b.png")), exit_done);
+    EXPECT_NE(text_of(out("a.png")), text_of(out("b.png")));
+    EXPECT_EQ(run("--domain KBGM --theme sepia -o " + out("c.png")), exit_bad_usage);
+}
+
 TEST_F(Frame, SaysWhatItDidAsJson) {
     EXPECT_EQ(run("--domain KBGM --json --width 500 --slices 16 -o " + out("a.png")), exit_done);
     EXPECT_THAT(facts_, ::testing::HasSubstr("\"width\": 500"));

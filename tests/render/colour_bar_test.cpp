@@ -49,7 +49,8 @@ TEST(ColourBar, UnevenClassesKeepTheirPlace) {
     const Rgba8 a = {1, 0, 0, 255};
     const Rgba8 b = {2, 0, 0, 255};
     const ColourBar bar =
-        colour_bar(table_of({{-50, a, a}, {-1, b, b}, {0.5, a, a}, {100, b, b}}, 200), box, 11.5, shades::dark.land.seen);
+        colour_bar(table_of({{-50, a, a}, {-1, b, b}, {0.5, a, a}, {100, b, b}}, 200), box, 11.5,
+                   shades::dark.land.seen);
     ASSERT_EQ(bar.blocks.size(), 4U);
     expect_filled(bar, box);
     std::vector<std::string> texts;
@@ -93,7 +94,8 @@ TEST(ColourBar, ABlendIsRegularInValue) {
 }
 
 TEST(ColourBar, AClassThatReachesDownFarHasNoNumber) {
-    const ColourBar bar = colour_bar(default_colour_table(level2::Moment::vel), box, 11.5, shades::dark.land.seen);
+    const ColourBar bar =
+        colour_bar(default_colour_table(level2::Moment::vel), box, 11.5, shades::dark.land.seen);
     EXPECT_EQ(bar.blocks.size(), 15U);
     EXPECT_EQ(bar.ticks.front().text, "-33");
 }

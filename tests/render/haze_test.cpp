@@ -14,7 +14,8 @@ constexpr Rgba8 ground = {20, 20, 20, 255};
 
 // Returns the share of haze in a gray picture.
 double haze_at(const Image& picture, int x, int y) {
-    return (picture.at(x, y)[0] - ground[0]) / static_cast<double>(shades::dark.haze[0] - ground[0]);
+    return (picture.at(x, y)[0] - ground[0]) /
+           static_cast<double>(shades::dark.haze[0] - ground[0]);
 }
 
 Image hazy(const grid::BrickView& view, const ViewGeometry& geometry, int threads) {

@@ -29,9 +29,15 @@ FrameFacts facts_for(const std::string& domain) {
 
 TEST(PanelLayout, NothingOverlapsAtAnySize) {
     const Fonts fonts = Fonts::load().value();
-    for (const auto& [width, height] :
-         {std::pair{640, 480}, {796, 532}, {1280, 720}, {1280, 960}, {1920, 1080}, {3840, 2160},
-          {1000, 1000}, {1080, 1920}, {2160, 3840}}) {
+    for (const auto& [width, height] : {std::pair{640, 480},
+                                        {796, 532},
+                                        {1280, 720},
+                                        {1280, 960},
+                                        {1920, 1080},
+                                        {3840, 2160},
+                                        {1000, 1000},
+                                        {1080, 1920},
+                                        {2160, 3840}}) {
         for (const Product product : {Product::composite, Product::volume}) {
             for (int count = 1; count <= 4; ++count) {
                 SCOPED_TRACE(::testing::Message() << width << "x" << height << ", " << count);
@@ -45,9 +51,8 @@ TEST(PanelLayout, NothingOverlapsAtAnySize) {
                     legends.push_back(legend_of(scene));
                 }
                 scene.moment = four[0];
-                const auto layout =
-                    lay_out_panels(fonts, scene, facts_for("KTLX"),
-                                   {legends[0], 50e3, Coverage{0.9, 0.5}}, legends);
+                const auto layout = lay_out_panels(fonts, scene, facts_for("KTLX"),
+                                                   {legends[0], 50e3, Coverage{0.9, 0.5}}, legends);
                 ASSERT_TRUE(layout) << layout.error().message;
                 std::vector<std::pair<Rect, std::string>> boxes;
                 for (const Rect& picture : layout->pictures)
@@ -96,8 +101,10 @@ TEST(Panels, EachHasItsGridAndItsColors) {
     scene.product = Product::composite;
     scene.width = 1280;
     scene.height = 960;
-    const std::vector<Panel> panels = {{strong.view(), facts, scene}, {weak.view(), facts, scene},
-                                       {weak.view(), facts, scene}, {strong.view(), facts, scene}};
+    const std::vector<Panel> panels = {{strong.view(), facts, scene},
+                                       {weak.view(), facts, scene},
+                                       {weak.view(), facts, scene},
+                                       {strong.view(), facts, scene}};
     const auto picture = render_panels(panels, 2);
     ASSERT_TRUE(picture) << picture.error().message;
     EXPECT_EQ(picture->width, 1280);

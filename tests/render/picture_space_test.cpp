@@ -10,9 +10,9 @@ namespace stormcellar::render {
 namespace {
 
 constexpr std::pair<int, int> common_sizes[] = {
-    {640, 480},   {796, 532},   {800, 600},   {1024, 768},  {1280, 720},  {1920, 1080},
-    {2560, 1440}, {3840, 2160}, {1000, 1000}, {2048, 2048}, {1080, 1350}, {1080, 1920},
-    {2160, 3840}, {720, 1280}};
+    {640, 480},   {796, 532},   {800, 600},   {1024, 768},  {1280, 720},
+    {1920, 1080}, {2560, 1440}, {3840, 2160}, {1000, 1000}, {2048, 2048},
+    {1080, 1350}, {1080, 1920}, {2160, 3840}, {720, 1280}};
 
 LabelLayout layout_for(int width, int height, Product product) {
     Scene scene;
@@ -24,7 +24,8 @@ LabelLayout layout_for(int width, int height, Product product) {
     facts.domain = "KTLX";
     facts.time = parse_compact("19990503_235621").value();
     facts.sites = {{"KTLX", 35.3, -97.3, 384}};
-    return lay_out_labels(Fonts::load().value(), scene, facts, {legend_of(scene), 50e3, {}}).value();
+    return lay_out_labels(Fonts::load().value(), scene, facts, {legend_of(scene), 50e3, {}})
+        .value();
 }
 
 // The map goes on beyond the grid, so that the picture of it is all that the map fills.

@@ -89,7 +89,8 @@ TEST(Section, BeyondTheGridIsNothing) {
     for (const auto flag : section.in_grid)
         inside += flag;
     EXPECT_EQ(inside, 20) << "the middle third of 60 km";
-    const Image image = draw_section(section, nws_reflectivity(), {0, 0, 60, 4}, 60, 4, {}, nullptr);
+    const Image image =
+        draw_section(section, nws_reflectivity(), {0, 0, 60, 4}, 60, 4, {}, nullptr);
     EXPECT_EQ(image.at(2, 1), shades::dark.page);
     EXPECT_EQ(image.at(30, 1), *colour_of(nws_reflectivity(), 30));
 }

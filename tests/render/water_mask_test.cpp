@@ -27,7 +27,11 @@ TEST(AreaMask, RingsThatRunTheOtherWayAreHoles) {
 }
 
 TEST(WaterMask, IsStraightBetweenTheCentersOfItsCells) {
-    const WaterMask mask{.west_m = 0, .north_m = 20, .metres_per_cell = 10, .width = 2, .height = 2,
+    const WaterMask mask{.west_m = 0,
+                         .north_m = 20,
+                         .metres_per_cell = 10,
+                         .width = 2,
+                         .height = 2,
                          .water = {0, 255, 0, 255}};
     EXPECT_EQ(mask.water_at({5, 15}), 0);
     EXPECT_EQ(mask.water_at({15, 5}), 1);
@@ -43,13 +47,12 @@ TEST(WaterMask, OfAMapHasNoSeamsBetweenTiles) {
     const auto quarter = [](double south, double west, double north, double east) {
         return Ring{{south, west}, {south, east}, {north, east}, {north, west}, {south, west}};
     };
-    const auto bytes =
-        SmallMap{}
-            .set(MapKind::coast, 0, 0,
-                 {quarter(39, -101, 40, -100), quarter(39, -100, 40, -99.0),
-                  quarter(40, -101, 41.5, -100), quarter(40, -100, 41.5, -99.0)})
-            .set(MapKind::lake, 0, 0, {quarter(40.5, -99.5, 40.7, -99.3)})
-            .bytes();
+    const auto bytes = SmallMap{}
+                           .set(MapKind::coast, 0, 0,
+                                {quarter(39, -101, 40, -100), quarter(39, -100, 40, -99.0),
+                                 quarter(40, -101, 41.5, -100), quarter(40, -100, 41.5, -99.0)})
+                           .set(MapKind::lake, 0, 0, {quarter(40.5, -99.5, 40.7, -99.3)})
+                           .bytes();
     const auto map = BaseMap::read(bytes).value();
     grid::GridSpec spec = small_spec(400, 2);
     spec.center_latitude_deg = 40;

@@ -64,7 +64,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
     {"render",
      {{"image", {}},
       {"colour", {"image"}},
-      {"view", {"colour"}},
+      {"view", {"colour", "image"}},
       {"volume", {"colour", "image", "view"}},
       {"products", {"colour", "image", "view"}},
       {"map", {"colour", "image", "products", "view", "volume"}},

@@ -6,7 +6,8 @@
 // of the picture.
 //
 // Units     Pixels.
-// Threads   Any thread may call; render_panels() uses `threads` threads of its own. A FrameCache may
+// Threads   Any thread may call; render_panels() uses `threads` threads of its own. A FrameCache
+// may
 //           be used by one call at a time.
 // Errors    See render_panels().
 #pragma once

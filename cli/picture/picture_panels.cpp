@@ -1,0 +1,143 @@
+#include "cli/picture/picture_panels.h"
+
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
+#include "cli/shared/commands.h"
+#include "stormcellar/render/panels.h"
+
+namespace stormcellar::cli {
+namespace {
+
+Result<std::vector<level2::Moment>> moments_of(const std::string& list) {
+    std::vector<level2::Moment> moments;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string name = list.substr(begin, end - begin);
+        begin = end + 1;
+        const auto moment = level2::moment_from_name(name);
+        if (!moment) {
+            return fail(ErrorCode::bad_argument, "--panels must name moments ({}), not '{}'",
+                        level2::moment_names(", ", " or "), printable(name));
+        }
+        if (std::ranges::find(moments, *moment) != moments.end()) {
+            return fail(ErrorCode::bad_argument, "--panels names {} twice", name);
+        }
+        moments.push_back(*moment);
+    }
+    return moments;
+}
+
+}  // namespace
+
+Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const SceneFile& file,
+                                             const SceneOptions& options) {
+    const auto moments = moments_of(list);
+    if (!moments) return pass_on(moments);
+    for (const PictureOption* row : {&moment_option(), &colors_option()}) {
+        if (contains(options.typed, *row)) {
+            return fail(ErrorCode::bad_argument,
+                        "{} is for a picture of one moment; each of the panels has its own",
+                        row->option);
+        }
+    }
+    SceneOptions panel = options;
+    panel.colours.clear();
+    const auto is_given = [&](const PictureOption& row) {
+        return contains(options.typed, row) || contains(options.in_file, row);
+    };
+    if (!is_given(width_option()) && !is_given(height_option())) {
+        panel.scene.width = panels_width;
+        panel.scene.height = panels_height;
+    }
+    std::vector<PanelScene> panels;
+    for (const level2::Moment moment : *moments) {
+        panel.moment = level2::moment_name(moment);
+        auto scene = scene_with(file, panel);
+        if (!scene) return pass_on(scene);
+        panels.push_back({moment, std::move(*scene)});
+    }
+    return panels;
+}
+
+Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
+                                               const std::string& domain,
+                                               const std::vector<PanelScene>& panels,
+                                               std::optional<UtcTime> until) {
+    std::vector<std::vector<cache::StoreEntry>> kept;
+    for (const PanelScene& panel : panels) {
+        auto entries = store.list(domain, panel.moment, std::nullopt, until);
+        if (!entries) return pass_on(entries);
+        if (!until) cache::leave_out_future(*entries, now_utc());
+        if (entries->empty()) {
+            return fail(ErrorCode::not_found, "{}: there is no grid of {} of domain '{}'",
+                        store.directory().native(), level2::moment_name(panel.moment),
+                        printable(domain));
+        }
+        kept.push_back(std::move(*entries));
+    }
+    const auto find_at = [](const std::vector<cache::StoreEntry>& entries, UtcTime time) {
+        return std::ranges::find(entries, time, &cache::StoreEntry::time);
+    };
+    const auto& first = kept.front();
+    const auto common = std::find_if(first.rbegin(), first.rend(), [&](const auto& entry) {
+        return std::ranges::all_of(kept, [&](const auto& entries) {
+            return find_at(entries, entry.time) != entries.end();
+        });
+    });
+    if (common == first.rend()) {
+        return fail(ErrorCode::not_found,
+                    "{}: domain '{}' has no time of which all moments of the panels are there",
+                    store.directory().native(), printable(domain));
+    }
+    std::vector<PictureGrid> grids;
+    for (const auto& entries : kept) {
+        auto grid = PictureGrid::open(find_at(entries, common->time)->path);
+        if (!grid) return pass_on(grid);
+        grids.push_back(std::move(*grid));
+    }
+    return grids;
+}
+
+Result<std::vector<PictureGrid>> gridded_panels(GridOptions options,
+                                                const std::vector<PanelScene>& panels) {
+    std::vector<std::string_view> names;
+    for (const PanelScene& panel : panels)
+        names.push_back(level2::moment_name(panel.moment));
+    options.moment = fmt::format("{}", fmt::join(names, ","));
+    options.takes_moments = true;
+    auto made = PictureGrid::make_each(std::move(options));
+    if (!made) return made;
+    std::vector<PictureGrid> grids;
+    for (const PanelScene& panel : panels) {
+        const auto of_moment = std::ranges::find_if(*made, [&](const PictureGrid& grid) {
+            return grid.has_grid() && grid.description().moment == panel.moment;
+        });
+        if (of_moment == made->end()) {
+            return fail(ErrorCode::not_found, "there is no {} in the files",
+                        level2::moment_name(panel.moment));
+        }
+        grids.push_back(std::move(*of_moment));
+    }
+    return grids;
+}
+
+Result<render::Image> draw_panels(const std::string& domain, const std::vector<PanelScene>& panels,
+                                  const std::vector<PictureGrid>& grids,
+                                  const SceneOptions& options) {
+    std::vector<render::Panel> drawn;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        drawn.push_back({grids[i].view(),
+                         facts_of(domain, grids[i].description(), options.time_zone),
+                         panels[i].scene});
+    }
+    auto picture = render::render_panels(drawn, thread_count(options));
+    if (!picture) return picture;
+    for (const PictureGrid& grid : grids) {
+        if (Status whole = grid.check_whole(); !whole) return pass_on(whole);
+    }
+    return picture;
+}
+
+}  // namespace stormcellar::cli
