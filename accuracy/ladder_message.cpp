@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::string_view default_mark = " (default)";
 constexpr std::string_view whole_chains = "chain";
+constexpr double least_gain = 0.9;
 
 struct Rung {
     std::string name;
@@ -99,19 +100,23 @@ LadderMessage message_of(std::span<const LadderRow> rows, std::string_view step,
     // What is slower, more accurate and worth it, from fast to slow: each is better than the last.
     std::vector<Rung> better;
     for (const Rung& rung : rungs) {
-        const bool is_slower = rung.time_s > base.time_s && rung.error < base.error;
-        if (is_slower && rung.is_worth_it) better.push_back(rung);
+        const double last = better.empty() ? base.error : better.back().error;
+        const bool is_better = rung.time_s > base.time_s && rung.error < last;
+        if (is_better && rung.is_worth_it) better.push_back(rung);
     }
     if (better.empty())
         return {std::string(step),
                 fmt::format("no slower rung has a smaller error than {}", base.name), ""};
-    const auto best =
-        std::ranges::max_element(better, {}, [&](const Rung& rung) { return bargain(rung, base); });
+    // A gain of less than a tenth is none to speak of.
+    const auto step_up = std::ranges::find_if(
+        better, [&](const Rung& rung) { return rung.error <= least_gain * base.error; });
+    const auto best = step_up == better.end() ? better.begin() : step_up;
     LadderMessage message{
         std::string(step),
         fmt::format("{} {} and {}", best->name, costs(*best, base), gains(*best, base, unit)), ""};
-    const auto next = std::find_if(best + 1, better.end(),
-                                   [&](const Rung& rung) { return rung.error < best->error; });
+    const auto next = std::max_element(best + 1, better.end(), [&](const Rung& a, const Rung& b) {
+        return bargain(a, *best) < bargain(b, *best);
+    });
     if (next == better.end()) return message;
     Rung it = *best;
     it.name = "that";

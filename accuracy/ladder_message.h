@@ -22,10 +22,11 @@ struct LadderMessage {
 
 // Compares the rungs of one step, by the time of further runs if there is one, else of the first,
 // and by the 99th percentile of the value or the color. The base is the rung that is the default
-// (its name ends with "(default)"), else the fastest. Of the slower and more accurate rungs that
-// are worth it, `buy` names the one that gains most for its time: that with the greatest ratio of
-// the logarithms of what the error falls and the time grows by. `beyond` names the next one.
-// Without errors, or with a single rung, the message is empty. Ratios have two digits.
+// (its name ends with "(default)"), else the fastest. `buy` names the next step up:
+// the fastest slower rung that is worth it and whose error is at least a tenth smaller. `beyond`
+// names the slower one that gains most for its time: that with the greatest ratio of the logarithms
+// of what the error falls and the time grows by, an exact one last. Without errors, or with a
+// single rung, the message is empty. Ratios have two digits.
 [[nodiscard]] LadderMessage message_of(std::span<const LadderRow> rows, std::string_view step,
                                        ValueUnit unit);
 

@@ -15,7 +15,7 @@ constexpr double margin_top = 26;     // below the title and its lines
 constexpr double margin_bottom = 64;
 constexpr double zero_row_height = 36;
 constexpr double character_width =
-    0.58;  // as a share of the size of letters, a little more than the average
+    0.62;  // as a share of the size of letters: of bold ones, a little more than the average
 constexpr std::size_t most_points = 400;
 constexpr double most_decades = 4;
 
@@ -163,8 +163,7 @@ PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::s
         {{1, 0}, {0, -1}, {0, 1}, {-1, 0}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}}};
     constexpr double touching = marker_radius + 3;
     constexpr double least_cost = 1e-6;
-    PlotBox room = layout.frame;
-    room.right += margin_right / 5;
+    const PlotBox& room = layout.frame;
     PlotLabel best;
     double best_cost = -1;
     constexpr int distances = 16;

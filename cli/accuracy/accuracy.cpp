@@ -145,6 +145,18 @@ constexpr std::string_view words_of_pictures =
     "it:\n"
     "no other rung of the step is as fast and as accurate.\n";
 
+// Breaks a sentence at its blanks, for the width of the table.
+std::string in_lines(std::string text) {
+    constexpr std::size_t width = 96;
+    for (std::size_t begin = 0; text.size() - begin > width;) {
+        const std::size_t blank = text.rfind(' ', begin + width);
+        if (blank == std::string::npos || blank <= begin) break;
+        text[blank] = '\n';
+        begin = blank + 1;
+    }
+    return text;
+}
+
 enum class Table { grid, picture };
 
 void print_tables(const std::string& subject, const Measured& measured, accuracy::ValueUnit unit,
@@ -154,9 +166,11 @@ void print_tables(const std::string& subject, const Measured& measured, accuracy
     fmt::print("{}\n\nEach rung against the chain's exact form on the same {}:\n\n{}",
                printable(subject), of_picture ? "grid" : "gates",
                markdown ? ladder_markdown(rows, unit) : accuracy::format_table(rows, unit));
-    if (!markdown) fmt::print("\n{}", of_picture ? words_of_pictures : words_of_grids);
-    const std::string message = accuracy::message_of(rows, unit).sentence();
-    if (!message.empty()) fmt::print("\nIn short: {}.\n", message);
+    if (!markdown) {
+        const std::string message = accuracy::message_of(rows, unit).sentence();
+        fmt::print("\n{}", of_picture ? words_of_pictures : words_of_grids);
+        if (!message.empty()) fmt::print("\n{}\n", in_lines("In short: " + message + "."));
+    }
     if (truth.empty()) return;
     fmt::print("\nAgainst the truth of the scene (sampling error; never budgeted):\n\n{}",
                format_truth(truth, unit, markdown));

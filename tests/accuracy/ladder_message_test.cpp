@@ -35,6 +35,13 @@ TEST(LadderMessage, NamesTheBestBuyAndWhatLiesBeyond) {
         << "nothing else is there";
 }
 
+TEST(LadderMessage, PassesOverAGainThatIsNoneToSpeakOf) {
+    EXPECT_EQ(
+        said_by({message_row("chain", "linear (default)", 1, 4),
+                 message_row("chain", "hardly", 4, 3.8), message_row("chain", "better", 10, 2)}),
+        "better costs 10 times the time of linear and halves the error");
+}
+
 TEST(LadderMessage, PraisesNothingThatIsNotBetter) {
     EXPECT_EQ(said_by({message_row("chain", "linear (default)", 2, 4),
                        message_row("chain", "slow", 20, 4.5)}),

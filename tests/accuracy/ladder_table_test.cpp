@@ -29,14 +29,14 @@ TEST(LadderTable, IsAlignedByCharactersBelowItsSteps) {
     rows[0].position_max_m = 557;
     mark_pareto(rows);
     EXPECT_EQ(format_table(rows, ValueUnit::db),
-              "               first  position   usual  99 in 100  largest  worth\n"
-              "step            time         m      dB         dB       dB     it\n"
+              "              first  position   usual  99 in 100  largest  worth\n"
+              "step           time         m      dB         dB       dB     it\n"
               "beam\n"
-              "  4/3 earth    12 ms       557  0.0834       0.25      0.5    yes\n"
-              "  ray traced   1.5 s         -       0          0        0    yes\n"
+              "  4/3 earth   12 ms       557  0.0834       0.25      0.5    yes\n"
+              "  ray traced  1.5 s         -       0          0        0    yes\n"
               "averaging\n"
               "  d\xc3\xa9"
-              "cibels      1 ms         -   0.417       1.25      2.5    yes\n");
+              "cibels     1 ms         -   0.417       1.25      2.5    yes\n");
     EXPECT_EQ(format_table({}, ValueUnit::db), "");
 }
 
