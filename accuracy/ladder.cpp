@@ -4,10 +4,6 @@
 #include <array>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "base/printable.h"
-
 namespace stormcellar::accuracy {
 namespace {
 
@@ -35,60 +31,6 @@ LadderField optional_field(std::string key, const std::optional<T>& value) {
     LadderField field{std::move(key), {}};
     if (value) field.value = *value;
     return field;
-}
-
-std::string text_of(const LadderField& field) {
-    if (const auto* text = std::get_if<std::string>(&field.value)) return printable(*text);
-    if (const auto* count = std::get_if<std::uint64_t>(&field.value)) {
-        return fmt::format("{}", *count);
-    }
-    if (const auto* number = std::get_if<double>(&field.value)) return format_number(*number);
-    if (const auto* yes = std::get_if<bool>(&field.value)) return *yes ? "yes" : "no";
-    return "-";
-}
-
-// Returns the number of characters, not of bytes.
-std::size_t width_of(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-    }));
-}
-
-struct TableColumn {
-    std::string key;
-    std::vector<std::string> cells;
-    bool is_text = false;
-    bool empty = true;
-
-    [[nodiscard]] std::size_t width() const {
-        std::size_t widest = width_of(key);
-        for (const std::string& cell : cells)
-            widest = std::max(widest, width_of(cell));
-        return widest;
-    }
-};
-
-std::vector<TableColumn> columns_of(std::span<const LadderRow> rows, ValueUnit unit) {
-    std::vector<TableColumn> columns;
-    for (const LadderRow& row : rows) {
-        const auto list = fields(row, unit);
-        columns.resize(list.size());
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            columns[i].key = list[i].key;
-            columns[i].cells.push_back(text_of(list[i]));
-            columns[i].is_text =
-                columns[i].is_text || std::holds_alternative<std::string>(list[i].value);
-            columns[i].empty =
-                columns[i].empty && std::holds_alternative<std::monostate>(list[i].value);
-        }
-    }
-    std::erase_if(columns, [](const TableColumn& column) { return column.empty; });
-    return columns;
-}
-
-std::string padded(const TableColumn& column, const std::string& text) {
-    const std::string blanks(column.width() - width_of(text), ' ');
-    return column.is_text ? text + blanks : blanks + text;
 }
 
 }  // namespace
@@ -125,26 +67,6 @@ std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit) {
             optional_field("image_p99_de", row.image_p99_de),
             optional_field("status_disagreement", disagreement),
             {"pareto", row.pareto}};
-}
-
-std::string format_table(std::span<const LadderRow> rows, ValueUnit unit) {
-    const auto columns = columns_of(rows, unit);
-    std::string text;
-    const auto add_line = [&](const auto& cell_of) {
-        std::string line;
-        for (const TableColumn& column : columns) {
-            if (!line.empty()) line += "  ";
-            line += padded(column, cell_of(column));
-        }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    };
-    if (rows.empty()) return text;
-    add_line([](const TableColumn& column) { return column.key; });
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        add_line([&](const TableColumn& column) { return column.cells[i]; });
-    }
-    return text;
 }
 
 }  // namespace stormcellar::accuracy

@@ -18,6 +18,9 @@ constexpr std::array<std::string_view, 7> colours = {"#0072B2", "#D55E00", "#009
                                                      "#E69F00", "#56B4E9", "#000000"};
 constexpr int shape_count = 5;
 constexpr double front_width = 1.5;
+constexpr double main_front_width = 3;
+constexpr double title_size = 17;
+constexpr double bold_width = 0.62;  // of a letter, as a share of its size
 
 // Escapes the special characters of XML, and replaces those that XML does not allow.
 std::string escaped(std::string_view text) {
@@ -109,8 +112,6 @@ std::string draw_axes(const Plot& plot, const PlotLayout& layout) {
     }
     const double middle_x = (frame.left + frame.right) / 2;
     const double middle_y = (frame.top + frame.bottom) / 2;
-    svg += text_at(plot.width / 2.0, 30,
-                   "text-anchor=\"middle\" font-size=\"17\" font-weight=\"bold\"", plot.title);
     svg += text_at(middle_x, frame.bottom + 44, "text-anchor=\"middle\" font-size=\"14\"",
                    plot.time_label);
     svg += text_at(20, middle_y,
@@ -121,28 +122,43 @@ std::string draw_axes(const Plot& plot, const PlotLayout& layout) {
     return svg;
 }
 
-std::string draw_fronts(const PlotLayout& layout) {
-    std::string svg;
-    for (std::size_t series = 0; series < layout.series.size(); ++series) {
-        std::vector<PlotMarker> front;
-        for (const PlotMarker& marker : layout.markers) {
-            if (marker.series == series && marker.pareto) front.push_back(marker);
-        }
-        if (front.size() < 2) continue;
-        std::stable_sort(front.begin(), front.end(), [](const PlotMarker& a, const PlotMarker& b) {
-            return a.x != b.x ? a.x < b.x : a.y < b.y;
-        });
-        svg += "<polyline points=\"";
-        for (const PlotMarker& marker : front)
-            svg += fmt::format("{:.1f},{:.1f} ", marker.x, marker.y);
-        svg.pop_back();
-        svg += fmt::format("\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" opacity=\"0.6\"/>\n",
-                           colour_of(series), front_width);
+// The largest size up to title_size at which the title fits.
+double size_of_title(const Plot& plot) {
+    const auto letters = static_cast<double>(std::max<std::size_t>(1, plot.title.size()));
+    return std::clamp((plot.width - 24) / (letters * bold_width), 9.0, title_size);
+}
+
+std::string draw_heading(const Plot& plot, const PlotLayout& layout) {
+    const double middle = plot.width / 2.0;
+    std::string svg =
+        text_at(middle, title_y,
+                fmt::format("text-anchor=\"middle\" font-size=\"{:.1f}\" font-weight=\"bold\"",
+                            size_of_title(plot)),
+                plot.title);
+    for (std::size_t i = 0; i < plot.below.size(); ++i) {
+        svg += text_at(middle, layout.lines_below[i],
+                       "text-anchor=\"middle\" font-size=\"13\" fill=\"#555555\"", plot.below[i]);
     }
     return svg;
 }
 
-std::string draw_points(const PlotLayout& layout) {
+std::string draw_fronts(const Plot& plot, const PlotLayout& layout) {
+    std::string svg;
+    for (std::size_t series = 0; series < layout.series.size(); ++series) {
+        const std::vector<PlotMarker>& front = layout.fronts[series];
+        if (front.size() < 2) continue;
+        svg += "<polyline points=\"";
+        for (const PlotMarker& marker : front)
+            svg += fmt::format("{:.1f},{:.1f} ", marker.x, marker.y);
+        svg.pop_back();
+        const bool is_main = layout.series[series] == plot.main_series;
+        svg += fmt::format("\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" opacity=\"0.6\"/>\n",
+                           colour_of(series), is_main ? main_front_width : front_width);
+    }
+    return svg;
+}
+
+std::string draw_points(const Plot& plot, const PlotLayout& layout) {
     std::string svg;
     for (const PlotLabel& label : layout.labels) {
         if (!label.leader) continue;
@@ -169,7 +185,10 @@ std::string draw_points(const PlotLayout& layout) {
             x = label.box.right;
             anchor = "text-anchor=\"end\" ";
         }
-        svg += text_at(x, label.box.bottom - 0.3 * label_size, std::string(anchor) + style,
+        const std::size_t series = layout.markers[label.marker].series;
+        const bool is_main = layout.series[series] == plot.main_series;
+        svg += text_at(x, label.box.bottom - 0.3 * label_size,
+                       std::string(anchor) + style + (is_main ? " font-weight=\"bold\"" : ""),
                        label.text);
     }
     return svg;
@@ -184,8 +203,9 @@ std::string draw_legend(const PlotLayout& layout) {
         svg += text_at(x + 12, y + 4, "font-size=\"12\"", layout.series[series]);
         y += 20;
     }
-    svg += text_at(x - 6, y + 12, "font-size=\"11\"", "filled: on the");
-    svg += text_at(x - 6, y + 26, "font-size=\"11\"", "Pareto front");
+    svg += text_at(x - 6, y + 12, "font-size=\"11\"", "filled: no rung of");
+    svg += text_at(x - 6, y + 26, "font-size=\"11\"", "its step is faster");
+    svg += text_at(x - 6, y + 40, "font-size=\"11\"", "and more accurate");
     return svg;
 }
 
@@ -200,9 +220,10 @@ Result<std::string> draw_plot(const Plot& plot) {
         "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" fill=\"#222222\">\n"
         "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         plot.width, plot.height, escaped(plot.title));
+    svg += draw_heading(plot, *layout);
     svg += draw_axes(plot, *layout);
-    svg += draw_fronts(*layout);
-    svg += draw_points(*layout);
+    svg += draw_fronts(plot, *layout);
+    svg += draw_points(plot, *layout);
     svg += draw_legend(*layout);
     return svg + "</svg>\n";
 }

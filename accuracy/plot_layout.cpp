@@ -11,11 +11,11 @@ namespace {
 
 constexpr double margin_left = 84;
 constexpr double margin_right = 150;  // holds the legend
-constexpr double margin_top = 56;
+constexpr double margin_top = 26;     // below the title and its lines
 constexpr double margin_bottom = 64;
 constexpr double zero_row_height = 36;
 constexpr double character_width =
-    0.58;  // as a share of the size of letters, a little more than the average
+    0.62;  // as a share of the size of letters: of bold ones, a little more than the average
 constexpr std::size_t most_points = 400;
 constexpr double most_decades = 4;
 
@@ -122,6 +122,21 @@ PlotBox label_box(const PlotMarker& marker, const std::string& text, double dx, 
     return {x - width / 2, y - height / 2, x + width / 2, y + height / 2};
 }
 
+// Returns how long a line is within a box, in pixels: in steps, which is enough to compare places.
+double length_within(const PlotBox& box, const PlotMarker& from, const PlotMarker& to) {
+    constexpr double step = 2;
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    const int steps = static_cast<int>(length / step);
+    double within = 0;
+    for (int i = 0; i <= steps; ++i) {
+        const double part = steps == 0 ? 0 : static_cast<double>(i) / steps;
+        const double x = from.x + part * (to.x - from.x);
+        const double y = from.y + part * (to.y - from.y);
+        if (x > box.left && x < box.right && y > box.top && y < box.bottom) within += step;
+    }
+    return within;
+}
+
 // Returns how bad the place is for a label: what it hides, and how far it sticks out of the frame.
 double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room) {
     double cost = 0;
@@ -129,6 +144,11 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
         cost += 2 * box.overlap(label.box);
     for (const PlotMarker& marker : layout.markers)
         cost += 3 * box.overlap(marker_box(marker));
+    // A label over a line is readable, as it has a white edge.
+    for (const auto& front : layout.fronts) {
+        for (std::size_t i = 1; i < front.size(); ++i)
+            cost += 0.5 * length_within(box, front[i - 1], front[i]);
+    }
     const double area = (box.right - box.left) * (box.bottom - box.top);
     return cost + 4 * (area - box.overlap(room));
 }
@@ -143,8 +163,7 @@ PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::s
         {{1, 0}, {0, -1}, {0, 1}, {-1, 0}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}}};
     constexpr double touching = marker_radius + 3;
     constexpr double least_cost = 1e-6;
-    PlotBox room = layout.frame;
-    room.right += margin_right / 5;
+    const PlotBox& room = layout.frame;
     PlotLabel best;
     double best_cost = -1;
     constexpr int distances = 16;
@@ -173,6 +192,19 @@ std::size_t series_index(std::vector<std::string>& series, const std::string& na
     return series.size() - 1;
 }
 
+// The points on the front of each series, from left to right.
+std::vector<std::vector<PlotMarker>> fronts_of(const PlotLayout& layout) {
+    std::vector<std::vector<PlotMarker>> fronts(layout.series.size());
+    for (const PlotMarker& marker : layout.markers)
+        if (marker.pareto) fronts[marker.series].push_back(marker);
+    for (std::vector<PlotMarker>& front : fronts) {
+        std::stable_sort(front.begin(), front.end(), [](const PlotMarker& a, const PlotMarker& b) {
+            return a.x != b.x ? a.x < b.x : a.y < b.y;
+        });
+    }
+    return fronts;
+}
+
 }  // namespace
 
 double PlotBox::overlap(const PlotBox& other) const {
@@ -184,7 +216,10 @@ double PlotBox::overlap(const PlotBox& other) const {
 Result<PlotLayout> lay_out_plot(const Plot& plot) {
     if (auto valid = validate(plot); !valid) return pass_on(valid);
     PlotLayout layout;
-    layout.frame = {margin_left, margin_top, plot.width - margin_right,
+    for (std::size_t i = 0; i < plot.below.size(); ++i)
+        layout.lines_below.push_back(title_y + line_height * static_cast<double>(i + 1));
+    const double heading = layout.lines_below.empty() ? title_y : layout.lines_below.back();
+    layout.frame = {margin_left, heading + margin_top, plot.width - margin_right,
                     plot.height - margin_bottom};
     std::vector<double> times;
     std::vector<double> errors;
@@ -213,6 +248,7 @@ Result<PlotLayout> lay_out_plot(const Plot& plot) {
         layout.markers.push_back({time_axis.position(point.time_s), y,
                                   series_index(layout.series, point.series), point.pareto});
     }
+    layout.fronts = fronts_of(layout);
     for (std::size_t i = 0; i < plot.points.size(); ++i) {
         layout.labels.push_back(place_label(layout, i, plot.points[i].label));
     }

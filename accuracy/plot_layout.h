@@ -42,7 +42,9 @@ struct PlotLabel {
 
 struct PlotLayout {
     PlotBox frame;
-    std::vector<std::string> series;  // in the order of first appearance
+    std::vector<std::vector<PlotMarker>> fronts;  // of each series, from left to right
+    std::vector<double> lines_below;              // y of each line below the title
+    std::vector<std::string> series;              // in the order of first appearance
     std::vector<PlotTick> time_ticks, error_ticks;
     std::optional<double> zero_y;     // the row of exact points, if there are any
     double zero_below = 0;            // that row also holds errors below this one
@@ -52,6 +54,8 @@ struct PlotLayout {
 
 inline constexpr double marker_radius = 5;
 inline constexpr double label_size = 12;
+inline constexpr double title_y = 30;
+inline constexpr double line_height = 20;
 
 // Errors: those of draw_plot().
 [[nodiscard]] Result<PlotLayout> lay_out_plot(const Plot& plot);

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/ladder_message.h"
 #include "accuracy/plot.h"
 #include "base/steady_time.h"
 #include "cli/accuracy/held_out_accuracy.h"
@@ -19,6 +20,7 @@
 #include "cli/picture/picture_ladder.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/effect_options.h"
+#include "cli/shared/progress.h"
 #include "grid/plan/grid_ladder.h"
 #include "stormcellar/base/file_system.h"
 #include "synth/observe.h"
@@ -91,17 +93,36 @@ nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
     return list;
 }
 
+// A step without any error is a row of points in one place, and says nothing.
+bool has_error(const std::vector<accuracy::LadderRow>& rows, const std::string& step) {
+    return std::ranges::any_of(rows, [&](const accuracy::LadderRow& row) {
+        const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);
+        return row.step == step && error > 0;
+    });
+}
+
+std::string with_capital(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text;
+}
+
 Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueUnit unit,
-                  const std::string& title, const std::string& file) {
+                  const std::string& subject, const std::string& file) {
     const bool of_picture = std::any_of(
         rows.begin(), rows.end(), [](const auto& row) { return row.image_p99_de && !row.value; });
+    const accuracy::LadderMessage message = accuracy::message_of(rows, unit);
     accuracy::Plot plot;
-    plot.title = title;
+    plot.title = message.buy.empty() ? subject : with_capital(message.buy);
+    plot.main_series = message.step;
+    if (!message.beyond.empty()) plot.below.push_back(with_capital(message.beyond));
+    if (!message.buy.empty()) plot.below.push_back(subject);
     plot.error_label =
         of_picture ? "Color difference, 99th percentile (CIEDE2000)"
                    : fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
-    plot.time_label = of_picture ? "Time of a picture" : "Time of a whole grid, geometry kept";
+    plot.time_label = of_picture ? "Time of a picture" : "Time of each further grid";
     for (const accuracy::LadderRow& row : rows) {
+        if (!has_error(rows, row.step)) continue;
         const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);
         plot.points.push_back(
             {row.name, row.step, row.kept_time_s.value_or(row.time_s), error, row.pareto});
@@ -112,14 +133,44 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
     return write_file_atomically(real_file_system(), file, bytes);
 }
 
+// What the headings of the tables mean.
+constexpr std::string_view words_of_grids =
+    "first time: the first grid; further time: each one after it, which uses the places of the\n"
+    "columns again. position: how far a sample is off at most. usual, 99 in 100, largest: the "
+    "error\n"
+    "of the values (root mean square, 99th percentile, maximum). state: cells that are a value in\n"
+    "one and not in the other. worth it: no other rung of the step is as fast and as accurate.\n";
+constexpr std::string_view words_of_pictures =
+    "color: the difference of 99 in 100 pixels is smaller (CIEDE2000; 2 is hardly seen). worth "
+    "it:\n"
+    "no other rung of the step is as fast and as accurate.\n";
+
+// Breaks a sentence at its blanks, for the width of the table.
+std::string in_lines(std::string text) {
+    constexpr std::size_t width = 96;
+    for (std::size_t begin = 0; text.size() - begin > width;) {
+        const std::size_t blank = text.rfind(' ', begin + width);
+        if (blank == std::string::npos || blank <= begin) break;
+        text[blank] = '\n';
+        begin = blank + 1;
+    }
+    return text;
+}
+
 enum class Table { grid, picture };
 
 void print_tables(const std::string& subject, const Measured& measured, accuracy::ValueUnit unit,
                   bool markdown, Table picture) {
     const auto& [rows, truth] = measured;
+    const bool of_picture = picture == Table::picture;
     fmt::print("{}\n\nEach rung against the chain's exact form on the same {}:\n\n{}",
-               printable(subject), picture == Table::picture ? "grid" : "gates",
+               printable(subject), of_picture ? "grid" : "gates",
                markdown ? ladder_markdown(rows, unit) : accuracy::format_table(rows, unit));
+    if (!markdown) {
+        const std::string message = accuracy::message_of(rows, unit).sentence();
+        fmt::print("\n{}", of_picture ? words_of_pictures : words_of_grids);
+        if (!message.empty()) fmt::print("\n{}\n", in_lines("In short: " + message + "."));
+    }
     if (truth.empty()) return;
     fmt::print("\nAgainst the truth of the scene (sampling error; never budgeted):\n\n{}",
                format_truth(truth, unit, markdown));
@@ -150,8 +201,10 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
 Result<Measured> measure(const Subject& subject, const GridRequest& request,
                          const grid::GridSpec& spec, const EffectRequest& effects,
                          const AccuracyOptions& options) {
+    Progress progress("measuring", 0, !options.grid.json);
+    const auto show = [&](std::size_t done, std::size_t total) { progress.show(done, total); };
     if (options.picture) {
-        auto rows = ladder_of_picture(subject.source, request, spec, options.rounds);
+        auto rows = ladder_of_picture(subject.source, request, spec, options.rounds, show);
         if (!rows) return pass_on(rows);
         return Measured{std::move(*rows), {}};
     }
@@ -162,6 +215,7 @@ Result<Measured> measure(const Subject& subject, const GridRequest& request,
     grid::LadderOptions ladder;
     ladder.columns = static_cast<std::size_t>(options.columns);
     ladder.rounds = options.rounds;
+    ladder.progress = show;
     auto rows = grid::run_ladder(*scene, ladder);
     if (!rows) return pass_on(rows);
     Measured measured{std::move(*rows), {}};

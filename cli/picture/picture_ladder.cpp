@@ -42,9 +42,9 @@ Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
 
 }  // namespace
 
-Result<std::vector<accuracy::LadderRow>> ladder_of_picture(const SourceVolume& source,
-                                                           const GridRequest& request,
-                                                           const grid::GridSpec& spec, int rounds) {
+Result<std::vector<accuracy::LadderRow>> ladder_of_picture(
+    const SourceVolume& source, const GridRequest& request, const grid::GridSpec& spec, int rounds,
+    const std::function<void(std::size_t, std::size_t)>& progress) {
     const auto bricks = bricks_for(source, request, spec);
     if (!bricks) return pass_on(bricks);
     const grid::BrickView view = bricks->view();
@@ -52,8 +52,11 @@ Result<std::vector<accuracy::LadderRow>> ladder_of_picture(const SourceVolume& s
                                        [](const auto& brick) { return brick.value_count > 0; });
     if (!any_value)
         return fail(ErrorCode::not_found, "there is nothing to draw: no cell has a value");
+    const auto total = static_cast<std::size_t>(std::max(1, rounds));
+    progress(0, total);
     auto rows = run_both(view, request);
     for (int round = 1; rows && round < rounds; ++round) {
+        progress(static_cast<std::size_t>(round), total);
         const auto again = run_both(view, request);
         if (!again) return pass_on(again);
         for (std::size_t i = 0; i < rows->size(); ++i)

@@ -7,6 +7,7 @@
 // smallest of the rounds; each round makes everything anew.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cli/grid/grid_request.h"
@@ -16,10 +17,10 @@
 
 namespace stormcellar::cli {
 
-// Errors: those of gridding; not_found if the grid holds no value at all.
-[[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_picture(const SourceVolume& source,
-                                                                         const GridRequest& request,
-                                                                         const grid::GridSpec& spec,
-                                                                         int rounds);
+// `progress` is told how many of how many parts are done. Errors: those of gridding; not_found if
+// the grid holds no value at all.
+[[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_picture(
+    const SourceVolume& source, const GridRequest& request, const grid::GridSpec& spec, int rounds,
+    const std::function<void(std::size_t done, std::size_t total)>& progress);
 
 }  // namespace stormcellar::cli

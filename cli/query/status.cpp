@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "cli/query/status_source.h"
 #include "cli/query/status_table.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/paint.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/short_duration.h"
 #include "stormcellar/base/utc_time.h"
@@ -32,9 +34,10 @@ int run_status(const StatusOptions& options) {
     const std::optional<double> age_s = age_of(found->document, now);
     const bool answered = found->silent.empty();
     if (!answered) {
-        fmt::print(
-            stderr, "stormcellar: no daemon answers ({}); the status is that of {}, {} old\n",
-            printable(found->silent), printable(found->from.native()), short_duration(age_s));
+        const std::string line = fmt::format(
+            "no daemon answers ({}); the status is that of {}, {} old", printable(found->silent),
+            printable(found->from.native()), short_duration(age_s));
+        fmt::print(stderr, "stormcellar: {}\n", in_red(line, paint_for(STDERR_FILENO)));
     }
     if (options.json) {
         nlohmann::json age = nullptr;
@@ -43,7 +46,7 @@ int run_status(const StatusOptions& options) {
             {"answered", answered}, {"from", printable(found->from.native())}, {"age_s", age}};
         print_json(found->document);
     } else {
-        fmt::print("{}", status_table(found->document, now));
+        fmt::print("{}", status_table(found->document, now, paint_for(STDOUT_FILENO)));
     }
     return answered ? exit_done : exit_failed;
 }

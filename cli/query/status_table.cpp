@@ -68,18 +68,20 @@ std::string summary(const json& latency) {
                        short_duration(number(latency, "max")));
 }
 
-std::string heading(const json& status, UtcTime now) {
+std::string heading(const json& status, UtcTime now, Paint paint) {
+    std::string state = text(status, "state");
+    if (state != "running") state = in_red(state, paint);
     return fmt::format("stormcellard {} (process {}): {}, started {}, {} ago\n",
-                       text(status, "version"), count(status, "pid"), text(status, "state"),
+                       text(status, "version"), count(status, "pid"), state,
                        text(status, "started"), short_duration(age(status, "started", now)));
 }
 
-std::string drop_line(const json& status) {
+std::string drop_line(const json& status, Paint paint) {
     const std::uint64_t directories = count(status, "directories");
     const bool is_lost = at(status, "drop_lost").is_string();
     return fmt::format("drop     {}: {} {}{}\n", text(status, "drop"), directories,
                        directories == 1 ? "directory" : "directories",
-                       is_lost ? "; LOST: " + text(status, "drop_lost") : "");
+                       is_lost ? "; " + in_red("LOST: " + text(status, "drop_lost"), paint) : "");
 }
 
 std::string cache_line(const json& status) {
@@ -98,15 +100,16 @@ std::string cache_line(const json& status) {
 }
 
 // Returns for example "3 rejected (2 corrupt, 1 empty)".
-std::string with_kinds(const json& status, const char* key, const char* by) {
+std::string with_kinds(const json& status, const char* key, const char* by, Paint paint) {
     std::string line = fmt::format("{} {}", count(status, key), key);
     const json& kinds = at(status, by);
-    if (!kinds.is_object() || kinds.empty()) return line;
+    if (count(status, key) == 0) paint = Paint::plain;
+    if (!kinds.is_object() || kinds.empty()) return in_yellow(line, paint);
     std::vector<std::string> each;
     for (const auto& [name, value] : kinds.items())
         each.push_back(fmt::format(
             "{} {}", value.is_number_unsigned() ? value.get<std::uint64_t>() : 0, printable(name)));
-    return line + fmt::format(" ({})", fmt::join(each, ", "));
+    return in_yellow(line + fmt::format(" ({})", fmt::join(each, ", ")), paint);
 }
 
 // Returns how long the first of them has left, if it is long.
@@ -116,9 +119,10 @@ std::string wait_of(const json& pending) {
 }
 
 // Returns the number of those that failed, if there are any.
-std::string retrying_of(const json& pending) {
+std::string retrying_of(const json& pending, Paint paint) {
     const auto retrying = count(pending, "retrying");
-    return retrying == 0 ? std::string{} : fmt::format(", {} to be tried again", retrying);
+    if (retrying == 0) return {};
+    return ", " + in_yellow(fmt::format("{} to be tried again", retrying), paint);
 }
 
 std::string lone_chunks_line(const json& status) {
@@ -136,12 +140,12 @@ std::string not_kept_of(const json& status) {
                       : fmt::format(", {} not kept because of the cache's limits", files);
 }
 
-std::string counts_lines(const json& status) {
+std::string counts_lines(const json& status, Paint paint) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
         "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's event queue, {}\n",
         count(pending, "waiting"), wait_of(pending), count(pending, "running"),
-        count(pending, "growing"), retrying_of(pending),
+        count(pending, "growing"), retrying_of(pending, paint),
         counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
     for (const json& file : at(pending, "waiting_files")) {
         lines += fmt::format(
@@ -152,9 +156,9 @@ std::string counts_lines(const json& status) {
     lines += fmt::format(
         "files    {} gridded ({} partial){}, {}, {} with nothing to grid, {}\n",
         count(status, "ingested"), count(status, "partial"), not_kept_of(status),
-        with_kinds(status, "rejected", "rejected_by"),
+        with_kinds(status, "rejected", "rejected_by", paint),
         count(status, "no_moment") + count(status, "no_position") + count(status, "other_station"),
-        with_kinds(status, "failures", "failures_by"));
+        with_kinds(status, "failures", "failures_by", paint));
     lines += lone_chunks_line(status);
     const json& latency = at(status, "latency_s");
     lines += fmt::format("close to cache    {} ({})\n", summary(latency),
@@ -233,7 +237,7 @@ std::string stations_table(const std::vector<const json*>& stations, UtcTime now
     return aligned(rows);
 }
 
-std::string missing_lines(const std::vector<const json*>& stations) {
+std::string missing_lines(const std::vector<const json*>& stations, Paint paint) {
     std::string lines;
     for (const json* station : stations) {
         const json& missing = at(*station, "missing");
@@ -244,18 +248,19 @@ std::string missing_lines(const std::vector<const json*>& stations) {
         for (const json& chunk : chunks.is_array() ? chunks : json::array())
             if (chunk.is_number_integer()) numbers.push_back(fmt::format("{}", chunk.get<int>()));
         const bool more = count(last, "count") > numbers.size();
-        lines +=
-            fmt::format("missing chunks of {}, volume {}: {}{}\n", text(*station, "station"),
+        const std::string line =
+            fmt::format("missing chunks of {}, volume {}: {}{}", text(*station, "station"),
                         text(last, "volume_time"), fmt::join(numbers, ", "), more ? ", ..." : "");
+        lines += in_yellow(line, paint) + "\n";
     }
     return lines;
 }
 
-std::string rejected_lines(const json& status) {
+std::string rejected_lines(const json& status, Paint paint) {
     const json& files = at(status, "rejected_files");
     if (!files.is_array() || files.empty()) return "";
     const std::size_t shown = std::min(files.size(), most_rejected_shown);
-    std::string lines = fmt::format("rejected last:\n");
+    std::string lines = in_yellow("rejected last:", paint) + "\n";
     for (std::size_t i = files.size() - shown; i < files.size(); ++i) {
         lines += fmt::format("  {}  {}: {} ({})\n", text(files[i], "at"), text(files[i], "file"),
                              text(files[i], "by"), text(files[i], "reason"));
@@ -264,11 +269,12 @@ std::string rejected_lines(const json& status) {
 }
 
 // Returns for example "; kept by process 17: running" if the daemon does not keep them itself.
-std::string loops_keeper(const json& status) {
+std::string loops_keeper(const json& status, Paint paint) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {
         const json& elsewhere = at(at(status, "loops"), "elsewhere");
-        return elsewhere.is_boolean() && elsewhere.get<bool>() ? "; no process runs them" : "";
+        const bool runs_nowhere = elsewhere.is_boolean() && elsewhere.get<bool>();
+        return runs_nowhere ? "; " + in_red("no process runs them", paint) : "";
     }
     const json& alive = at(service, "alive");
     const bool is_alive = alive.is_boolean() && alive.get<bool>();
@@ -276,19 +282,20 @@ std::string loops_keeper(const json& status) {
         return fmt::format("; run by process {}: {}", count(service, "pid"),
                            text(service, "state"));
     }
-    return fmt::format("; process {}, which ran them, is gone", count(service, "pid"));
+    return "; " +
+           in_red(fmt::format("process {}, which ran them, is gone", count(service, "pid")), paint);
 }
 
-std::string loops_line(const json& status) {
+std::string loops_line(const json& status, Paint paint) {
     const json& loops = at(status, "loops");
     const json& each = at(loops, "each");
     if (!each.is_array() || each.empty()) return "";
     return fmt::format("loops    {} of {} running, {} made, {}{}\n", count(loops, "running"),
                        each.size(), count(loops, "made"),
-                       counted(count(loops, "restarts"), "restart"), loops_keeper(status));
+                       counted(count(loops, "restarts"), "restart"), loops_keeper(status, paint));
 }
 
-std::string loops_table(const json& status, UtcTime now) {
+std::string loops_table(const json& status, UtcTime now, Paint paint) {
     const json& each = at(at(status, "loops"), "each");
     if (!each.is_array() || each.empty()) return "";
     std::vector<Row> rows = {{"loop", "running", "last made", "frames", "made", "restarts"}};
@@ -302,23 +309,26 @@ std::string loops_table(const json& status, UtcTime now) {
              fmt::format("{}", count(loop, "restarts"))});
         if (at(loop, "last_problem").is_string())
             problems +=
-                fmt::format("loop {}: {}\n", text(loop, "name"), text(loop, "last_problem"));
+                in_red(fmt::format("loop {}: {}", text(loop, "name"), text(loop, "last_problem")),
+                       paint) +
+                "\n";
     }
     return "\n" + aligned(rows) + problems;
 }
 
 }  // namespace
 
-std::string status_table(const json& status, UtcTime now) {
+std::string status_table(const json& status, UtcTime now, Paint paint) {
     const std::vector<const json*> stations = sorted_stations(status);
-    std::string page = heading(status, now);
-    page += drop_line(status);
-    page += cache_line(status) + counts_lines(status) + loops_line(status) + "\n";
+    std::string page = heading(status, now, paint);
+    page += drop_line(status, paint);
+    page += cache_line(status) + counts_lines(status, paint) + loops_line(status, paint) + "\n";
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)
         page += fmt::format("and {} of further stations, which the daemon does not list\n",
                             counted(more, "file"));
-    return page + missing_lines(stations) + rejected_lines(status) + loops_table(status, now);
+    return page + missing_lines(stations, paint) + rejected_lines(status, paint) +
+           loops_table(status, now, paint);
 }
 
 }  // namespace stormcellar::cli

@@ -10,11 +10,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cli/shared/paint.h"
 #include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::cli {
 
-// Returns several lines, with the stations sorted by name. Ages are counted from `now`.
-[[nodiscard]] std::string status_table(const nlohmann::json& status, UtcTime now);
+// Returns several lines, with the stations sorted by name. Ages are counted from `now`. With
+// colors, trouble is red, and what may need a look is yellow; the text is the same.
+[[nodiscard]] std::string status_table(const nlohmann::json& status, UtcTime now,
+                                       Paint paint = Paint::plain);
 
 }  // namespace stormcellar::cli

@@ -19,8 +19,17 @@ std::string wrapped(const std::string& text, std::size_t column) {
     std::size_t at = column;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find(' ', begin), text.size());
-        const std::string word = text.substr(begin, end - begin);
+        std::string word = text.substr(begin, end - begin);
         begin = end + 1;
+        // A list without blanks may be longer than a line.
+        while (column + word.size() > page_width) {
+            const std::size_t comma = word.rfind(',', page_width - column - 1);
+            if (comma == std::string::npos) break;
+            if (at > column) out += '\n' + std::string(column, ' ');
+            out += word.substr(0, comma + 1) + '\n' + std::string(column, ' ');
+            word.erase(0, comma + 1);
+            at = column;
+        }
         if (at > column && at + 1 + word.size() > page_width) {
             out += '\n' + std::string(column, ' ');
             at = column;

@@ -154,6 +154,7 @@ const std::vector<ValueWord>& value_words() {
         {"--dwell", "SECONDS"},
         {"--older-than", "HOURS"},
         {"--bytes", "SIZE"},
+        {"--faults", "FAULTS"},
         // places and sizes
         {"--center", "LAT,LON"},
         {"--position", "LAT,LON,HEIGHT"},

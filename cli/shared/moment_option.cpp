@@ -14,8 +14,11 @@ Result<level2::Moment> moment_named(const std::string& text) {
     std::ranges::transform(name, name.begin(),
                            [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     if (const auto moment = level2::moment_from_name(name)) return *moment;
-    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", level2::moment_names(", ", " or "),
-                printable(text));
+    std::vector<std::string> names;
+    for (const level2::MomentFacts& facts : level2::moment_facts)
+        names.emplace_back(facts.name);
+    return fail(ErrorCode::bad_argument, "must be {}, not '{}'{}",
+                level2::moment_names(", ", " or "), printable(text), did_you_mean(text, names));
 }
 
 }  // namespace stormcellar::cli

@@ -189,6 +189,10 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,
     const auto exact = scene.evaluate(scene_choice(chain, exact_choice), sample);
     if (!exact) return pass_on(exact);
 
+    const auto chains = named_chains(scene.options().moment, options.averaging);
+    std::size_t total = chains.size();
+    for (const accuracy::Step& step : chain.steps)
+        total += step.effects.empty() ? 0 : step.rung_count();
     std::vector<accuracy::LadderRow> rows;
     const auto add = [&](accuracy::LadderRow row, const SceneChoice& with_errors,
                          const SceneChoice& with_times,
@@ -201,6 +205,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,
         take_errors(scene.compare(*cells, *exact, sample), row);
         if (auto timed = time_grid(scene, with_times, options.rounds, row); !timed) return timed;
         rows.push_back(std::move(row));
+        if (options.progress) options.progress(rows.size(), total);
         return {};
     };
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
@@ -220,7 +225,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,
         }
     }
     std::size_t rung = 0;
-    for (const NamedChain& named : named_chains(scene.options().moment, options.averaging)) {
+    for (const NamedChain& named : chains) {
         accuracy::LadderRow row;
         row.step = "chain";
         row.rung = rung++;

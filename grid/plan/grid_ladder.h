@@ -13,6 +13,7 @@
 // Threads   Those of the scene (grid/plan/scene.h).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "grid/plan/grid_effects.h"
@@ -27,6 +28,8 @@ struct LadderOptions {
     int rounds = 3;  // rounds of timing; the least time counts
     std::uint64_t seed = 1;
     Averaging averaging = Averaging::in_db;  // of all chains, the exact form too
+    // Is told how many of how many rows are done; null: nobody is.
+    std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
 // A whole chain with a name of its own.

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "grid/fill/column_filler.h"
 #include "grid/plan/cell_circle.h"
+#include "grid/plan/column_sizes.h"
 #include "grid/plan/position_error.h"
 #include "stormcellar/grid/gridder.h"
 
@@ -68,7 +69,7 @@ Result<GridScene> GridScene::make(const level2::Volume& volume, const SitePositi
     scene.base_seconds_ = scene.now_s() - start_s;
     if (!base) return pass_on(base);
     scene.base_ = std::move(*base);
-    scene.sizes_ = scene.sizes();
+    scene.sizes_ = column_sizes(scene.base_, scene.stack(Method{}), **geometry);
     return scene;
 }
 
@@ -133,36 +134,6 @@ Result<double> GridScene::fill(const Method& method, std::span<const Tile> tiles
 
 double GridScene::reach_m() const {
     return grid::reach_m({*volume_, site_, spec_, chosen_, options_.profile, options_.moment});
-}
-
-// Returns how many cells of each column may hold a value. Neighboring columns tell what other
-// interpolations may bring into a column; each valued cell may become two, and a column without any
-// keeps a small chance.
-std::vector<std::uint16_t> GridScene::sizes() const {
-    const auto nz = spec_.levels_m.size();
-    const auto width = static_cast<std::size_t>(spec_.nx);
-    std::vector<std::uint16_t> valued(spec_.column_count());
-    for (std::size_t column = 0; column < valued.size(); ++column) {
-        const auto first = base_.status.begin() + static_cast<std::ptrdiff_t>(column * nz);
-        valued[column] = static_cast<std::uint16_t>(
-            std::count(first, first + static_cast<std::ptrdiff_t>(nz), CellStatus::value));
-    }
-    std::vector<std::uint16_t> sizes(valued.size());
-    for (int iy = 0; iy < spec_.ny; ++iy) {
-        for (int ix = 0; ix < spec_.nx; ++ix) {
-            std::uint16_t most = 0;
-            for (int y = std::max(0, iy - 1); y <= std::min(spec_.ny - 1, iy + 1); ++y) {
-                for (int x = std::max(0, ix - 1); x <= std::min(spec_.nx - 1, ix + 1); ++x)
-                    most = std::max(
-                        most,
-                        valued[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)]);
-            }
-            const std::size_t size = most == 0 ? 0 : std::min(nz, std::size_t{2} * most + 4);
-            sizes[static_cast<std::size_t>(iy) * width + static_cast<std::size_t>(ix)] =
-                static_cast<std::uint16_t>(size);
-        }
-    }
-    return sizes;
 }
 
 std::size_t GridScene::columns_with_echo() const {

@@ -136,8 +136,6 @@ class GridScene {
     [[nodiscard]] double now_s() const;
     // A grid for filling columns that nobody asked to keep.
     [[nodiscard]] Grid& scratch();
-    // Returns how many cells of each column may hold a value by any method.
-    [[nodiscard]] std::vector<std::uint16_t> sizes() const;
 
     const level2::Volume* volume_ = nullptr;
     SitePosition site_;
@@ -149,7 +147,7 @@ class GridScene {
     Grid base_;
     double base_seconds_ = 0;
     std::unique_ptr<Grid> scratch_;
-    std::vector<std::uint16_t> sizes_;
+    std::vector<std::uint16_t> sizes_;  // grid/plan/column_sizes.h
 };
 
 }  // namespace stormcellar::grid

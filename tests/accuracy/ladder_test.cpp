@@ -101,30 +101,5 @@ TEST(Ladder, RowsHaveTheSameKeysWithTheirUnits) {
     EXPECT_THAT(fields(full, ValueUnit::mps)[9].key, "value_p99_mps");
 }
 
-std::vector<LadderRow> small_ladder() {
-    std::vector<LadderRow> rows = {row("beam", 0, "4/3 earth", 0.012, 0.25, 557),
-                                   row("beam", 1, "ray traced", 1.5, 0, 0),
-                                   row("averaging", 0,
-                                       "d\xc3\xa9"
-                                       "cibels",
-                                       0.001, 1.25, {})};
-    mark_pareto(rows);
-    return rows;
-}
-
-TEST(Ladder, TheTableIsAlignedByCharacters) {
-    EXPECT_EQ(format_table(small_ladder(), ValueUnit::db),
-              "step       rung  name        time_s  position_max_m  value_rms_db  value_p95_db  "
-              "value_p99_db  value_max_db  pareto\n"
-              "beam          0  4/3 earth    0.012             557        0.0834         0.125  "
-              "        0.25           0.5     yes\n"
-              "beam          1  ray traced     1.5               0             0             0  "
-              "           0             0     yes\n"
-              "averaging     0  d\xc3\xa9"
-              "cibels     0.001               -         0.417         0.625  "
-              "        1.25           2.5     yes\n");
-    EXPECT_EQ(format_table({}, ValueUnit::db), "");
-}
-
 }  // namespace
 }  // namespace stormcellar::accuracy

@@ -51,9 +51,9 @@ TEST(Accuracy, BadUsageIsNamed) {
 }
 
 TEST(Accuracy, HelpSaysHowManyThreadsEachCommandTakes) {
-    EXPECT_NE(run({"accuracy", "--help"}).out.find("Number of threads. Default: 1"),
+    EXPECT_NE(run({"accuracy", "--help-all"}).out.find("Number of threads. Default: 1"),
               std::string::npos);
-    EXPECT_NE(run({"grid", "--help"}).out.find("Number of threads. Default: all processors"),
+    EXPECT_NE(run({"grid", "--help-all"}).out.find("Number of threads. Default: all processors"),
               std::string::npos);
 }
 

@@ -124,7 +124,7 @@ TEST_F(ReferenceHelp, BeginsWithExamplesAndAtMostTenOptions) {
     EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), HasSubstr("--help-all"));
     EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), Not(HasSubstr("--curved-earth")));
     EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), HasSubstr("Default: volume."));
-    EXPECT_THAT(help_of(at("loop"), HelpExtent::all), HasSubstr("From 1 to 1000000."));
+    EXPECT_THAT(help_of(at("loop"), HelpExtent::all), HasSubstr("From -3600 to 3600."));
 }
 
 TEST_F(ReferenceHelp, GuidesNameWhatThereIs) {

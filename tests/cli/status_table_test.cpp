@@ -1,10 +1,15 @@
 #include "cli/query/status_table.h"
 
+#include <array>
+#include <cstdlib>
 #include <limits>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
+#include "cli/shared/paint.h"
 #include "cli/shared/short_duration.h"
 
 namespace stormcellar::cli {
@@ -174,6 +179,57 @@ TEST(StatusTable, ControlCharactersAreNotPassedOn) {
     const std::string page = status_table(status, now);
     EXPECT_EQ(page.find('\x1b'), std::string::npos);
     EXPECT_EQ(page.find('\x07'), std::string::npos);
+}
+
+std::string without_colors(std::string text) {
+    for (std::size_t at = text.find('\x1B'); at != std::string::npos; at = text.find('\x1B'))
+        text.erase(at, text.find('m', at) + 1 - at);
+    return text;
+}
+
+TEST(StatusTable, TroubleHasColorsAndTheTextStays) {
+    json ktlx = station("KTLX");
+    ktlx["missing"] = {
+        {{"volume_time", "2022-03-17T00:08:42Z"}, {"count", 70U}, {"numbers", {3, 9}}}};
+    json status = {{"state", "stopped"},
+                   {"drop_lost", "/d: Permission denied"},
+                   {"rejected", 2U},
+                   {"failures", 0U},
+                   {"stations", {ktlx}}};
+    const std::string page = status_table(status, now, Paint::colors);
+    EXPECT_EQ(without_colors(page), status_table(status, now));
+    EXPECT_NE(page.find("\x1B[1;31mstopped\x1B[0m"), std::string::npos) << page;
+    EXPECT_NE(page.find("\x1B[1;31mLOST: /d: Permission denied\x1B[0m"), std::string::npos);
+    EXPECT_NE(page.find("\x1B[33m2 rejected\x1B[0m"), std::string::npos);
+    EXPECT_NE(page.find("\x1B[33mmissing chunks of KTLX"), std::string::npos);
+    EXPECT_NE(page.find(" 0 failures\n"), std::string::npos) << "none is no trouble";
+    status = {{"state", "running"}, {"stations", json::array()}};
+    EXPECT_EQ(status_table(status, now, Paint::colors), status_table(status, now));
+}
+
+TEST(Paint, IsForTerminalsAlone) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    ::unsetenv("NO_COLOR");
+    ::setenv("TERM", "xterm-256color", 1);
+    EXPECT_EQ(paint_for(ends[1]), Paint::plain) << "a pipe";
+    ::close(ends[0]);
+    ::close(ends[1]);
+    const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0) GTEST_SKIP() << "this machine has no pseudo-terminals";
+    EXPECT_EQ(paint_for(terminal), Paint::colors);
+    ::setenv("TERM", "dumb", 1);
+    EXPECT_EQ(paint_for(terminal), Paint::plain);
+    ::unsetenv("TERM");
+    EXPECT_EQ(paint_for(terminal), Paint::plain);
+    ::setenv("TERM", "xterm", 1);
+    ::setenv("NO_COLOR", "1", 1);
+    EXPECT_EQ(paint_for(terminal), Paint::plain);
+    ::setenv("NO_COLOR", "", 1);
+    EXPECT_EQ(paint_for(terminal), Paint::colors) << "empty is not set";
+    ::unsetenv("NO_COLOR");
+    ::close(terminal);
+    EXPECT_EQ(in_red("", Paint::colors), "");
 }
 
 }  // namespace

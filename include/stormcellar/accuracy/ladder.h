@@ -1,9 +1,9 @@
 // stormcellar/accuracy/ladder.h -- the table of accuracy against time, with a row for each rung.
 //
 // Each row describes a step at one rung, with everything else exact, compared with the exact form
-// of the chain. The text table, the Markdown table and (in the command line) the JSON are made from
-// the same fields, so all three have the same columns. The keys name their units, as in
-// "value_p99_db".
+// of the chain. The Markdown table and (in the command line) the JSON are made from the same
+// fields. The keys name their units, as in "value_p99_db". The text table is for people: it has
+// fewer columns, with words for headings.
 //
 // Threads   Rows are plain values and all functions are pure, but for mark_pareto(), which changes
 //           the rows that it is given.
@@ -53,8 +53,11 @@ struct LadderField {
 // Returns the fields of a row: the same keys in the same order for every row.
 [[nodiscard]] std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit);
 
-// Returns the table as text; each line ends with "\n". A column in which no row has a value is left
-// out. A row without a value has "-" in that column.
+// Returns the table as text of at most 100 columns; each line ends with "\n". The rungs of a step
+// stand below its name. A column in which no row has a value is left out, and "-" stands for a
+// missing value. "first" is time_s, "further" kept_time_s, "position" the largest, "usual", "99 in
+// 100" and "largest" are the root mean square, the 99th percentile and the largest of the values,
+// "state" is the share of cells in another state, and "worth it" is `pareto`.
 [[nodiscard]] std::string format_table(std::span<const LadderRow> rows, ValueUnit unit);
 
 }  // namespace stormcellar::accuracy

@@ -1,0 +1,28 @@
+// grid/plan/column_sizes.h -- how many cells of each column may hold a value, by any method.
+//
+// Columns are sampled in proportion to these sizes, and a column of size 0 is never compared. So a
+// size must not be 0 where any method finds a value: the default method looks at one point of a
+// cell, and a single gate between two points is seen only by methods that take all gates of a cell.
+//
+// Threads   Pure.
+// Accuracy  tests/grid/column_sizes_test.cpp compares with the exact form on real volumes with
+//           little echo: no column that holds a value has the size 0.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/sweep/sweep_stack.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/grid.h"
+
+namespace stormcellar::grid {
+
+// `base` is the grid by the default method, `stack` has its sweeps, and `geometry` its columns.
+// Where a column or one beside it holds values, the size is twice as many and four, at most all
+// levels: other methods bring values in from beside. Where none does but a gate with a value lies
+// near, the size is the number of levels from the sweep below that gate to the one above it.
+[[nodiscard]] std::vector<std::uint16_t> column_sizes(const Grid& base, const SweepStack& stack,
+                                                      const ColumnGeometry& geometry);
+
+}  // namespace stormcellar::grid
