@@ -110,8 +110,7 @@ Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const Loop
                 LoopScene& shown) {
     render::Scene& scene = shown.scene;
     render::EchoOutline outline(first.view(), scene.moment);
-    const bool fits =
-        render::view_of(scene.product) == render::View::volume && parts_to_fit(options.scene).any();
+    const bool fits = fits_anything(options.scene);
     for (const LoopFrame& frame : grids.frames) {
         if (!fits || !frame.stored) continue;
         const auto file = cache::GridFile::open(frame.stored->path);

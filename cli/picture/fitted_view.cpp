@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/colour/built_in_tables.h"
+
 namespace stormcellar::cli {
 namespace {
 
@@ -50,6 +52,10 @@ render::FitParts parts_to_fit(const SceneOptions& options) {
     return parts;
 }
 
+bool fits_anything(const SceneOptions& options) {
+    return parts_to_fit(options).any() || options.colours.empty();
+}
+
 bool chooses_light(const SceneOptions& options) {
     return !is_typed(options, "kinds") && !file_has_a_view(options);
 }
@@ -58,6 +64,11 @@ Result<render::FittedView> fit_picture(const render::EchoOutline& outline,
                                        const grid::BrickView& view, const render::FrameFacts& facts,
                                        const SceneOptions& options, render::Scene& scene,
                                        bool orbits, std::optional<render::FittedView>* last) {
+    // By default echo so weak that the usual colors leave it out has those of clear air.
+    if (scene.colours == render::smooth_colour_table(level2::Moment::ref) &&
+        options.colours.empty() && render::is_clear_air(outline)) {
+        scene.colours = render::clear_air_colours();
+    }
     if (render::view_of(scene.product) != render::View::volume) return render::FittedView{};
     if (chooses_light(options)) scene.light.gradient = scene.light.shadow = true;
     const auto fitted =

@@ -12,6 +12,8 @@
 namespace stormcellar::cli {
 
 [[nodiscard]] render::FitParts parts_to_fit(const SceneOptions& options);
+// Returns true if anything of a picture with these options depends on the echo.
+[[nodiscard]] bool fits_anything(const SceneOptions& options);
 // Returns true if neither the command line nor a scene file says how the volume is lit.
 [[nodiscard]] bool chooses_light(const SceneOptions& options);
 

@@ -82,6 +82,7 @@ Status check_time_zone(const std::string& zone) {
 }
 
 Status check_colors(const std::string& name) {
+    if (name == "smooth" || name == "nws") return {};
     const auto table = render::colours_from(name);
     return table ? Status{} : pass_on(table);
 }
@@ -110,16 +111,17 @@ constexpr std::array option_rows{
                                      .check = check_moment,
                                      .known = known_moments},
                   .help = "The moment to draw: {}"},
-    PictureOption{
-        .option = "--colors",
-        .old_option = "--colours",
-        .section = "picture",
-        .key = "colors",
-        .old_key = "colours",
-        .value = TextValue{.field = [](To to) { return &to.options.colours; },
-                           .check = check_colors,
-                           .beside = colors_beside},
-        .help = "A color table by name, or a .pal or .toml file. Default: the moment's own table"},
+    PictureOption{.option = "--colors",
+                  .old_option = "--colours",
+                  .section = "picture",
+                  .key = "colors",
+                  .old_key = "colours",
+                  .value = TextValue{.field = [](To to) { return &to.options.colours; },
+                                     .check = check_colors,
+                                     .beside = colors_beside},
+                  .help =
+                      "smooth for colors without classes (the default), nws for the classes of the "
+                      "Weather Service, the name of a color table, or a .pal or .toml file"},
     PictureOption{.option = "--height-km",
                   .section = "picture",
                   .key = "height_km",
@@ -219,7 +221,8 @@ constexpr std::array option_rows{
                             .get = [](To to) { return render::light_names(to.scene.light); }},
         .used_by = by_volume,
         .help = "Kinds of light, separated by commas: gradient, shadow, scattering, or none for "
-                "exact colors. Light makes echo darker but never changes its hue"},
+                "exact colors. Light changes neither the hue of echo nor its mean lightness. "
+                "Default: gradient,shadow"},
     PictureOption{.option = "--sun",
                   .section = "light",
                   .key = "sun_deg",

@@ -14,6 +14,7 @@
 #include "base/local_time.h"
 #include "base/number_list.h"
 #include "cli/shared/moment_option.h"
+#include "render/colour/built_in_tables.h"
 #include "render/colour/colour_file.h"
 
 namespace stormcellar::cli {
@@ -219,7 +220,16 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
                     "a section needs its two ends; give {} LAT,LON,LAT,LON, or {} in a scene file",
                     section_option().option, key_of(section_option()));
     }
-    if (!options.colours.empty()) {
+    // A picture that says nothing of colors has those without classes; a scene file has the
+    // defaults that it was written for.
+    const bool has_own_colours = render::facts_of(scene.product).colours != nullptr;
+    if (options.colours.empty() && options.file_product.empty() && !has_own_colours) {
+        scene.colours = render::smooth_colour_table(scene.moment);
+    } else if (options.colours == "smooth") {
+        scene.colours = render::smooth_colour_table(scene.moment);
+    } else if (options.colours == "nws") {
+        scene.colours = render::default_colour_table(scene.moment);
+    } else if (!options.colours.empty()) {
         auto colours = render::colours_from(options.colours);
         if (!colours) return pass_on(colours);
         scene.colours = std::move(*colours);

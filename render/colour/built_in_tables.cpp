@@ -10,6 +10,8 @@
 #include "base/name_list.h"
 #include "base/nearest_name.h"
 
+#include "render/colour/smooth_tables.h"
+
 namespace stormcellar::render {
 namespace {
 
@@ -237,13 +239,25 @@ ColourTable safe_rho_table() {
 // The indices in built_in_tables().
 enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height };
 
+// The opacity of reflectivity between these points is exponential in the value.
+constexpr ExtinctionPoint reflectivity_points[] = {
+    {5, 0.0015}, {10, 0.003}, {15, 0.005}, {20, 0.012}, {25, 0.025}, {30, 0.042}, {35, 0.055},
+    {40, 0.09},  {45, 0.25},  {50, 1.1},   {55, 2.5},   {60, 4},     {75, 6},
+};
+
 std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {
+    const std::span<const ExtinctionPoint> known = reflectivity_points;
     std::vector<ExtinctionPoint> points;
     const int first = static_cast<int>(std::floor(std::clamp(lowest, -32.0F, 79.0F)));
+    std::size_t after = 1;
     for (int dbz = first; dbz <= 80; ++dbz) {
-        const double haze = 0.012 * std::pow(10.0, (dbz - 5) / 40.0);
-        const double core = 0.12 * std::pow(10.0, (dbz - 50) / 10.0);
-        points.push_back({static_cast<float>(dbz), haze + core});
+        const auto value = static_cast<float>(dbz);
+        while (after + 1 < known.size() && known[after].value < value)
+            ++after;
+        const ExtinctionPoint &from = known[after - 1], &to = known[after];
+        const double share = std::clamp(
+            static_cast<double>((value - from.value) / (to.value - from.value)), 0.0, 1.0);
+        points.push_back({value, from.per_km * std::pow(to.per_km / from.per_km, share)});
     }
     return points;
 }
@@ -301,20 +315,25 @@ std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
 }
 
 const std::vector<ColourTable>& built_in_tables() {
-    static const std::vector<ColourTable> tables = {nws_reflectivity_table(),
-                                                    nws_velocity_table(),
-                                                    nws_spectrum_width_table(),
-                                                    nws_zdr_table(),
-                                                    nws_rho_table(),
-                                                    nws_echo_top_table(),
-                                                    nws_vil_table(),
-                                                    phi_table(),
-                                                    cfp_table(),
-                                                    height_table(),
-                                                    safe_reflectivity_table(),
-                                                    safe_velocity_table(),
-                                                    safe_zdr_table(),
-                                                    safe_rho_table()};
+    static const std::vector<ColourTable> tables = [] {
+        std::vector<ColourTable> made = {nws_reflectivity_table(),
+                                         nws_velocity_table(),
+                                         nws_spectrum_width_table(),
+                                         nws_zdr_table(),
+                                         nws_rho_table(),
+                                         nws_echo_top_table(),
+                                         nws_vil_table(),
+                                         phi_table(),
+                                         cfp_table(),
+                                         height_table(),
+                                         safe_reflectivity_table(),
+                                         safe_velocity_table(),
+                                         safe_zdr_table(),
+                                         safe_rho_table()};
+        const std::vector<ColourTable> smooth = make_smooth_tables();
+        made.insert(made.end(), smooth.begin(), smooth.end());
+        return made;
+    }();
     return tables;
 }
 
@@ -342,6 +361,15 @@ const ColourTable& vil_colours() {
 }
 const ColourTable& height_colours() {
     return built_in_tables()[height];
+}
+
+const ColourTable& smooth_colour_table(Moment moment) {
+    const auto& tables = built_in_tables();
+    return tables[tables.size() - 1 - level2::all_moments.size() +
+                  static_cast<std::size_t>(moment)];
+}
+const ColourTable& clear_air_colours() {
+    return built_in_tables().back();
 }
 
 const ColourTable& default_colour_table(Moment moment) {

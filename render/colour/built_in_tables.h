@@ -13,6 +13,7 @@
 //   height              km      our own colors, safe
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
+//   smooth-...          one table without classes for each moment (render/colour/smooth_tables.h)
 // Range folded is 77007d in all tables. Extinction is that of the moment: default_extinction().
 //
 // In a safe table, neighboring classes differ by at least least_safe_step (CIEDE2000) for normal
@@ -44,6 +45,9 @@ inline constexpr double least_safe_sides = 15;
 // Returns a table by its name. Errors: not_found, naming all tables.
 [[nodiscard]] Result<ColourTable> find_colour_table(std::string_view name);
 [[nodiscard]] const ColourTable& default_colour_table(level2::Moment moment);
+// Returns the table of render/colour/smooth_tables.h.
+[[nodiscard]] const ColourTable& smooth_colour_table(level2::Moment moment);
+[[nodiscard]] const ColourTable& clear_air_colours();
 [[nodiscard]] const ColourTable& echo_top_colours();
 [[nodiscard]] const ColourTable& vil_colours();
 [[nodiscard]] const ColourTable& height_colours();
@@ -65,9 +69,10 @@ struct MomentLook {
 [[nodiscard]] std::string unit_of(level2::Moment moment);
 
 // Returns how opaque a moment's values are in a volume, per km of the drawn scene.
-//   REF      The sum of a haze, which keeps weak echo visible, and a steep part, which makes cores
-//            solid: 0.012 * 10^((v - 5 dBZ) / 40 dB) + 0.12 * 10^((v - 50 dBZ) / 10 dB), at every
-//            decibel from `lowest` to 80 dBZ.
+//   REF      A thin veil up to 40 dBZ, through which cores of 50 dBZ and more, which are solid,
+//   show:
+//            0.0015 up to 5 dBZ, 0.012 at 20, 0.055 at 35, 0.25 at 45, 1.1 at 50, 4 at 60, 6 at 75,
+//            given at every decibel from `lowest` to 80 dBZ.
 //   VEL      By speed: what hardly moves is a haze, so that jets and couplets stand out.
 //   SW, CFP  Rises with the value.
 //   ZDR      Hail and debris are faint, large drops dense.

@@ -195,9 +195,9 @@ double exaggeration_for(const Region& region) {
 }
 
 // Weak echo is a thin veil in the usual curve of opacity; where nothing else is shown, it is drawn
-// more opaque.
+// more opaque. Clear air has colors of its own, which are opaque enough.
 double opacity_for(const Region& region) {
-    constexpr std::array<double, all_columns + 1> factors = {1, 1, 2, 4, 10, 1};
+    constexpr std::array<double, all_columns + 1> factors = {1, 1, 2, 4, 1, 1};
     const double wide = 1 + 0.8 * wideness(region);
     return std::round(10 * factors[region.of_threshold] * wide) / 10;
 }
@@ -387,6 +387,12 @@ void EchoOutline::add(const grid::BrickView& view, level2::Moment moment) {
         for (int by = 0; by < view.bricks_y; ++by)
             reader.read(bx, by, tiles_, up_);
     }
+}
+
+bool is_clear_air(const EchoOutline& outline) {
+    if (outline.empty()) return false;
+    const auto shown = threshold_shown(outline);
+    return shown && EchoOutline::thresholds_dbz.size() - *shown <= 1;
 }
 
 double EchoOutline::column_km2() const {

@@ -67,6 +67,9 @@ class EchoOutline {
     std::vector<Tile> tiles_;
 };
 
+// Returns true if there is echo, but 20 dBZ covers less than 60 km2: insects, birds, dust.
+[[nodiscard]] bool is_clear_air(const EchoOutline& outline);
+
 // What fit_view() chooses; all else stays as the scene has it.
 struct FitParts {
     bool azimuth = true, tilt = true, field_of_view = true, place = true;

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/parallel.h"
+#include "render/colour/ok_lab.h"
 
 namespace stormcellar::render {
 namespace {
@@ -55,28 +56,8 @@ float to_srgb(float linear) {
     return table(std::sqrt(std::clamp(linear, 0.0F, 1.0F)));
 }
 
-struct OkLab {
-    float l = 0, a = 0, b = 0;
-};
-
 OkLab ok_lab(const Rgb& colour) {
-    const float r = to_linear(colour[0]), g = to_linear(colour[1]), b = to_linear(colour[2]);
-    const float l = std::cbrt(0.4122214708F * r + 0.5363325363F * g + 0.0514459929F * b);
-    const float m = std::cbrt(0.2119034982F * r + 0.6806995451F * g + 0.1073969566F * b);
-    const float s = std::cbrt(0.0883024619F * r + 0.2817188376F * g + 0.6299787005F * b);
-    return {0.2104542553F * l + 0.7936177850F * m - 0.0040720468F * s,
-            1.9779984951F * l - 2.4285922050F * m + 0.4505937099F * s,
-            0.0259040371F * l + 0.7827717662F * m - 0.8086757660F * s};
-}
-
-Rgb linear_of(const OkLab& colour) {
-    const float l = colour.l + 0.3963377774F * colour.a + 0.2158037573F * colour.b;
-    const float m = colour.l - 0.1055613458F * colour.a - 0.0638541728F * colour.b;
-    const float s = colour.l - 0.0894841775F * colour.a - 1.2914855480F * colour.b;
-    const float l3 = l * l * l, m3 = m * m * m, s3 = s * s * s;
-    return {4.0767416621F * l3 - 3.3077115913F * m3 + 0.2309699292F * s3,
-            -1.2684380046F * l3 + 2.6097574011F * m3 - 0.3413193965F * s3,
-            -0.0041960863F * l3 - 0.7034186147F * m3 + 1.7076147010F * s3};
+    return ok_lab_of({to_linear(colour[0]), to_linear(colour[1]), to_linear(colour[2])});
 }
 
 bool is_shown(const Rgb& linear) {
@@ -91,10 +72,10 @@ Rgb shown(const OkLab& colour) {
     float low = 0, high = 1;
     for (int step = 0; step < 7; ++step) {
         const float middle = 0.5F * (low + high);
-        const Rgb tried = linear_of({colour.l, middle * colour.a, middle * colour.b});
+        const Rgb tried = linear_of(OkLab{colour.l, middle * colour.a, middle * colour.b});
         (is_shown(tried) ? low : high) = middle;
     }
-    return linear_of({colour.l, low * colour.a, low * colour.b});
+    return linear_of(OkLab{colour.l, low * colour.a, low * colour.b});
 }
 
 float lit_lightness(float l, float factor) {

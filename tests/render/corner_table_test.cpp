@@ -121,8 +121,8 @@ TEST(CornerTable, RaysFindWhatTheyFindInTheBricks) {
                 pixels[static_cast<std::size_t>(i)] = {x + i, y};
             const RayPacket rays = maker.packet(pixels);
             std::array<float, 4 * packet_rays> from_bricks, from_words;
-            cast_packet(bricks, rays, &all_steps, 1, from_bricks.data());
-            cast_packet(words, rays, &all_steps, 1, from_words.data());
+            cast_packet(bricks, rays, &all_steps, 1, from_bricks.data(), nullptr);
+            cast_packet(words, rays, &all_steps, 1, from_words.data(), nullptr);
             EXPECT_EQ(from_bricks, from_words) << x << ' ' << y;
             most = std::max(most, from_words[3]);
         }

@@ -7,6 +7,7 @@
 
 #include "render/colour/built_in_tables.h"
 #include "render/colour/colour_difference.h"
+#include "render/colour/smooth_tables.h"
 
 namespace stormcellar::render {
 namespace {
@@ -131,6 +132,76 @@ TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     }
     EXPECT_LT(least_sides, least_safe_sides);
     EXPECT_LT(least_step(velocity, sights[0]), least_safe_step);
+}
+
+// Two values of a smooth table that are so far apart differ for everybody.
+struct FarApart {
+    const char* table;
+    float from, to, apart, step;
+};
+constexpr FarApart far_apart[] = {
+    {"smooth-reflectivity", 5, 75, 15, 1},
+    {"smooth-velocity", -50, 50, 10, 1},
+    {"smooth-spectrum-width", 0, 14, 4, 0.25F},
+    {"smooth-zdr", -4, 7, 1.5F, 0.1F},
+    {"smooth-rho", 0.7F, 1, 0.1F, 0.01F},
+    {"smooth-phi", 0, 299, 60, 2},
+    {"smooth-cfp", 0, 50, 15, 1},
+    {"smooth-clear-air", -30, 45, 10, 1},
+};
+
+TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
+    for (const FarApart& row : far_apart) {
+        const ColourTable table = find_colour_table(row.table).value();
+        for (const Sight& sight : sights) {
+            double least = 1000;
+            float least_at = 0, least_to = 0;
+            for (float one = row.from; one <= row.to; one += row.step) {
+                for (float other = one + row.apart; other <= row.to; other += row.step) {
+                    // The circle of phases closes.
+                    if (table.moment == level2::Moment::phi && other - one > 360 - row.apart) break;
+                    const double differ = ciede2000(seen_by(sight, *colour_of(table, one)),
+                                                    seen_by(sight, *colour_of(table, other)));
+                    if (differ >= least) continue;
+                    least = differ;
+                    least_at = one;
+                    least_to = other;
+                }
+            }
+            EXPECT_GE(least, least_smooth_step)
+                << row.table << " " << sight.name << " " << least_at << " " << least_to;
+            ::testing::Test::RecordProperty(std::string(row.table) + " " + sight.name,
+                                            std::to_string(least));
+        }
+    }
+}
+
+// In OKLab a step of the table is nowhere much larger than elsewhere, but where hues change.
+TEST(SmoothTables, HaveNoClassesAndRiseInLightness) {
+    for (const char* name :
+         {"smooth-spectrum-width", "smooth-zdr", "smooth-rho", "smooth-cfp", "smooth-clear-air"}) {
+        const ColourTable table = find_colour_table(name).value();
+        EXPECT_FALSE(is_stepped(table));
+        EXPECT_TRUE(lightness_rises(table, 0, table.stops.size())) << name;
+        for (std::size_t i = 1; i < table.stops.size(); ++i)
+            EXPECT_EQ(table.stops[i].colour, table.stops[i - 1].until) << name;
+    }
+}
+
+TEST(SmoothTables, ReflectivityChangesItsHueAtTheBoundsOfClasses) {
+    const ColourTable table = find_colour_table("smooth-reflectivity").value();
+    for (const float bound : {20.0F, 35.0F, 50.0F, 65.0F}) {
+        const double across =
+            colour_difference(*colour_of(table, bound - 0.5F), *colour_of(table, bound + 0.5F));
+        EXPECT_GT(across, 10) << bound;
+    }
+    for (float dbz = 6; dbz < 75; ++dbz) {
+        const float beside = std::abs(std::remainder(dbz - 5, 15.0F));
+        if (beside <= 1) continue;
+        EXPECT_LT(colour_difference(*colour_of(table, dbz - 0.5F), *colour_of(table, dbz + 0.5F)),
+                  8)
+            << dbz;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+// render/colour/smooth_tables.h -- the built-in tables without classes, one for each moment.
+//
+//   smooth-reflectivity, smooth-velocity, smooth-spectrum-width, smooth-zdr, smooth-rho, smooth-phi,
+//   smooth-cfp
+//   smooth-clear-air    reflectivity from -30 dBZ, for insects, birds and dust
+// Colors go evenly from anchor to anchor in OKLab. The hues of smooth-reflectivity are those that
+// forecasters know, and they change within 1 dB of 20, 35, 50 and 65 dBZ, so that these bounds can
+// be read off; inside a hue only lightness and strength change. On maps weak echo is translucent.
+// Velocity is teal toward the radar and red away from it, lighter with speed. The others, but for
+// the circle of phases, become lighter with the value.
+//
+// For every kind of color vision two values that are far enough apart differ by least_smooth_step
+// or more (CIEDE2000): 15 dBZ, 10 m/s, 4 m/s, 1.5 dB, 0.1 above 0.7 of RHO, 60 degrees, 15 dB
+// (tests/render/safe_tables_test.cpp has the table). safe-reflectivity keeps this at 5 dBZ.
+//
+// Threads   Pure.
+#pragma once
+
+#include <vector>
+
+#include "stormcellar/render/colour_table.h"
+
+namespace stormcellar::render {
+
+inline constexpr double least_smooth_step = 6;
+
+// Makes the tables, in the order of the moments, and then that of clear air.
+[[nodiscard]] std::vector<ColourTable> make_smooth_tables();
+
+}  // namespace stormcellar::render
