@@ -351,6 +351,7 @@ int run_panels(FrameOptions& options, SteadyTime start) {
     if (!panels) return report_error(panels.error());
     const auto grids = grids_of_panels(options, *panels);
     if (!grids) return report_error(grids.error());
+    if (grids->empty()) return exit_nothing_matched;
     const auto timing = make_panels(options, *panels, *grids, start);
     if (!timing) return report_error(timing.error());
     options.scene.moment = options.panels;
