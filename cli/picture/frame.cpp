@@ -391,6 +391,7 @@ int run_panels(FrameOptions& options, SteadyTime start) {
     }
     const auto grids = grids_of_panels(options, *panels);
     if (!grids) return report_error(grids.error());
+    if (grids->empty()) return exit_nothing_matched;
     const auto timing = make_panels(options, *panels, *grids, start);
     if (!timing) return report_error(timing.error());
     options.scene.moment = options.panels;

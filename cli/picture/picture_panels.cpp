@@ -29,6 +29,12 @@ Result<std::vector<level2::Moment>> moments_of(const std::string& list) {
     return moments;
 }
 
+std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const std::string& why) {
+    fmt::print(stderr, "stormcellar: {}\n",
+               printable(fmt::format("{}: {}", store.directory().native(), why)));
+    return {};
+}
+
 }  // namespace
 
 Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const SceneFile& file,
@@ -71,9 +77,8 @@ Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
         if (!entries) return pass_on(entries);
         if (!until) cache::leave_out_future(*entries, now_utc());
         if (entries->empty()) {
-            return fail(ErrorCode::not_found, "{}: there is no grid of {} of domain '{}'",
-                        store.directory().native(), level2::moment_name(panel.moment),
-                        printable(domain));
+            return nothing_matched(store, fmt::format("there is no grid of {} of domain '{}'",
+                                                      level2::moment_name(panel.moment), domain));
         }
         kept.push_back(std::move(*entries));
     }
@@ -87,9 +92,10 @@ Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
         });
     });
     if (common == first.rend()) {
-        return fail(ErrorCode::not_found,
-                    "{}: domain '{}' has no time of which all moments of the panels are there",
-                    store.directory().native(), printable(domain));
+        return nothing_matched(
+            store,
+            fmt::format("domain '{}' has no time of which all moments of the panels are there",
+                        domain));
     }
     std::vector<PictureGrid> grids;
     for (const auto& entries : kept) {

@@ -35,8 +35,8 @@ struct PanelScene {
                                                            const SceneOptions& options);
 
 // Returns the grids of one time in the order of the panels: the newest time, at or before `until`,
-// of which the cache has every moment. Errors: not_found names a moment that is missing; those of
-// PictureGrid::open().
+// of which the cache has every moment. Returns none, after it was reported, if there is no such
+// time. Errors: those of PictureGrid::open().
 [[nodiscard]] Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
                                                              const std::string& domain,
                                                              const std::vector<PanelScene>& panels,

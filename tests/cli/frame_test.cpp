@@ -121,9 +121,11 @@ TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
     EXPECT_EQ(run(panels + "REF,XYZ"), exit_bad_usage);
     EXPECT_EQ(run(panels + "REF --moment REF"), exit_bad_usage);
     EXPECT_EQ(run(panels + "REF --probe 5,5"), exit_bad_usage);
-    EXPECT_EQ(run(panels + "REF,VEL"), exit_nothing_matched);
-    EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of VEL"));
+    EXPECT_EQ(run(panels + "REF,RHO"), exit_nothing_matched);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of RHO"));
     EXPECT_FALSE(fs::exists(out("b.png")));
+    EXPECT_EQ(run(panels + "VEL,REF"), exit_done) << messages_;
+    EXPECT_TRUE(fs::exists(out("b.png")));
 }
 
 TEST_F(Frame, ThemesDiffer) {
