@@ -1,19 +1,16 @@
 #include "render/volume/transfer_function.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+
+#include "render/volume/step_integrals.h"
 
 namespace stormcellar::render {
 namespace {
 
 constexpr double bin_slack = 1.0 / 64;  // bins
 constexpr auto bins = static_cast<std::size_t>(TransferFunction::bin_count);
-
-// What each bin looks like: the optical depth of the reference step, and the color.
-struct Bins {
-    std::array<double, bins> depth{};
-    std::array<std::array<double, bins>, 3> colour{};
-};
+static_assert(bins == step_bins);
 
 using Entries = std::vector<TransferEntry>;
 
@@ -23,7 +20,7 @@ TransferEntry entry_of(double red, double green, double blue, double depth) {
 }
 
 // The nearer value alone: the second bin does not matter.
-void fill_riemann(const Bins& look, Entries& entries) {
+void fill_riemann(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         const auto entry =
             entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
@@ -32,7 +29,7 @@ void fill_riemann(const Bins& look, Entries& entries) {
 }
 
 // Sums over the bins: whole bins between the ends, and half of each end.
-void fill_first_order(const Bins& look, Entries& entries) {
+void fill_first_order(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         double depth = 0;
         std::array<double, 3> colour{};
@@ -60,52 +57,45 @@ void fill_first_order(const Bins& look, Entries& entries) {
     }
 }
 
-// Integrates all steps over `distance` bins at once, front to back: half a bin, whole bins, and
-// half a bin again, each with its share of the step. `rising` means that the nearer end has the
-// lower bin.
-void integrate_steps(const Bins& look, std::size_t distance, bool rising, Entries& entries) {
+// Sets what all steps over `distance` bins look like in one direction.
+void put_steps(const StepIntegrals& steps, std::size_t distance, StepDirection direction,
+               Entries& entries) {
     const double piece = 1.0 / static_cast<double>(distance);
-    std::array<double, bins> opacity{}, half_opacity{};
-    for (std::size_t i = 0; i < bins; ++i) {
-        half_opacity[i] = -std::expm1(-0.5 * piece * look.depth[i]);
-        opacity[i] = -std::expm1(-piece * look.depth[i]);
-    }
-    // `through` is the light that still gets through each step, `depth` its optical depth so far.
-    // The inner loop treats all steps over this distance alike, so the compiler vectorizes it.
-    const std::size_t count = bins - distance;
-    std::array<double, bins> through{}, depth{};
-    std::array<std::array<double, bins>, 3> colour{};
-    through.fill(1);
-    for (std::size_t m = 0; m <= distance; ++m) {
-        const std::size_t at = rising ? m : distance - m;  // counted from the lower of the two bins
-        const bool is_end = m == 0 || m == distance;
-        const auto& alpha = is_end ? half_opacity : opacity;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double seen = through[i] * alpha[i + at];
-            for (std::size_t c = 0; c < 3; ++c)
-                colour[c][i] += seen * look.colour[c][i + at];
-            through[i] -= seen;
-            depth[i] += (is_end ? 0.5 : 1.0) * look.depth[i + at];
-        }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const double seen = 1 - through[i];
+    for (std::size_t i = 0; i < bins - distance; ++i) {
+        const double seen = 1 - steps.through[i];
         if (!(seen > 0)) continue;
-        const std::size_t place = rising ? i * bins + i + distance : (i + distance) * bins + i;
-        entries[place] = entry_of(colour[0][i] / seen, colour[1][i] / seen, colour[2][i] / seen,
-                                  depth[i] * piece);
+        const std::size_t place = direction == StepDirection::rising
+                                      ? i * bins + i + distance
+                                      : (i + distance) * bins + i;
+        entries[place] = entry_of(steps.colour[0][i] / seen, steps.colour[1][i] / seen,
+                                  steps.colour[2][i] / seen, steps.depth[i] * piece);
     }
 }
 
-void fill_second_order(const Bins& look, Entries& entries) {
+PieceOpacities opacities_of(const BinLooks& look, std::size_t distance) {
+    const double piece = 1.0 / static_cast<double>(distance);
+    PieceOpacities opacities;
+    for (std::size_t i = 0; i < bins; ++i) {
+        if (look.depth[i] <= 0) continue;
+        opacities.half[i] = -std::expm1(-0.5 * piece * look.depth[i]);
+        opacities.whole[i] = -std::expm1(-piece * look.depth[i]);
+    }
+    return opacities;
+}
+
+void fill_second_order(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         if (look.depth[i] <= 0) continue;
         entries[i * bins + i] =
             entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
     }
+    StepIntegrals steps;
     for (std::size_t distance = 1; distance < bins; ++distance) {
-        integrate_steps(look, distance, true, entries);
-        integrate_steps(look, distance, false, entries);
+        const PieceOpacities opacities = opacities_of(look, distance);
+        for (const StepDirection direction : {StepDirection::rising, StepDirection::falling}) {
+            integrate_steps(look, opacities, distance, direction, steps);
+            put_steps(steps, distance, direction, entries);
+        }
     }
 }
 
@@ -151,7 +141,7 @@ TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantiz
 
     // First the look of each bin, by its middle value; then the count of visible bins, from which
     // shows() answers for any range with one subtraction; then the entries for all pairs of bins.
-    Bins look;
+    BinLooks look;
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);
         look.depth[at] = extinction_per_m(table, value_of(i), opacity) * step_m;

@@ -1,0 +1,46 @@
+// render/volume/step_integrals.h -- the second-order integrals of a transfer function, for many
+// steps at once.
+//
+// A step over `distance` bins begins in the middle of one bin and ends in the middle of another, so
+// it shows half a bin, whole bins, and half a bin again, each with its share of the step.
+//
+// Threads   Pure.
+// Accuracy  Double precision, each sum in the order of the step: the same bits on every machine.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace stormcellar::render {
+
+inline constexpr std::size_t step_bins = 256;
+// Vectors may read so far beyond the last bin; what they read there is not used.
+inline constexpr std::size_t bins_of_a_vector = 8;
+using OfBins = std::array<double, step_bins + bins_of_a_vector>;
+
+// What each bin looks like: the optical depth of a step that lies wholly in it, and its color.
+struct BinLooks {
+    OfBins depth{};
+    std::array<OfBins, 3> colour{};
+};
+
+// The opacity of the pieces of a step over some number of bins.
+struct PieceOpacities {
+    OfBins whole{}, half{};  // for each bin
+};
+
+// Of the step that has bin i at its lower end: what of the color gets out at its front, the light
+// that gets through it, and the sum of the depths of its bins.
+struct StepIntegrals {
+    std::array<OfBins, 3> colour;
+    OfBins through, depth;
+};
+
+enum class StepDirection { rising, falling };  // rising: the nearer end has the lower bin
+
+// Integrates all steps over `distance` bins, front to back. `distance` is 1 to step_bins - 1; the
+// first step_bins - distance places of the result are set.
+void integrate_steps(const BinLooks& looks, const PieceOpacities& opacities, std::size_t distance,
+                     StepDirection direction, StepIntegrals& result);
+
+}  // namespace stormcellar::render
