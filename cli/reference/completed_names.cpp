@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "base/toml_file.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/service_places.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/radar_set.h"
@@ -16,9 +16,6 @@ namespace stormcellar::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* config_variable = "STORMCELLAR_CONFIG";
-constexpr const char* service_config = "/etc/stormcellar/stormcellard.toml";
 
 // A leading ~ reaches the program as it was typed.
 fs::path typed_path(const std::string& text) {
@@ -40,22 +37,17 @@ std::string value_behind(std::string_view option, const std::vector<std::string>
     return {};
 }
 
-// The directory of this key in [paths]; empty: the configuration names none.
-fs::path configured(const char* key, const std::vector<std::string>& words) {
-    std::string file = value_behind("--config", words);
-    const char* const variable = std::getenv(config_variable);
-    if (file.empty() && variable != nullptr) file = variable;
-    if (file.empty()) file = service_config;
-    auto toml = TomlFile::open(typed_path(file));
-    if (!toml) return {};
-    const auto directory = toml->root().section("paths").text(key);
-    if (!directory || directory->empty()) return {};
-    return fs::absolute(typed_path(file)).parent_path() / *directory;
+// A directory of the service; empty: no configuration that can be read says where it is.
+fs::path configured(Directory which, const std::vector<std::string>& words) {
+    const std::string file = value_behind("--config", words);
+    const auto places = service_places(file.empty() ? file : typed_path(file).native());
+    if (!places || !*places) return {};
+    return which == Directory::cache ? (*places)->cache : (*places)->catalog();
 }
 
 std::vector<std::string> domains_of(const std::vector<std::string>& words) {
     fs::path cache = typed_path(value_behind("--cache", words));
-    if (cache.empty()) cache = configured("cache", words);
+    if (cache.empty()) cache = configured(Directory::cache, words);
     if (cache.empty()) return {};
     const auto store = cache::StoreReader::open(cache);
     if (!store) return {};
@@ -65,10 +57,7 @@ std::vector<std::string> domains_of(const std::vector<std::string>& words) {
 std::vector<std::string> stations_of(const std::vector<std::string>& words) {
     std::vector<std::string> stations;
     fs::path catalog = typed_path(value_behind("--catalog", words));
-    if (catalog.empty()) {
-        const fs::path state = configured("state", words);
-        if (!state.empty()) catalog = state / "catalog";
-    }
+    if (catalog.empty()) catalog = configured(Directory::catalog, words);
     if (!catalog.empty()) {
         if (const auto sets = catalog::RadarSet::open_all(catalog)) {
             for (const catalog::RadarSet& set : *sets)
