@@ -13,6 +13,8 @@
 #include "stormcellar/grid/mosaic.h"
 #include "stormcellar/level2/moment.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/render/still.h"
+#include "stormcellar/render/theme.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -74,6 +76,14 @@ Names fields() {
     for (const grid::Detail detail : grid::all_details)
         names.emplace_back(grid::detail_name(detail));
     return names;
+}
+
+Names themes() {
+    return {std::string(render::theme_name(render::Theme::dark)),
+            std::string(render::theme_name(render::Theme::light))};
+}
+Names tiff_contents() {
+    return row_names(render::tiff_contents);
 }
 
 // Each effect of the chains, once, with what it can be set to.
@@ -164,6 +174,10 @@ const std::vector<ValueWord>& value_words() {
         {"--probe", "X,Y"},
         {"--probe-at", "LAT,LON"},
         {"--camera-km", "EAST,NORTH,UP"},
+        {"--look-at-km", "EAST,NORTH,UP"},
+        {"--theme", "THEME", Kept::nowhere, offered::themes},
+        {"--geotiff", "CONTENT", Kept::nowhere, offered::tiff_contents},
+        {"--panels", "MOMENTS", Kept::nowhere, offered::moments},
         {"--sun", "AZIMUTH,ELEVATION"},
         {"--extent-km", "WIDTH,HEIGHT"},
         {"--extent-deg", "WIDTH,HEIGHT"},

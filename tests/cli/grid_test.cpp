@@ -69,7 +69,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "--levels-km", "1:2:0"}, "--levels-km");
     expect_usage({"a", "--levels-km", "1:2:1e-9"}, "at most 1024 levels");
     expect_usage({"a", "--levels-km", "2,1"}, "levels must rise");
-    expect_usage({"a", "--moment", "ref"}, "REF VEL SW");
+    expect_usage({"a", "--moment", "reflectivity"}, "--moment must be REF, VEL, SW");
     expect_usage({"a", "--threads", "0"}, "--threads");
     expect_usage({"a", "--projection", "mercator"}, "latitude_longitude (lat-lon, latlon)");
     expect_usage({"a", "--spacing-deg", "0.01"}, "--spacing-deg");
@@ -183,8 +183,8 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     EXPECT_NE(missing.err.find("has no sweep with RHO"), std::string::npos) << missing.err;
     EXPECT_FALSE(std::filesystem::exists(file("no.nc")));
     std::filesystem::remove(file("out.nc"));
-    expect_usage({of_1999, "--moment", "REF,ALL"}, "--moment takes one of");
-    expect_usage({of_1999, "--moment", "REF,"}, "--moment takes one of");
+    expect_usage({of_1999, "--moment", "REF,ALL"}, "--moment must be REF");
+    expect_usage({of_1999, "--moment", "REF,"}, "--moment must be REF");
     expect_usage({of_1999, "--moment", "REF,VEL", "--tolerance", "0.5 dB"}, "VEL is in");
 }
 

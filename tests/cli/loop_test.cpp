@@ -40,12 +40,22 @@ TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
     EXPECT_THAT(webp.metadata.at("XMP"), HasSubstr("KBGM 2005-08-22T02:44:00Z"));
 }
 
+// A view that is not fitted, because a loop is fitted to all of its grids.
+const std::vector<std::string> plain_view = {"--zoom",         "1",    "--field-of-view", "0",
+                                             "--exaggeration", "5",    "--opacity",       "1",
+                                             "--light",        "none", "--tilt",          "55"};
+
 TEST_F(Loop, DrawsWhatFrameDraws) {
     commit_three();
-    ASSERT_EQ(run({"KBGM", "-o", out("frames/")}).status, 0);
-    const auto frame = testing::run_program(
-        STORMCELLAR_PROGRAM, {"frame", "KBGM", "--cache", (directory_ / "cache").string(),
-                              "--slices", "16", "--time", "2005-08-22T02:50", "-o", out("b.png")});
+    std::vector<std::string> of_loop = {"KBGM", "--azimuth", "180", "-o", out("frames/")};
+    of_loop.insert(of_loop.end(), plain_view.begin(), plain_view.end());
+    ASSERT_EQ(run(of_loop).status, 0);
+    std::vector<std::string> of_frame = {
+        "frame",     "KBGM", "--cache", (directory_ / "cache").string(),
+        "--slices",  "16",   "--time",  "2005-08-22T02:50",
+        "--azimuth", "180",  "-o",      out("b.png")};
+    of_frame.insert(of_frame.end(), plain_view.begin(), plain_view.end());
+    const auto frame = testing::run_program(STORMCELLAR_PROGRAM, of_frame);
     ASSERT_EQ(frame.status, 0) << frame.err;
     EXPECT_EQ(render::decode_png_file(out("frames/frame_0001.png")).rgba,
               render::decode_png_file(out("b.png")).rgba);
@@ -218,10 +228,11 @@ TEST_F(Loop, AnOrbitTurnsTheCamera) {
     const auto frames_of = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"KBGM", "-o", out("o.webp"), "--no-labels"};
         arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), plain_view.begin(), plain_view.end());
         EXPECT_EQ(run(arguments).status, 0);
         return render::decode_webp(out("o.webp")).frames;
     };
-    const auto turning = frames_of({"--orbit", "90"});
+    const auto turning = frames_of({"--azimuth", "180", "--orbit", "90"});
     ASSERT_EQ(turning.size(), 2U);
     EXPECT_EQ(turning[0].image.rgba, frames_of({"--azimuth", "180", "--last", "2"})[0].image.rgba);
     EXPECT_EQ(turning[1].image.rgba, frames_of({"--azimuth", "225", "--last", "1"})[0].image.rgba);

@@ -229,11 +229,14 @@ TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
 TEST_F(QueryTest, AMisspeltOptionIsNamedThoughARequiredOneIsMissing) {
     const auto misspelt = run({"catalog", "get", "--staton", "KBGM"});
     EXPECT_EQ(misspelt.status, 2);
-    EXPECT_NE(misspelt.err.find("there is no option --staton\n"), std::string::npos)
+    EXPECT_NE(misspelt.err.find("there is no option --staton; did you mean '--station'?\n"),
+              std::string::npos)
         << misspelt.err;
     const auto frame = run({"frame", "a.gz", "--prodct", "volume", "-o", "a.png"});
     EXPECT_EQ(frame.status, 2);
-    EXPECT_NE(frame.err.find("there is no option --prodct\n"), std::string::npos) << frame.err;
+    EXPECT_NE(frame.err.find("there is no option --prodct; did you mean '--product'?\n"),
+              std::string::npos)
+        << frame.err;
 }
 
 TEST_F(QueryTest, AnUnknownStationIsNothingMatchedAndAMisspeltOneIsBadUsage) {

@@ -167,7 +167,7 @@ TEST_F(ReferenceHelp, WordsOfValuesAreThoseThatTheProgramTakes) {
 TEST(Help, IsAskedForInThreeWays) {
     const auto flag = run({"catalog", "get", "--help"});
     EXPECT_EQ(flag.status, exit_done);
-    EXPECT_THAT(flag.out, HasSubstr("stormcellar catalog get --catalog DIRECTORY"));
+    EXPECT_THAT(flag.out, HasSubstr("stormcellar catalog get --station STATION"));
     EXPECT_EQ(run({"help", "catalog", "get"}).out, flag.out);
     EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
     EXPECT_EQ(run({"help", "frame", "--all"}).out, run({"frame", "--help-all"}).out);
@@ -184,7 +184,7 @@ TEST(Help, IsOfferedWithOneClearLine) {
         {{"frame", "--zzzzz"}, "there is no option --zzzzz\n"},
         {{"frame", "KTLX", "--width", "x"}, "--width must be a whole number, not 'x'"},
         {{"frame", "KTLX", "--zoom", "x"}, "--zoom must be a number, not 'x'"},
-        {{"frame", "KTLX"}, "--cache DIRECTORY must be given"},
+        {{"catalog", "get", "-o", "x"}, "--station STATION must be given"},
         {{"frame", "--cache"}, "--cache needs a value: --cache DIRECTORY"},
         {{"loop", "-o", "x.webp", "--last", "0"}, "--last must be 1 to 1000000, not 0"},
         {{"frame", "K", "--cache", "c", "--product", "volum", "-o", "x.png"},
