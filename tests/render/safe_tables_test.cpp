@@ -141,13 +141,13 @@ struct FarApart {
 };
 constexpr FarApart far_apart[] = {
     {"smooth-reflectivity", 5, 75, 15, 1},
-    {"smooth-velocity", -50, 50, 10, 1},
+    {"smooth-velocity", -40, 40, 10, 1},
     {"smooth-spectrum-width", 0, 14, 4, 0.25F},
-    {"smooth-zdr", -4, 7, 1.5F, 0.1F},
+    {"smooth-zdr", -4, 6, 2, 0.1F},
     {"smooth-rho", 0.7F, 1, 0.1F, 0.01F},
     {"smooth-phi", 0, 299, 60, 2},
     {"smooth-cfp", 0, 50, 15, 1},
-    {"smooth-clear-air", -30, 45, 10, 1},
+    {"smooth-clear-air", -30, 45, 15, 1},
 };
 
 TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
