@@ -75,7 +75,7 @@ ColourTable smooth_table(std::string_view name, Moment moment, std::span<const A
 
 ColourTable smooth_reflectivity() {
     constexpr Anchor anchors[] = {
-        {5, 0x55829F, 0.12F},     {12, 0x4FA3E0, 0.38F}, {19.5F, 0x3A78E6, 0.79F},
+        {5, 0x6F9BB8, 0.12F},     {12, 0x4FA3E0, 0.38F}, {19.5F, 0x3A78E6, 0.79F},
         {20.5F, 0x5FE08A, 0.81F}, {25, 0x3DCC70, 1},     {27, 0x2FC462, 1},
         {34.5F, 0x14974A, 1},     {35.5F, 0xFFF36B, 1},  {41, 0xFFD23C, 1},
         {46, 0xFFA02A, 1},        {49.5F, 0xFF7420, 1},  {50.5F, 0xFB3434, 1},
@@ -89,7 +89,7 @@ ColourTable smooth_reflectivity() {
 ColourTable smooth_clear_air() {
     constexpr Anchor anchors[] = {
         {-30, 0x343C48, 0.1F}, {-15, 0x4A6B80, 0.5F}, {-5, 0x4A93A3, 0.8F}, {5, 0x62BFA0, 1},
-        {15, 0xB4DC7C, 1},     {25, 0xF6E25E, 1},     {37, 0xFFF2B8, 1},    {50, 0xFFFFFF, 1},
+        {15, 0x9CC868, 1},     {25, 0xE6CC40, 1},     {37, 0xFFF6D0, 1},    {50, 0xFFFFFF, 1},
     };
     ColourTable table = smooth_table("smooth-clear-air", Moment::ref, anchors, 55);
     table.extinction = {{-30, 0.004}, {-15, 0.01}, {-5, 0.025}, {5, 0.07}, {15, 0.2}, {35, 1}};
@@ -131,8 +131,8 @@ ColourTable smooth_spectrum_width() {
 ColourTable smooth_zdr() {
     constexpr Anchor anchors[] = {
         {lowest_zdr, 0x120F1C}, {-4, 0x1E1A30}, {-2, 0x40346C}, {0, 0x3F4FA3},
-        {0.5F, 0x2F6FBE},       {1, 0x2A93B8},  {2, 0x3FBF8F},  {3, 0x9BD85A},
-        {4, 0xF5DE45},          {6, 0xFFF0B0},  {8, 0xFFFDF2},
+        {0.5F, 0x2F6FBE},       {1, 0x2A93B8},  {2, 0x3FBF8F},  {3, 0x8CCB52},
+        {4, 0xE6CC36},          {6, 0xFFF4C8},  {8, 0xFFFDF2},
     };
     ColourTable table = smooth_table("smooth-zdr", Moment::zdr, anchors, 8.5F);
     table.bar_begin = -4.0F;
