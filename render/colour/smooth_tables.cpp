@@ -80,7 +80,7 @@ ColourTable smooth_reflectivity() {
         {34.5F, 0x14974A, 1},     {35.5F, 0xFFF36B, 1},  {41, 0xFFD23C, 1},
         {46, 0xFFA02A, 1},        {49.5F, 0xFF7420, 1},  {50.5F, 0xFB3434, 1},
         {56, 0xDC1430, 1},        {62, 0xB80F3C, 1},     {64.5F, 0xA80E48, 1},
-        {65.5F, 0xFF52EE, 1},     {70, 0xC27BF0, 1},     {75, 0xFFFFFF, 1},
+        {65.5F, 0xFFA8F4, 1},     {70, 0xEBCBFF, 1},     {75, 0xFFFFFF, 1},
     };
     return smooth_table("smooth-reflectivity", Moment::ref, anchors, 80);
 }
@@ -89,7 +89,7 @@ ColourTable smooth_reflectivity() {
 ColourTable smooth_clear_air() {
     constexpr Anchor anchors[] = {
         {-30, 0x343C48, 0.1F}, {-15, 0x4A6B80, 0.5F}, {-5, 0x4A93A3, 0.8F}, {5, 0x62BFA0, 1},
-        {15, 0xB4DC7C, 1},     {25, 0xFBE36A, 1},     {35, 0xFFB56B, 1},    {50, 0xFFE9E0, 1},
+        {15, 0x9CC868, 1},     {25, 0xE6CC40, 1},     {37, 0xFFF6D0, 1},    {50, 0xFFFFFF, 1},
     };
     ColourTable table = smooth_table("smooth-clear-air", Moment::ref, anchors, 55);
     table.extinction = {{-30, 0.004}, {-15, 0.01}, {-5, 0.025}, {5, 0.07}, {15, 0.2}, {35, 1}};
@@ -98,19 +98,21 @@ ColourTable smooth_clear_air() {
 
 ColourTable smooth_velocity() {
     constexpr Anchor anchors[] = {
-        {lowest_velocity, 0xE6FFFA},
-        {-45, 0xB4FBEF},
-        {-30, 0x62E3DA},
-        {-20, 0x22B9C0},
-        {-10, 0x16869C},
+        {lowest_velocity, 0xF4FFFD},
+        {-50, 0xBDF3EA},
+        {-40, 0x92EBE2},
+        {-30, 0x4FCBCB},
+        {-20, 0x22A6B4},
+        {-10, 0x1A7890},
         {-2, 0x4A6470},
         {0, 0x5C5C5E},
         {2, 0x74534F},
         {10, 0xAA3B35},
         {20, 0xE04B2E},
         {30, 0xFF8A3C},
-        {45, 0xFFD27A},
-        {64, 0xFFF3D6},
+        {40, 0xFFB962},
+        {50, 0xFFDD9C},
+        {64, 0xFFF8EA},
     };
     ColourTable table = smooth_table("smooth-velocity", Moment::vel, anchors, 65);
     table.bar_begin = -50.0F;
@@ -128,8 +130,9 @@ ColourTable smooth_spectrum_width() {
 
 ColourTable smooth_zdr() {
     constexpr Anchor anchors[] = {
-        {lowest_zdr, 0x241F38}, {-2, 0x3E3266}, {0, 0x3F4FA3}, {0.5F, 0x2F6FBE}, {1, 0x2A93B8},
-        {2, 0x3FBF8F},          {3, 0x9BD85A},  {4, 0xF5DE45}, {6, 0xFFF0B0},    {8, 0xFFFDF2},
+        {lowest_zdr, 0x120F1C}, {-4, 0x1E1A30}, {-2, 0x40346C}, {0, 0x3F4FA3},
+        {0.5F, 0x2F6FBE},       {1, 0x2A93B8},  {2, 0x3FBF8F},  {3, 0x8CCB52},
+        {4, 0xE6CC36},          {6, 0xFFF4C8},  {8, 0xFFFDF2},
     };
     ColourTable table = smooth_table("smooth-zdr", Moment::zdr, anchors, 8.5F);
     table.bar_begin = -4.0F;
@@ -146,8 +149,8 @@ ColourTable smooth_rho() {
 
 ColourTable smooth_phi() {
     constexpr Anchor anchors[] = {
-        {0, 0x5B4BA8},   {60, 0x2F8FE0},  {120, 0x1FA58C}, {180, 0xA8D95C},
-        {240, 0xFFC640}, {300, 0xD8434A}, {360, 0x5B4BA8},
+        {0, 0x3B2F7E},   {60, 0x2F7FD0},  {120, 0x4FBDBD}, {180, 0xEEF7CC},
+        {240, 0xF0A83A}, {300, 0xB23A2E}, {360, 0x3B2F7E},
     };
     return smooth_table("smooth-phi", Moment::phi, anchors, 361);
 }

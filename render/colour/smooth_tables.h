@@ -10,8 +10,9 @@
 // the circle of phases, become lighter with the value.
 //
 // For every kind of color vision two values that are far enough apart differ by least_smooth_step
-// or more (CIEDE2000): 15 dBZ, 10 m/s, 4 m/s, 1.5 dB, 0.1 above 0.7 of RHO, 60 degrees, 15 dB
-// (tests/render/safe_tables_test.cpp has the table). safe-reflectivity keeps this at 5 dBZ.
+// or more (CIEDE2000): 15 dBZ, 10 m/s up to 40 m/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of RHO
+// above 0.7, 60 degrees, 15 dB (tests/render/safe_tables_test.cpp). The stepped safe tables keep that
+// at their classes, which are narrower.
 //
 // Threads   Pure.
 #pragma once

@@ -14,6 +14,8 @@ constexpr float through_share = 0.45F, usual_through = 0.6F;
 constexpr float edge_share = 0.25F;    // how much lighter an edge is, seen along its surface
 constexpr float half_steep = 1.5e-3F;  // dB per meter of drawn space
 constexpr float highest_value = 60, value_of_others = 30;
+constexpr std::size_t state_block_bytes = grid::brick_cells / 4;
+constexpr float least_value = 1;  // dB; below it nothing is drawn and no cell beside it is
 constexpr int smoothing_reach = 2;
 constexpr std::array<float, 5> smoothing = {1 / 16.0F, 4 / 16.0F, 6 / 16.0F, 4 / 16.0F, 1 / 16.0F};
 
@@ -46,6 +48,20 @@ class ShadeField::Baker {
         // Differences reach from the coarse cell before to the one after.
         per_m_ = {static_cast<float>(0.5 / (cells_across * spec.cell_width_m())),
                   static_cast<float>(0.5 / (cells_across * spec.cell_height_m())), 0.5F / level_m};
+    }
+
+    void place_eye() {
+        const grid::GridSpec& spec = *view_.spec;
+        const Vec3 eye = geometry_.point({0, 0}, 0);
+        from_eye_m_ = {static_cast<float>(spec.x_from_middle_m(0) - eye[0]),
+                       static_cast<float>(spec.y_from_middle_m(0) - eye[1]),
+                       static_cast<float>(-eye[2])};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            forward_[axis] = static_cast<float>(geometry_.forward()[axis]);
+        cell_m_ = {static_cast<float>(spec.cell_width_m()),
+                   static_cast<float>(spec.cell_height_m())};
+        for (const double level_m : spec.levels_m)
+            height_m_.push_back(static_cast<float>(level_m * geometry_.exaggeration()));
     }
 
     void bake(std::vector<std::uint32_t>& words, int threads) {
@@ -83,10 +99,17 @@ class ShadeField::Baker {
             }
             for (int z = first; z < end; ++z) {
                 const bool seen = brick.kind == grid::BrickKind::uniform ||
-                                  view_.status(x, y, z) == grid::CellStatus::no_echo;
+                                  is_clear(brick, offset % grid::brick_cells + as_index(z - first));
                 counts[as_index(z)] += seen ? 1.0F : 0.0F;
             }
         }
+    }
+    // Whether a cell of a brick of states has no echo.
+    [[nodiscard]] bool is_clear(const grid::BrickEntry& brick, std::size_t cell) const {
+        const auto four_cells =
+            static_cast<unsigned>(view_.states[brick.status_index * state_block_bytes + cell / 4]);
+        return (four_cells >> (2 * (cell % 4)) & 3U) ==
+               static_cast<unsigned>(grid::CellStatus::no_echo);
     }
     void add(std::uint16_t code, float& sum, float& count) const {
         const bool seen = code >= grid::first_value_code ||
@@ -192,7 +215,7 @@ class ShadeField::Baker {
             for (int z = 0; z < sizes_[2]; ++z) {
                 const std::size_t at = as_index(z);
                 float factor = 1;
-                if (values_[here + at] > 0) {
+                if (values_[here + at] > least_value) {
                     const std::size_t below = as_index(std::max(z - 1, 0));
                     const std::size_t above = as_index(std::min(z + 1, sizes_[2] - 1));
                     const std::array<float, 3> fall = {
@@ -236,20 +259,13 @@ class ShadeField::Baker {
 
     // Returns the direction in which a cell is looked at.
     [[nodiscard]] std::array<float, 3> view_at(float x, float y, int z) const {
-        Vec3 looks = geometry_.forward();
-        if (geometry_.is_perspective()) {
-            const grid::GridSpec& spec = *view_.spec;
-            const Vec3 eye = geometry_.point({0, 0}, 0);
-            looks = {
-                spec.x_from_middle_m(0) + static_cast<double>(x) * spec.cell_width_m() - eye[0],
-                spec.y_from_middle_m(0) + static_cast<double>(y) * spec.cell_height_m() - eye[1],
-                spec.levels_m[as_index(z)] * geometry_.exaggeration() - eye[2]};
-            const double length = std::hypot(looks[0], looks[1], looks[2]);
-            for (double& axis : looks)
-                axis /= std::max(length, 1.0);
-        }
-        return {static_cast<float>(looks[0]), static_cast<float>(looks[1]),
-                static_cast<float>(looks[2])};
+        const std::array<float, 3> away = {x * cell_m_[0] + from_eye_m_[0],
+                                           y * cell_m_[1] + from_eye_m_[1],
+                                           height_m_[as_index(z)] + from_eye_m_[2]};
+        if (!geometry_.is_perspective()) return forward_;
+        const float length = std::sqrt(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]);
+        const float scale = 1 / std::max(length, 1.0F);
+        return {away[0] * scale, away[1] * scale, away[2] * scale};
     }
 
     // Writes the words of a row of coarse columns, with the level above the last one.
@@ -278,6 +294,10 @@ class ShadeField::Baker {
     const LightVolume* volume_;
     std::array<int, 3> sizes_;
     std::array<float, 3> per_m_{};
+    // From the camera to the first cell, and from there to others, in drawn space.
+    std::array<float, 3> forward_{}, from_eye_m_{};
+    std::array<float, 2> cell_m_{};
+    std::vector<float> height_m_;
     std::vector<float> value_of_;  // of each code; 0 for states
     std::vector<float> values_;
     std::vector<std::uint8_t> codes_;

@@ -25,16 +25,24 @@ TEST(ColourTable, GivesTheColoursOfTheWeatherService) {
     EXPECT_EQ(colour_of(nws_reflectivity(), 95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
 }
 
-// docs/rendering.md, by hand: the haze grows tenfold in 40 dB, the core in 10 dB.
-TEST(Extinction, IsTheSumOfHazeAndCore) {
+// docs/rendering.md, by hand: between two points the opacity is exponential in the value.
+TEST(Extinction, OfReflectivityIsAVeilAndACore) {
     EXPECT_EQ(extinction_per_m(nws_reflectivity(), 4.99, 1), 0);
     EXPECT_EQ(extinction_per_m(nws_reflectivity(), std::nan(""), 1), 0);
-    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 5, 1) * 1000, 0.012 + 0.12 * 3.16228e-5, 1e-9);
-    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 45, 1) * 1000, 0.12 + 0.12 * 0.316228, 1e-7);
-    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 70, 1) * 1000, 0.012 * 42.1697 + 12, 1e-5);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 5, 1) * 1000, 0.0015, 1e-12);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 45, 1) * 1000, 0.25, 1e-12);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 47, 1) * 1000,
+                0.25 * std::pow(1.1 / 0.25, 2.0 / 5), 1e-6);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 80, 1) * 1000, 6, 1e-12);
     EXPECT_NEAR(
         extinction_per_m(nws_reflectivity(), 40, 2.5) / extinction_per_m(nws_reflectivity(), 40, 1),
         2.5, 1e-12);
+    double before = 0;
+    for (double dbz = 5; dbz <= 80; dbz += 0.5) {
+        const double here = extinction_per_m(nws_reflectivity(), dbz, 1);
+        EXPECT_GE(here, before) << dbz;
+        before = here;
+    }
 }
 
 ColourTable smooth() {

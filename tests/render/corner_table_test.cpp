@@ -105,7 +105,7 @@ TEST(CornerTable, RaysFindWhatTheyFindInTheBricks) {
     const ViewGeometry geometry(spec, {163, 48, 1.3}, 1, 64, 48);
     constexpr int slices = 64;
     const LevelPosition levels(spec, 1);
-    const TransferFunction transfer(nws_reflectivity(), ball.view().quantization, 1,
+    const TransferFunction transfer(nws_reflectivity(), ball.view().quantization, 4,
                                     (geometry.far_m() - geometry.near_m()) / slices,
                                     Integration::second_order);
     const RayMaker maker(spec, geometry, levels, slices);

@@ -134,20 +134,21 @@ TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(velocity, sights[0]), least_safe_step);
 }
 
-// Two values of a smooth table that are so far apart differ for everybody.
+// Two values of a smooth table that are so far apart differ for everybody. Those of reflectivity are
+// not in the middle of the 1 dB in which a hue changes.
 struct FarApart {
     const char* table;
     float from, to, apart, step;
 };
 constexpr FarApart far_apart[] = {
-    {"smooth-reflectivity", 5, 75, 15, 1},
-    {"smooth-velocity", -50, 50, 10, 1},
+    {"smooth-reflectivity", 5.5F, 74.5F, 15, 1},
+    {"smooth-velocity", -40, 40, 10, 1},
     {"smooth-spectrum-width", 0, 14, 4, 0.25F},
-    {"smooth-zdr", -4, 7, 1.5F, 0.1F},
+    {"smooth-zdr", -4, 6, 2, 0.1F},
     {"smooth-rho", 0.7F, 1, 0.1F, 0.01F},
     {"smooth-phi", 0, 299, 60, 2},
     {"smooth-cfp", 0, 50, 15, 1},
-    {"smooth-clear-air", -30, 45, 10, 1},
+    {"smooth-clear-air", -30, 45, 15, 1},
 };
 
 TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {

@@ -1,0 +1,226 @@
+// Tests the light of a volume's picture: against the reference marcher, and on real volumes that it
+// keeps the lightness and the hues that the picture has without light.
+#include "render/volume/lit_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "render/colour/built_in_tables.h"
+#include "render/colour/colour_difference.h"
+#include "render/colour/ok_lab.h"
+#include "render/view/fitted_camera.h"
+#include "render/volume/reference_marcher.h"
+#include "render/volume/slicer.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
+#include "tests/render/synthetic_storm.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::render {
+namespace {
+
+OkLab ok_lab_of_srgb(const Rgb& colour) {
+    LinearRgb linear{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float level = colour[c];
+        linear[c] = level <= 0.04045F ? level / 12.92F : std::pow((level + 0.055F) / 1.055F, 2.4F);
+    }
+    return ok_lab_of(linear);
+}
+
+double hue_between_deg(const OkLab& one, const OkLab& other) {
+    const double turn = std::atan2(one.b, one.a) - std::atan2(other.b, other.a);
+    return std::abs(std::remainder(turn, 2 * std::numbers::pi)) * 180 / std::numbers::pi;
+}
+
+TEST(LitColour, KeepsTheHueAndFollowsTheFactor) {
+    for (const ColourTable& table :
+         {smooth_colour_table(level2::Moment::ref), nws_reflectivity()}) {
+        for (const ColourStop& stop : table.stops) {
+            const Rgb colour = {stop.colour[0] / 255.0F, stop.colour[1] / 255.0F,
+                                stop.colour[2] / 255.0F};
+            const OkLab plain = ok_lab_of_srgb(colour);
+            float before = 0;
+            for (float factor = 0.3F; factor <= 1.8F; factor += 0.1F) {
+                const OkLab lit = ok_lab_of_srgb(lit_colour(colour, factor));
+                EXPECT_GE(lit.l, before - 2e-3F) << stop.from << " " << factor;
+                before = lit.l;
+                if (std::hypot(lit.a, lit.b) < 0.03F) continue;  // gray has no hue
+                EXPECT_LT(hue_between_deg(lit, plain), 1.5) << stop.from << " " << factor;
+            }
+            const OkLab same = ok_lab_of_srgb(lit_colour(colour, 1));
+            EXPECT_NEAR(same.l, plain.l, 2e-3) << stop.from;
+        }
+    }
+}
+
+TEST(LitColour, DarkensAndLightens) {
+    const Rgb green = {0.1F, 0.6F, 0.3F};
+    EXPECT_LT(ok_lab_of_srgb(lit_colour(green, 0.7F)).l, 0.8 * ok_lab_of_srgb(green).l);
+    EXPECT_GT(ok_lab_of_srgb(lit_colour(green, 1.3F)).l, 1.1 * ok_lab_of_srgb(green).l);
+}
+
+// What a picture with light finds, before it is lit.
+struct Found {
+    SlicerRoom room;
+    Layer plain;
+};
+VolumeOptions options_of(const std::string& kinds, int slices, double tolerance = 0) {
+    VolumeOptions options{slices, Integration::second_order, 1, tolerance};
+    EXPECT_TRUE(set_light(kinds, options.light));
+    return options;
+}
+
+// The rays' sums of light are those of the reference marcher, which reads the same field.
+TEST(LitLayer, TheSumOfLightAgreesWithTheReference) {
+    const grid::GridSpec spec = small_spec(120, 20, 4000, 800);
+    const auto bricks = bricks_of(storm_grid(spec));
+    Camera camera{163, 58, 1};
+    camera.field_of_view_deg = 40;
+    for (const bool curved : {false, true}) {
+        const ViewGeometry view(spec, camera, 8, 200, 150, curved);
+        const VolumeSlicer slicer(nws_reflectivity(), bricks.view().quantization, view,
+                                  options_of("gradient,shadow", 1024));
+        SlicerRoom room;
+        slicer.prepare(bricks.view(), 2, room);
+        slicer.cast(bricks.view(), 2, room);
+        const ReferenceMarcher reference(bricks.view(), nws_reflectivity(), view, 1);
+        double worst = 0, sum = 0, apart = 0;
+        int count = 0;
+        for (int y = 3; y < 150; y += 9) {
+            for (int x = 3; x < 200; x += 9) {
+                const auto slow = reference.lit_ray({x + 0.5, y + 0.5}, 2048, &*room.shades);
+                const double fast = room.light[static_cast<std::size_t>(y * 200 + x)];
+                worst = std::max(worst, std::abs(slow.light - fast));
+                sum += (slow.light - fast) * (slow.light - fast);
+                apart = std::max(apart, std::abs(slow.light - slow.colour[3]));
+                ++count;
+            }
+        }
+        EXPECT_LT(std::sqrt(sum / count), 0.006) << curved;
+        EXPECT_GT(apart, 0.05) << "the light is not 1 everywhere";
+    }
+}
+
+// Pixels between rays are as near to their rays in light as they are in color.
+TEST(LitLayer, IsInterpolatedWhereThePictureIsStraight) {
+    const grid::GridSpec spec = small_spec(40, 20, 8000, 800);
+    const auto bricks = bricks_of(storm_grid(spec));
+    const ViewGeometry view(spec, {180, 50, 1}, 8, 240, 180);
+    const auto draw = [&](double tolerance) {
+        return VolumeSlicer(nws_reflectivity(), bricks.view().quantization, view,
+                            options_of("gradient,shadow", 256, tolerance))
+            .draw(bricks.view(), 2);
+    };
+    const Layer all = draw(0), some = draw(2.0 / 255);
+    double worst = 0;
+    std::size_t unequal = 0;
+    for (std::size_t i = 0; i < all.rgba.size(); ++i) {
+        worst = std::max(worst, std::abs(static_cast<double>(all.rgba[i] - some.rgba[i])));
+        unequal += all.rgba[i] != some.rgba[i] ? 1 : 0;
+    }
+    EXPECT_GT(unequal, 0U);
+    EXPECT_LT(worst, 0.12);
+}
+
+grid::BrickGrid real_bricks(const std::string& file) {
+    level2::DecodeOptions options;
+    options.fallback_station = file.substr(0, 4);
+    options.selection.moments = {level2::Moment::ref};
+    const auto decoded =
+        level2::decode_file(*testing::data_directory() / "volumes" / file, options);
+    const auto at = level2::antenna_position(decoded->volume);
+    const grid::SitePosition site =
+        at ? grid::SitePosition{"KONE", at->latitude_deg, at->longitude_deg, at->altitude_m}
+           : grid::SitePosition{"KONE", 35.3, -97.3, 384};
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    spec.spacing_m = 2000;
+    spec.nx = spec.ny = 230;
+    const auto columns = grid::make_column_geometry(site, spec);
+    const auto grid = grid::make_grid(decoded->volume, site, **columns, {});
+    return grid::BrickGrid::from(*grid, grid::default_quantization(level2::Moment::ref));
+}
+
+struct Lightness {
+    double mean = 0, hue_p95_deg = 0, lighter = 0, darker = 0;
+};
+// Compares the pixels in which echo covers at least a tenth.
+Lightness lightness_of(const Layer& lit, const Layer& plain, double& mean_plain) {
+    Lightness found;
+    double sum = 0, sum_plain = 0, weight = 0;
+    std::vector<double> turns;
+    for (std::size_t i = 0; i < lit.rgba.size(); i += 4) {
+        const float alpha = plain.rgba[i + 3];
+        EXPECT_EQ(lit.rgba[i + 3], alpha);
+        if (alpha < 0.1F) continue;
+        const auto colour = [&](const Layer& layer) {
+            return Rgb{layer.rgba[i] / alpha, layer.rgba[i + 1] / alpha, layer.rgba[i + 2] / alpha};
+        };
+        const auto bytes = [](const Rgb& c) {
+            const auto level = [](float x) {
+                return static_cast<std::uint8_t>(std::lround(std::clamp(255 * x, 0.0F, 255.0F)));
+            };
+            return Rgba8{level(c[0]), level(c[1]), level(c[2]), 255};
+        };
+        const double l = lab_of(bytes(colour(lit))).lightness;
+        const double l_plain = lab_of(bytes(colour(plain))).lightness;
+        sum += static_cast<double>(alpha) * l;
+        sum_plain += static_cast<double>(alpha) * l_plain;
+        weight += static_cast<double>(alpha);
+        found.lighter += l > l_plain + 2 ? 1 : 0;
+        found.darker += l < l_plain - 2 ? 1 : 0;
+        const OkLab one = ok_lab_of_srgb(colour(lit)), other = ok_lab_of_srgb(colour(plain));
+        if (std::min(std::hypot(one.a, one.b), std::hypot(other.a, other.b)) > 0.03F) {
+            turns.push_back(hue_between_deg(one, other));
+        }
+    }
+    std::ranges::sort(turns);
+    found.hue_p95_deg = turns[turns.size() * 95 / 100];
+    found.mean = sum / weight;
+    mean_plain = sum_plain / weight;
+    return found;
+}
+
+class LitVolume : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(LitVolume, KeepsItsLightnessAndItsHues) {
+    STORMCELLAR_NEED_DATA();
+    const auto bricks = real_bricks(GetParam());
+    const EchoOutline outline(bricks.view(), level2::Moment::ref);
+    Scene scene;
+    apply(fit_view(outline, scene, 400, 300), scene);
+    const ViewGeometry view(*bricks.view().spec, scene.camera, scene.vertical_exaggeration, 400,
+                            300);
+    for (const ColourTable* table :
+         {&nws_reflectivity(), &smooth_colour_table(level2::Moment::ref)}) {
+        for (const char* kinds : {"gradient,shadow", "gradient", "shadow", "scattering"}) {
+            const auto draw = [&](const std::string& names) {
+                VolumeOptions options = options_of(names, 128);
+                options.opacity = scene.opacity;
+                options.light.sun_azimuth_deg = scene.light.sun_azimuth_deg;
+                return VolumeSlicer(*table, bricks.view().quantization, view, options)
+                    .draw(bricks.view(), 2);
+            };
+            double plain = 0;
+            const Lightness lit = lightness_of(draw(kinds), draw("none"), plain);
+            EXPECT_NEAR(lit.mean, plain, 1) << table->name << " " << kinds;
+            EXPECT_LT(lit.hue_p95_deg, 1.5) << table->name << " " << kinds;
+            if (std::string(kinds) != "gradient,shadow") continue;
+            EXPECT_GT(lit.lighter, 0.1 * lit.darker) << "lit sides are lighter";
+            EXPECT_GT(lit.darker, 0.1 * lit.lighter) << "shaded sides are darker";
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Real, LitVolume,
+                         ::testing::Values("KTLX19990503_235621.gz",
+                                           "KCRP20170826_044114.trimmed.ar2v",
+                                           "KDMX20220305_232324.trimmed.ar2v",
+                                           "KOKX20080109_141449.gz", "KLBB20160601_150025_V06"));
+
+}  // namespace
+}  // namespace stormcellar::render
