@@ -96,6 +96,14 @@ Json json_of(const render::Probe& probe) {
               {"lowest_seen_m", json_or_null(probe.lowest_seen_m)},
               {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
     if (probe.distance_m) json["distance_m"] = *probe.distance_m;
+    if (probe.gate) {
+        json["gate"] = {{"radial", probe.gate->radial},
+                        {"gate", probe.gate->gate},
+                        {"azimuth_deg", probe.gate->azimuth_deg},
+                        {"elevation_deg", probe.gate->elevation_deg},
+                        {"range_m", probe.gate->range_m},
+                        {"time", format_utc(probe.gate->time)}};
+    }
     return json;
 }
 
@@ -108,7 +116,15 @@ void print_probe(const render::Probe& probe, const FrameOptions& options,
     if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
     fmt::print("\nvalue  {}", render::probe_text(probe));
     if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
-    if (probe.lowest_seen_m) {
+    if (probe.gate) {
+        fmt::print("\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
+                   "time   {}\n",
+                   probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
+                   probe.gate->elevation_deg, probe.gate->range_m / 1000,
+                   format_utc(probe.gate->time));
+    } else if (render::facts_of(scene.product).is_of_sweep) {
+        fmt::print("\nseen   by no radial\n");
+    } else if (probe.lowest_seen_m) {
         fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
                    *probe.highest_seen_m / 1000);
     } else {
@@ -239,7 +255,13 @@ Status take_only_domain(const cache::StoreReader& store, std::string& domain) {
 }
 
 // Returns none, after it was reported, if no grid matched.
-Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, const render::Scene& scene) {
+    const level2::Moment moment = scene.moment;
+    if (render::facts_of(scene.product).is_of_sweep) {
+        return fail(ErrorCode::bad_argument,
+                    "{} shows a sweep, and the cache holds grids; name the Level II file to draw",
+                    render::product_name(scene.product));
+    }
     if (has_picture_grid_options(options.grid)) {
         return fail(ErrorCode::bad_argument,
                     "options of the grid, such as --center, are for files; the grids of the cache "
@@ -267,11 +289,14 @@ Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Mo
     return std::optional{std::move(*grid)};
 }
 
-Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options) {
+Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
+                                                 const render::Scene& scene) {
     options.grid.moment = options.scene.moment;
     options.grid.threads = thread_count(options.scene);
     options.grid.time = options.time;
-    auto grid = PictureGrid::make(options.grid);
+    auto grid = render::facts_of(scene.product).is_of_sweep
+                    ? PictureGrid::make_sweep(options.grid, scene)
+                    : PictureGrid::make(options.grid);
     if (!grid) return pass_on(grid);
     options.domain = grid->name();
     return std::optional{std::move(*grid)};
@@ -297,16 +322,17 @@ int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
-    const auto scene = scene_with(options.scene_file, options.scene);
+    auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
     options.plan = std::move(*plan);
     if (const Status taken = take_sources(options); !taken) return report_error(taken.error());
     const auto grid =
-        options.grid.files.empty() ? stored_grid(options, scene->moment) : grid_of_files(options);
+        options.grid.files.empty() ? stored_grid(options, *scene) : grid_of_files(options, *scene);
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
+    scene = render::scene_shown((*grid)->view(), std::move(*scene));
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());

@@ -11,6 +11,7 @@
 #include "render/products/flat_field.h"
 #include "render/products/ground.h"
 #include "render/products/section.h"
+#include "render/products/sweep_field.h"
 #include "render/volume/haze.h"
 
 namespace stormcellar::render {
@@ -25,8 +26,9 @@ struct Frame {
 };
 
 // Draws the picture with its lines, but without the labels around it.
-Result<Image> draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
-                           const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
+Result<Image> draw_picture(const grid::BrickView& view, const FrameFacts& facts,
+                           const std::vector<ColumnSummary>& columns, const Scene& scene,
+                           const ViewGeometry& geometry, const Frame& frame,
                            int threads, FrameCache& cache) {
     const double scale = frame.layout.scale;
     const bool volume = view_of(scene.product) == View::volume;
@@ -35,8 +37,11 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
     if (volume) {
         const auto tells = scene.haze ? GroundTells::whether_seen : GroundTells::how_low;
         base = paint_ground(*view.spec, columns, geometry, tells, scale, threads);
+    } else if (view.sweep != nullptr) {
+        base = paint_pixels(*view.spec, sweep_in_picture(*view.sweep, *view.spec, geometry, threads),
+                            colours, geometry, scale, threads);
     } else {
-        const auto field = map_field(view, scene, columns, threads);
+        const auto field = map_field(view, facts, scene, columns, threads);
         if (!field) return pass_on(field);
         base = paint_field(*view.spec, *field, colours, geometry, scale, threads);
     }
@@ -82,12 +87,23 @@ Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const S
         return fail(ErrorCode::bad_argument, "the grid holds {}, but the scene shows {}",
                     level2::moment_name(facts.moment), level2::moment_name(scene.moment));
     }
+    const bool of_sweep = facts_of(scene.product).is_of_sweep;
+    if (of_sweep != (view.sweep != nullptr)) {
+        return fail(ErrorCode::bad_argument, "{} shows a {}, but there is a {}",
+                    product_name(scene.product), of_sweep ? "sweep" : "grid",
+                    of_sweep ? "grid" : "sweep");
+    }
     if (view_of(scene.product) == View::volume && !PacketVolume::can_address(view)) {
         return fail(ErrorCode::unsupported,
                     "a grid of {} x {} x {} cells is too large to be drawn as a volume",
                     view.spec->nx, view.spec->ny, view.spec->nz());
     }
     return validate(scene);
+}
+
+Scene scene_shown(const grid::BrickView& view, Scene scene) {
+    if (view.sweep != nullptr) scene.elevation_deg = view.sweep->facts().fixed_angle_deg;
+    return scene;
 }
 
 ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, int width,
@@ -98,10 +114,13 @@ ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, in
     return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
 }
 
-Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
+Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& asked,
                            int threads, FrameCache* kept) {
-    if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
-    const auto columns = summarize_columns(view, threads);
+    if (auto valid = check_frame(view, facts, asked); !valid) return pass_on(valid);
+    const Scene scene = scene_shown(view, asked);
+    const bool of_sweep = view.sweep != nullptr;
+    const auto columns =
+        of_sweep ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
     Frame frame;
     frame.lines.ring_spacing_m = drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m);
     frame.layout.width = scene.width;
@@ -112,7 +131,8 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         frame.fonts = *fonts;
         auto layout = lay_out_labels(
             frame.fonts, scene, facts,
-            {legend_of(scene), frame.lines.ring_spacing_m, coverage_of(columns, *view.spec)});
+            {legend_of(scene), frame.lines.ring_spacing_m,
+             of_sweep ? std::nullopt : std::optional(coverage_of(columns, *view.spec))});
         if (!layout) return pass_on(layout);
         frame.layout = *layout;
     }
@@ -134,7 +154,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
 
     const bool section = view_of(scene.product) == View::section;
     auto picture = section ? draw_section_picture(view, scene, frame, threads)
-                           : draw_picture(view, columns, scene, geometry, frame, threads, cache);
+                           : draw_picture(view, facts, columns, scene, geometry, frame, threads, cache);
     if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
     canvas.place(*picture, frame.layout.left, frame.layout.top);

@@ -78,4 +78,11 @@ Image paint_field(const grid::GridSpec& spec, const FlatField& field, const Colo
     });
 }
 
+Image paint_pixels(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
+                   const ViewGeometry& geometry, double scale, int threads) {
+    return paint(spec, geometry, threads, [&](std::size_t /*column*/, int x, int y) {
+        return shade_of(field, field.index(x, y), table, x, y, scale);
+    });
+}
+
 }  // namespace stormcellar::render

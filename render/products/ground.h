@@ -42,6 +42,10 @@ enum class GroundTells { how_low, whether_seen };
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColourTable& table, const ViewGeometry& geometry,
                                 double scale, int threads);
+// The same for a field of the pixels themselves (sweep_in_picture()).
+[[nodiscard]] Image paint_pixels(const grid::GridSpec& spec, const FlatField& field,
+                                 const ColourTable& table, const ViewGeometry& geometry,
+                                 double scale, int threads);
 
 // Returns the index of the column whose cell holds a point of the ground; -1 beyond the grid.
 [[nodiscard]] std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint point);

@@ -80,7 +80,7 @@ Status validate(const Scene& scene) {
                     "a camera with a position of its own needs a field of view above 0 degrees");
     }
     const Eye eye = camera.eye.value_or(Eye{});
-    const std::array<Status, 18> checks = {
+    const std::array<Status, 20> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -101,6 +101,12 @@ Status validate(const Scene& scene) {
         check_range("range ring spacing (m)", scene.range_ring_spacing_m, limits::ring_spacing_m),
         check_range("the height of a CAPPI (m)", scene.cappi_height_m, limits::cappi_height_m),
         check_range("the threshold of echo tops (dBZ)", scene.echo_top_dbz, limits::echo_top_dbz),
+        scene.elevation_deg == Scene::lowest_sweep
+            ? Status{}
+            : check_range("elevation", scene.elevation_deg, limits::elevation_deg),
+        scene.sweep_number == Scene::no_number
+            ? Status{}
+            : check_range("the number of a sweep", scene.sweep_number, limits::sweep_number),
         check_section(scene),
         check_colours(scene),
     };
