@@ -1,6 +1,8 @@
 #include "cli/grid/volume_source.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include <fmt/ranges.h>
 
@@ -20,8 +22,26 @@ bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& 
         moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
 }
 
+// Decodes the metadata, so that the pattern says which cuts are needed. Returns none if it does
+// not.
+std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
+                                           level2::DecodeOptions options,
+                                           const std::vector<level2::Moment>& moments,
+                                           const ChooseCuts& choose_cuts) {
+    constexpr int no_cut = 10'000;
+    options.selection.elevation_numbers = {no_cut};
+    const auto metadata = level2::decode(bytes, options);
+    if (!metadata || !metadata->volume.vcp_message) return std::nullopt;
+    options.selection.elevation_numbers = choose_cuts(metadata->volume);
+    if (options.selection.all_cuts()) return std::nullopt;
+    auto decoded = level2::decode(bytes, options);
+    if (!decoded || !holds_any(decoded->volume, moments)) return std::nullopt;
+    return std::move(*decoded);
+}
+
 Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& file,
-                                        const GridRequest& request, SourceVolume& source) {
+                                        const GridRequest& request, const ChooseCuts& choose_cuts,
+                                        SourceVolume& source) {
     Stopwatch watch;
     level2::DecodeOptions options;
     options.threads = request.threads;
@@ -36,6 +56,11 @@ Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& fil
     const auto bytes = inputs.read(file);
     source.read_s = watch.lap_s();
     if (!bytes) return pass_on(bytes);
+    if (choose_cuts) {
+        auto few = decode_cuts(*bytes, options, request.moments(), choose_cuts);
+        source.decode_s = watch.lap_s();
+        if (few) return std::move(*few);
+    }
     auto decoded = level2::decode(*bytes, options);
     source.decode_s = watch.lap_s();
     if (!decoded) {
@@ -64,7 +89,8 @@ level2::Volume take_volume(level2::Decoded decoded, const std::vector<level2::Mo
 
 }  // namespace
 
-Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request) {
+Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
+                                 const ChooseCuts& choose_cuts) {
     std::shared_ptr<InputFiles> inputs = request.inputs;
     if (!inputs) {
         auto found = InputFiles::find({file});
@@ -77,7 +103,7 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
         return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
     }
     SourceVolume source;
-    auto decoded = read_and_decode(*inputs, *named, request, source);
+    auto decoded = read_and_decode(*inputs, *named, request, choose_cuts, source);
     if (!decoded) return pass_on(decoded);
     source.partial = !decoded->report.complete;
     std::vector<std::string> troubles;

@@ -1,6 +1,7 @@
 // cli/grid/volume_source.h -- loads a Level II file for the commands that grid it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,14 @@ struct SourceVolume {
     double read_s = 0, decode_s = 0;
 };
 
+// Chooses cuts of a volume by its pattern; empty: all. The volume has no sweeps yet.
+using ChooseCuts = std::function<std::vector<int>(const level2::Volume&)>;
+
 // Returns the first volume of the file that holds one of the requested moments, with these alone.
 // Errors name the file: those of reading and decoding, and of apply_site(); not_found if the
-// position of the radar is not known.
-[[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request);
+// position of the radar is not known. With `choose_cuts` only the sweeps of these cuts are decoded,
+// and all sweeps where that gives none with a moment.
+[[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
+                                               const ChooseCuts& choose_cuts = {});
 
 }  // namespace stormcellar::cli

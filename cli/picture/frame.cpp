@@ -107,6 +107,12 @@ Json json_of(const render::Probe& probe) {
               {"lowest_seen_m", json_or_null(probe.lowest_seen_m)},
               {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
     if (probe.distance_m) json["distance_m"] = *probe.distance_m;
+    if (probe.gate) {
+        json["gate"] = {
+            {"radial", probe.gate->radial},           {"gate", probe.gate->gate},
+            {"azimuth_deg", probe.gate->azimuth_deg}, {"elevation_deg", probe.gate->elevation_deg},
+            {"range_m", probe.gate->range_m},         {"time", format_utc(probe.gate->time)}};
+    }
     return json;
 }
 
@@ -119,7 +125,15 @@ void print_probe(const render::Probe& probe, const FrameOptions& options,
     if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
     fmt::print("\nvalue  {}", render::probe_text(probe));
     if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
-    if (probe.lowest_seen_m) {
+    if (probe.gate) {
+        fmt::print(
+            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
+            "time   {}\n",
+            probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
+            probe.gate->elevation_deg, probe.gate->range_m / 1000, format_utc(probe.gate->time));
+    } else if (render::facts_of(scene.product).is_of_sweep) {
+        fmt::print("\nseen   by no radial\n");
+    } else if (probe.lowest_seen_m) {
         fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
                    *probe.highest_seen_m / 1000);
     } else {
@@ -299,7 +313,13 @@ Result<cache::StoreReader> open_store(FrameOptions& options) {
 }
 
 // Returns none, after it was reported, if no grid matched.
-Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, const render::Scene& scene) {
+    const level2::Moment moment = scene.moment;
+    if (render::facts_of(scene.product).is_of_sweep) {
+        return fail(ErrorCode::bad_argument,
+                    "{} shows a sweep, and the cache holds grids; name the Level II file to draw",
+                    render::product_name(scene.product));
+    }
     const auto store = open_store(options);
     if (!store) return pass_on(store);
     const auto entry = find_grid(*store, options, moment);
@@ -313,11 +333,14 @@ Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Mo
     return std::optional{std::move(*grid)};
 }
 
-Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options) {
+Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
+                                                 const render::Scene& scene) {
     options.grid.moment = options.scene.moment;
     options.grid.threads = thread_count(options.scene);
     options.grid.time = options.time;
-    auto grid = PictureGrid::make(options.grid);
+    auto grid = render::facts_of(scene.product).is_of_sweep
+                    ? PictureGrid::make_sweep(options.grid, scene)
+                    : PictureGrid::make(options.grid);
     if (!grid) return pass_on(grid);
     options.domain = grid->name();
     return std::optional{std::move(*grid)};
@@ -399,6 +422,18 @@ int run_panels(FrameOptions& options, SteadyTime start) {
     return exit_done;
 }
 
+// Chooses what was not asked for by the echo. A sweep is seen from above, as it is.
+Status fit_scene(const FrameOptions& options, const PictureGrid& grid, render::Scene& scene) {
+    if (grid.view().sweep != nullptr) {
+        scene = render::scene_shown(grid.view(), std::move(scene));
+        return {};
+    }
+    const auto facts = facts_of(options.domain, grid.description(), options.scene.time_zone);
+    const render::EchoOutline outline(grid.view(), scene.moment);
+    const auto fitted = fit_picture(outline, grid.view(), facts, options.scene, scene);
+    return fitted ? Status{} : pass_on(fitted);
+}
+
 int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
@@ -413,13 +448,11 @@ int run_frame(FrameOptions options) {
     options.plan = std::move(*plan);
     if (const Status taken = take_sources(options); !taken) return report_error(taken.error());
     const auto grid =
-        options.grid.files.empty() ? stored_grid(options, scene->moment) : grid_of_files(options);
+        options.grid.files.empty() ? stored_grid(options, *scene) : grid_of_files(options, *scene);
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
-    const auto facts = facts_of(options.domain, (*grid)->description(), options.scene.time_zone);
-    const render::EchoOutline outline((*grid)->view(), scene->moment);
-    const auto fitted = fit_picture(outline, (*grid)->view(), facts, options.scene, *scene);
-    if (!fitted) return report_error(fitted.error());
+    if (const Status fitted = fit_scene(options, **grid, *scene); !fitted)
+        return report_error(fitted.error());
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());

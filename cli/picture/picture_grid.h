@@ -1,5 +1,5 @@
-// cli/picture/picture_grid.h -- what a picture is drawn from: a grid of the cache, or one that was
-// made in memory from files.
+// cli/picture/picture_grid.h -- what a picture is drawn from: a grid of the cache, one that was
+// made in memory from files, or one sweep of a file.
 //
 // Threads   A PictureGrid may be used by one thread at a time, its view by any.
 // Errors    See each function.
@@ -15,6 +15,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/scene.h"
 
 namespace stormcellar::cli {
 
@@ -34,6 +35,12 @@ class PictureGrid {
     // The same for several moments, "REF,VEL", of one decoding: a grid each, in the order of their
     // names. The volumes belong to the first.
     [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
+    // Takes one sweep of one file, for a ppi; only the cuts and the moment that it needs are
+    // decoded where the pattern of the volume says which those are. The plane about the site, or
+    // about the center that the options name, reaches to the last gate unless they say how far.
+    // Errors name the file or the option.
+    [[nodiscard]] static Result<PictureGrid> make_sweep(GridOptions options,
+                                                        const render::Scene& scene);
     PictureGrid(PictureGrid&&) noexcept;
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();
@@ -52,11 +59,14 @@ class PictureGrid {
   private:
     struct Stored;
     struct Made;
+    struct Swept;
     explicit PictureGrid(std::unique_ptr<Stored> stored);
     explicit PictureGrid(std::unique_ptr<Made> made);
+    explicit PictureGrid(std::unique_ptr<Swept> swept);
 
-    std::unique_ptr<Stored> stored_;  // one of the two
+    std::unique_ptr<Stored> stored_;  // one of the three
     std::unique_ptr<Made> made_;
+    std::unique_ptr<Swept> swept_;
 };
 
 }  // namespace stormcellar::cli

@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/local_time.h"
 #include "cli/picture/scene_file.h"
@@ -12,6 +12,7 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/moment_option.h"
 #include "render/colour/colour_file.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -27,7 +28,8 @@ constexpr NumberRange turns_deg{-3600, 3600};
 constexpr ProductUse by_volume{.only = Product::volume};
 constexpr ProductUse by_cappi{.only = Product::cappi};
 constexpr ProductUse by_section{.only = Product::section};
-constexpr ProductUse by_echo_top{.only = Product::echo_top};
+constexpr ProductUse by_ppi{.only = Product::ppi};
+constexpr ProductUse by_threshold{.with_threshold = true};
 constexpr ProductUse by_all_but_section{.all_but = Product::section};
 
 constexpr std::array section_places{
@@ -130,6 +132,21 @@ constexpr std::array option_rows{
                                        .unit = per_km},
                   .used_by = by_cappi,
                   .help = "Height of a CAPPI above sea level in km, {} to {}"},
+    PictureOption{.option = "--elevation",
+                  .section = "picture",
+                  .key = "elevation_deg",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.elevation_deg; },
+                                       .range = limits::elevation_deg},
+                  .used_by = by_ppi,
+                  .help = "Draw the newest sweep nearest to this angle in degrees, {} to {}. "
+                          "Default: the lowest sweep"},
+    PictureOption{.option = "--sweep",
+                  .section = "picture",
+                  .key = "sweep",
+                  .value = WholeValue{.field = [](To to) { return &to.scene.sweep_number; },
+                                      .range = limits::sweep_number},
+                  .used_by = by_ppi,
+                  .help = "Draw the sweep of this number, as stormcellar info lists them from 0"},
     PictureOption{.option = "--section",
                   .section = "picture",
                   .key = "section",
@@ -141,8 +158,9 @@ constexpr std::array option_rows{
                   .key = "echo_top_dbz",
                   .value = NumberValue{.field = [](To to) { return &to.scene.echo_top_dbz; },
                                        .range = limits::echo_top_dbz},
-                  .used_by = by_echo_top,
-                  .help = "Threshold of echo tops in dBZ, {} to {}"},
+                  .used_by = by_threshold,
+                  .help = "Threshold in dBZ of echo tops, of the tops of VIL density and of the "
+                          "maximum whose height is shown, {} to {}"},
     PictureOption{.option = "--theme",
                   .section = "picture",
                   .key = "theme",
@@ -362,6 +380,13 @@ struct HelpOf {
 
 std::string ProductUse::text() const {
     if (only) return std::string(render::product_name(*only));
+    if (with_threshold) {
+        std::vector<std::string_view> names;
+        for (const render::ProductFacts& facts : render::all_products()) {
+            if (facts.threshold_dbz != nullptr) names.push_back(facts.name);
+        }
+        return fmt::format("{}", fmt::join(names, ", "));
+    }
     if (!all_but) return "any product";
     return fmt::format("any product but {}", render::product_name(*all_but));
 }

@@ -68,7 +68,11 @@ struct ValueAdder {
         const double unit = value.unit;
         CLI::Option* option = app.add_option_function<double>(
             name, [field, unit](const double& number) { *field = number * unit; }, help);
-        option->default_str(fmt::format("{}", *field / unit));
+        // A default out of range stands for nothing given.
+        const double usual = *field / unit;
+        if (value.or_zero || is_within(usual, value.range.least, value.range.most)) {
+            option->default_str(fmt::format("{}", usual));
+        }
         if (value.checked == Checked::by_the_parser) {
             option->check(CLI::Range(value.range.least, value.range.most));
         }
@@ -219,6 +223,11 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
         return fail(ErrorCode::bad_argument,
                     "a section needs its two ends; give {} LAT,LON,LAT,LON, or {} in a scene file",
                     section_option().option, key_of(section_option()));
+    }
+    if (scene.elevation_deg != render::Scene::lowest_sweep &&
+        scene.sweep_number != render::Scene::no_number) {
+        return fail(ErrorCode::bad_argument,
+                    "a sweep is named by its elevation or by its number; give only one of them");
     }
     // A picture that says nothing of colors has those without classes; a scene file has the
     // defaults that it was written for.

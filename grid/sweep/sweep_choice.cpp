@@ -214,6 +214,14 @@ double azimuth_spacing_deg(std::span<const float> azimuths_deg, float stated_deg
     return spacing > 0 ? spacing : 1;
 }
 
+std::optional<ChosenSweep> sweep_by_number(const level2::Volume& volume, std::size_t number,
+                                           level2::Moment moment, double half_beam_deg) {
+    if (number >= volume.sweeps.size()) return std::nullopt;
+    auto candidate = candidate_of(volume, number, moment, half_beam_deg);
+    if (!candidate || candidate->sweep.radials.empty()) return std::nullopt;
+    return std::move(candidate->sweep);
+}
+
 std::vector<double> vcp_angles_deg(const level2::Volume& volume) {
     std::vector<double> angles_deg;
     if (volume.vcp_message && !volume.vcp_message->cuts.empty()) {

@@ -9,7 +9,6 @@
 
 #include "base/name_list.h"
 #include "base/nearest_name.h"
-
 #include "render/colour/smooth_tables.h"
 
 namespace stormcellar::render {
@@ -184,6 +183,15 @@ ColourTable height_table() {
     return table;
 }
 
+ColourTable vil_density_table() {
+    constexpr ColourClass classes[] = {
+        {0.25, 0x6C7A89}, {0.5, 0x4F7FB5}, {1, 0x2FA4D8}, {1.5, 0x35C3A0},
+        {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C}, {3.5, 0xFF5A36},
+        {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
+    };
+    return of_product("vil-density", "g/m3", classes, 7);
+}
+
 ColourTable safe_reflectivity_table() {
     constexpr ColourClass classes[] = {
         {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
@@ -237,7 +245,7 @@ ColourTable safe_rho_table() {
 }
 
 // The indices in built_in_tables().
-enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height };
+enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height, vil_density };
 
 // The opacity of reflectivity between these points is exponential in the value.
 constexpr ExtinctionPoint reflectivity_points[] = {
@@ -316,20 +324,12 @@ std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
 
 const std::vector<ColourTable>& built_in_tables() {
     static const std::vector<ColourTable> tables = [] {
-        std::vector<ColourTable> made = {nws_reflectivity_table(),
-                                         nws_velocity_table(),
-                                         nws_spectrum_width_table(),
-                                         nws_zdr_table(),
-                                         nws_rho_table(),
-                                         nws_echo_top_table(),
-                                         nws_vil_table(),
-                                         phi_table(),
-                                         cfp_table(),
-                                         height_table(),
-                                         safe_reflectivity_table(),
-                                         safe_velocity_table(),
-                                         safe_zdr_table(),
-                                         safe_rho_table()};
+        std::vector<ColourTable> made = {
+            nws_reflectivity_table(), nws_velocity_table(), nws_spectrum_width_table(),
+            nws_zdr_table(),          nws_rho_table(),      nws_echo_top_table(),
+            nws_vil_table(),          phi_table(),          cfp_table(),
+            height_table(),           vil_density_table(),  safe_reflectivity_table(),
+            safe_velocity_table(),    safe_zdr_table(),     safe_rho_table()};
         const std::vector<ColourTable> smooth = make_smooth_tables();
         made.insert(made.end(), smooth.begin(), smooth.end());
         return made;
@@ -370,6 +370,9 @@ const ColourTable& smooth_colour_table(Moment moment) {
 }
 const ColourTable& clear_air_colours() {
     return built_in_tables().back();
+}
+const ColourTable& vil_density_colours() {
+    return built_in_tables()[vil_density];
 }
 
 const ColourTable& default_colour_table(Moment moment) {

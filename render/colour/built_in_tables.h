@@ -11,6 +11,8 @@
 //   phi, cfp            degree, dB   our own colors, because no product of the Weather Service
 //                       shows these moments
 //   height              km      our own colors, safe
+//   vil-density         g/m3    our own colors; large hail is likely from 3.5 g/m3 (Amburn and Wolf
+//                               1997), where red begins
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/colour/smooth_tables.h)
@@ -51,6 +53,7 @@ inline constexpr double least_safe_sides = 15;
 [[nodiscard]] const ColourTable& echo_top_colours();
 [[nodiscard]] const ColourTable& vil_colours();
 [[nodiscard]] const ColourTable& height_colours();
+[[nodiscard]] const ColourTable& vil_density_colours();
 
 // What a picture says of a moment, and its default colours: render's layer over
 // stormcellar/level2/moment.h.

@@ -38,12 +38,27 @@ std::optional<double> height_of_maximum(const grid::BrickView& view, int ix, int
     return best ? std::optional{view.spec->levels_m[*best]} : std::nullopt;
 }
 
-Result<Probe> probe_column(const grid::BrickView& view, const Scene& scene, std::size_t column,
-                           grid::GeoPoint place, int threads) {
+Probe probe_sweep(const grid::SweepLookup& sweep, const Scene& scene, grid::GeoPoint place) {
+    const grid::SiteFrame frame(sweep.site().latitude_deg, sweep.site().longitude_deg);
+    const grid::PolarPoint from_radar = frame.to_polar(place);
+    const grid::GateValue value = sweep.at(from_radar);
+    Probe probe;
+    probe.place = place;
+    probe.status = value.status;
+    probe.value = value.value;
+    probe.unit = unit_shown(scene);
+    probe.gate = sweep.position(from_radar);
+    if (probe.gate) probe.height_m = probe.gate->height_m;
+    return probe;
+}
+
+Result<Probe> probe_column(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
+                           std::size_t column, grid::GeoPoint place, int threads) {
+    if (view.sweep != nullptr) return probe_sweep(*view.sweep, scene, place);
     Scene map = scene;
     // The ground of a volume shows the column under the pixel.
     if (view_of(scene.product) == View::volume) map.product = Product::composite;
-    const auto field = map_field(view, map, summarize_columns(view, threads), threads);
+    const auto field = map_field(view, facts, map, summarize_columns(view, threads), threads);
     if (!field) return pass_on(field);
     Probe probe;
     probe.place = place;
@@ -121,7 +136,7 @@ Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts, 
     const grid::GeoPoint place = grid::GridProjection(spec).to_geo(
         {ground->x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
          ground->y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1)});
-    return probe_column(view, scene, static_cast<std::size_t>(column), place, threads);
+    return probe_column(view, facts, scene, static_cast<std::size_t>(column), place, threads);
 }
 
 Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
@@ -148,7 +163,7 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
     }
     const std::size_t column = static_cast<std::size_t>(iy) * static_cast<std::size_t>(spec.nx) +
                                static_cast<std::size_t>(ix);
-    return probe_column(view, scene, column, place, threads);
+    return probe_column(view, facts, scene, column, place, threads);
 }
 
 std::string probe_text(const Probe& probe) {

@@ -2,8 +2,9 @@
 //
 // In a map this is the value or the state of the column whose cell is drawn there. In a volume it
 // is the column maximum over the ground there, and not what a ray through the volume passes. In a
-// section it is what is drawn at the pixel. The probe also gives the lowest and the highest seen
-// height of the column; in a section, those of the nearest column.
+// section it is what is drawn at the pixel, and in a ppi the gate. The probe also gives the lowest
+// and the highest seen height of the column; in a section, those of the nearest column; in a ppi,
+// instead of them, where and when the gate was measured.
 //
 // Threads   Pure functions.
 #pragma once
@@ -14,6 +15,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/grid/site_frame.h"
+#include "stormcellar/grid/sweep_lookup.h"
 #include "stormcellar/render/render.h"
 #include "stormcellar/render/scene.h"
 
@@ -25,10 +27,11 @@ struct Probe {
     float value = 0;        // if the status is value
     bool at_least = false;  // the true value may be larger
     std::string unit;
-    // height of the value: of a maximum, a CAPPI, or a point of a section
+    // height of the value: of a maximum, a CAPPI, a point of a section, or the beam at a gate
     std::optional<double> height_m;
     std::optional<double> distance_m;                     // along a section
     std::optional<double> lowest_seen_m, highest_seen_m;  // none if the column was not seen
+    std::optional<grid::GatePosition> gate;               // of a ppi, where the sweep has one
 };
 
 // Reads a pixel of the whole picture; (0, 0) is its top left. Errors: bad_argument if the pixel

@@ -4,7 +4,9 @@
 #include "render/image/shades.h"
 #include "render/map/labels.h"
 #include "render/map/map_lines.h"
+#include "render/products/column_summary.h"
 #include "render/volume/ray_packet.h"
+#include "stormcellar/grid/sweep_lookup.h"
 
 namespace stormcellar::render {
 
@@ -15,12 +17,23 @@ Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const S
         return fail(ErrorCode::bad_argument, "the grid holds {}, but the scene shows {}",
                     level2::moment_name(facts.moment), level2::moment_name(scene.moment));
     }
+    const bool of_sweep = facts_of(scene.product).is_of_sweep;
+    if (of_sweep != (view.sweep != nullptr)) {
+        return fail(ErrorCode::bad_argument, "{} shows a {}, but there is a {}",
+                    product_name(scene.product), of_sweep ? "sweep" : "grid",
+                    of_sweep ? "grid" : "sweep");
+    }
     if (view_of(scene.product) == View::volume && !PacketVolume::can_address(view)) {
         return fail(ErrorCode::unsupported,
                     "a grid of {} x {} x {} cells is too large to be drawn as a volume",
                     view.spec->nx, view.spec->ny, view.spec->nz());
     }
     return validate(scene);
+}
+
+Scene scene_shown(const grid::BrickView& view, Scene scene) {
+    if (view.sweep != nullptr) scene.elevation_deg = view.sweep->facts().fixed_angle_deg;
+    return scene;
 }
 
 ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, int width,
@@ -31,10 +44,12 @@ ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, in
     return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
 }
 
-Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
+Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& asked,
                            int threads, FrameCache* kept) {
-    if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
-    const auto columns = summarize_columns(view, threads);
+    if (auto valid = check_frame(view, facts, asked); !valid) return pass_on(valid);
+    const Scene scene = scene_shown(view, asked);
+    const bool of_sweep = view.sweep != nullptr;
+    const auto columns = of_sweep ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
     const DrawnView drawn{view, facts, scene, columns};
     FrameCache own;
     FrameCache& cache = kept != nullptr ? *kept : own;
@@ -46,7 +61,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     const auto layout = lay_out_labels(
         *fonts, scene, facts,
         {legend_of(scene), drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m),
-         coverage_of(columns, *view.spec)});
+         of_sweep ? std::nullopt : std::optional(coverage_of(columns, *view.spec))});
     if (!layout) return pass_on(layout);
     const auto picture =
         draw_view(drawn, {layout->width, layout->height, layout->scale}, &*fonts, threads, cache);

@@ -9,6 +9,7 @@
 #include "render/products/flat_field.h"
 #include "render/products/ground.h"
 #include "render/products/section.h"
+#include "render/products/sweep_field.h"
 #include "render/volume/haze.h"
 #include "stormcellar/render/render.h"
 
@@ -25,7 +26,11 @@ Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,
         const auto tells = drawn.scene.haze ? GroundTells::whether_seen : GroundTells::how_low;
         return paint_ground(spec, drawn.columns, geometry, tells, look, threads);
     }
-    const auto field = map_field(drawn.view, drawn.scene, drawn.columns, threads);
+    if (drawn.view.sweep != nullptr) {
+        const FlatField field = sweep_in_picture(*drawn.view.sweep, spec, geometry, threads);
+        return paint_pixels(spec, field, colours_of(drawn.scene), geometry, look, threads);
+    }
+    const auto field = map_field(drawn.view, drawn.facts, drawn.scene, drawn.columns, threads);
     if (!field) return pass_on(field);
     return paint_field(spec, *field, colours_of(drawn.scene), geometry, look, threads);
 }

@@ -44,8 +44,10 @@ void add_volume_rows(const Scene& scene, Legend& legend) {
 void add_flat_rows(const Scene& scene, Legend& legend) {
     const ProductFacts& facts = facts_of(scene.product);
     const Shades& shades = shades_of(scene.theme);
-    if (facts.threshold_dbz != nullptr) {
+    if (facts.may_be_higher) {
         legend.rows.push_back({"dotted: at least", shades.page, false});
+    }
+    if (facts.threshold_dbz != nullptr) {
         legend.rows.push_back({fmt::format("no echo or < {:g} dBZ", scene.*facts.threshold_dbz),
                                shades.land.seen, false});
     } else if (facts.has_echo_states) {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <optional>
 
 #include "base/parallel.h"
 #include "render/products/cell_mixer.h"
+#include "render/products/sweep_field.h"
 #include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
@@ -46,8 +48,8 @@ struct EchoTop {
 };
 
 // Computes the top from the highest cell that reaches the threshold.
-EchoTop echo_top(const ColumnCells& cells, const std::vector<double>& levels_m, std::size_t cell,
-                 double threshold_dbz) {
+EchoTop top_above(const ColumnCells& cells, const std::vector<double>& levels_m, std::size_t cell,
+                  double threshold_dbz) {
     const std::size_t above = cell + 1;
     if (above == levels_m.size()) return {levels_m[cell], true};
     switch (cells.status[above]) {
@@ -63,6 +65,20 @@ EchoTop echo_top(const ColumnCells& cells, const std::vector<double>& levels_m, 
         default:
             return {levels_m[cell], true};
     }
+}
+
+bool reaches(const ColumnCells& cells, std::size_t cell, double threshold_dbz) {
+    return cells.status[cell] == CellStatus::value &&
+           static_cast<double>(cells.values[cell]) >= threshold_dbz;
+}
+
+// Returns none if no cell reaches the threshold.
+std::optional<EchoTop> echo_top(const ColumnCells& cells, const std::vector<double>& levels_m,
+                                double threshold_dbz) {
+    for (std::size_t i = levels_m.size(); i-- > 0;) {
+        if (reaches(cells, i, threshold_dbz)) return top_above(cells, levels_m, i, threshold_dbz);
+    }
+    return std::nullopt;
 }
 
 constexpr double vil_cap_dbz = 56;
@@ -177,19 +193,13 @@ Result<FlatField> cappi_field(const BrickView& view, level2::Moment moment, doub
 }
 
 FlatField echo_top_field(const BrickView& view, double threshold_dbz, int threads) {
-    const auto& levels_m = view.spec->levels_m;
     std::vector<std::uint8_t> at_least(view.spec->column_count());
     FlatField field = for_each_column(
         view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
-            for (std::size_t i = levels_m.size(); i-- > 0;) {
-                if (cells.status[i] != CellStatus::value) continue;
-                if (static_cast<double>(cells.values[i]) < threshold_dbz) continue;
-                const EchoTop top = echo_top(cells, levels_m, i, threshold_dbz);
-                out.put(place, CellStatus::value, static_cast<float>(top.height_m / 1000));
-                at_least[place] = top.at_least ? 1 : 0;
-                return;
-            }
-            out.put(place, state_without_value(cells), 0);
+            const auto top = echo_top(cells, view.spec->levels_m, threshold_dbz);
+            if (!top) return out.put(place, state_without_value(cells), 0);
+            out.put(place, CellStatus::value, static_cast<float>(top->height_m / 1000));
+            at_least[place] = top->at_least ? 1 : 0;
         });
     field.at_least = std::move(at_least);
     return field;
@@ -208,6 +218,42 @@ FlatField vil_field(const BrickView& view, int threads) {
             out.put(place, CellStatus::value,
                     static_cast<float>(vil_of(cells, view.spec->levels_m, range)));
         });
+}
+
+FlatField vil_density_field(const BrickView& view, double threshold_dbz, double radar_m,
+                            int threads) {
+    const HeightRange range = height_range(*view.spec);
+    const auto& levels_m = view.spec->levels_m;
+    return for_each_column(
+        view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+            const auto top = echo_top(cells, levels_m, threshold_dbz);
+            if (!top) return out.put(place, state_without_value(cells), 0);
+            const double depth_m = std::max(top->height_m - radar_m, least_depth_m);
+            const double g_per_m2 = 1000 * vil_of(cells, levels_m, range);
+            out.put(place, CellStatus::value, static_cast<float>(g_per_m2 / depth_m));
+        });
+}
+
+FlatField maximum_height_field(const BrickView& view, double threshold_dbz, int threads) {
+    return for_each_column(view, threads,
+                           [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+                               std::optional<std::size_t> best;
+                               for (std::size_t i = 0; i < cells.status.size(); ++i) {
+                                   if (!reaches(cells, i, threshold_dbz)) continue;
+                                   if (!best || cells.values[i] > cells.values[*best]) best = i;
+                               }
+                               if (!best) return out.put(place, state_without_value(cells), 0);
+                               out.put(place, CellStatus::value,
+                                       static_cast<float>(view.spec->levels_m[*best] / 1000));
+                           });
+}
+
+double radar_height_m(const FrameFacts& facts) {
+    if (facts.sites.empty()) return 0;
+    double sum_m = 0;
+    for (const grid::SitePosition& site : facts.sites)
+        sum_m += site.altitude_m;
+    return sum_m / static_cast<double>(facts.sites.size());
 }
 
 FlatField lowest_seen_field(const BrickView& view, int threads) {
@@ -234,17 +280,23 @@ FlatField highest_seen_field(const BrickView& view, int threads) {
                            });
 }
 
-Result<FlatField> map_field(const BrickView& view, const Scene& scene,
+Result<FlatField> map_field(const BrickView& view, const FrameFacts& facts, const Scene& scene,
                             const std::vector<ColumnSummary>& columns, int threads) {
     switch (scene.product) {
         case Product::composite:
             return composite_field(view, columns);
+        case Product::ppi:
+            return sweep_in_columns(*view.sweep, *view.spec, threads);
         case Product::cappi:
             return cappi_field(view, scene.moment, scene.cappi_height_m, threads);
         case Product::echo_top:
             return echo_top_field(view, scene.echo_top_dbz, threads);
         case Product::vil:
             return vil_field(view, threads);
+        case Product::vil_density:
+            return vil_density_field(view, scene.echo_top_dbz, radar_height_m(facts), threads);
+        case Product::maximum_height:
+            return maximum_height_field(view, scene.echo_top_dbz, threads);
         case Product::lowest_seen:
             return lowest_seen_field(view, threads);
         case Product::highest_seen:

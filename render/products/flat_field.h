@@ -14,10 +14,21 @@
 //               is Z = 0. Cells that are not seen or range folded add nothing: half of the layer
 //               beside them is left out. The first and the last level reach half a level beyond
 //               themselves, like cells.
+//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
+//   a
+//               mean density, so tall and low storms compare; hail shows as much in little depth.
+//               Columns have a value where there is an echo top. Where the top may be higher, or
+//               VIL lacks what was not seen, the result is that of the part that was seen. A top
+//               of less than least_depth_m counts as that.
+//   maximum_height   km: the height of the cell with the largest value of the column, the lowest
+//               of several, where that value reaches a threshold.
+//   ppi         The gate of a sweep at the center of each column. A picture looks up each pixel
+//               (sweep_field.h).
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
-// A column without a value of echo_top and vil is range folded if any cell is, because the echo
-// behind it is unknown; else no echo (below the threshold) if any cell was seen; else not seen.
+// A column without a value of the products of reflectivity is range folded if any cell is, because
+// the echo behind it is unknown; else no echo (below the threshold) if any cell was seen; else not
+// seen.
 //
 // Units     Heights are above mean sea level.
 // Threads   Pure functions; the same bits for any number of threads.
@@ -30,6 +41,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/render/frame_facts.h"
 #include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
@@ -59,13 +71,23 @@ struct FlatField {
 [[nodiscard]] FlatField echo_top_field(const grid::BrickView& view, double threshold_dbz,
                                        int threads);
 [[nodiscard]] FlatField vil_field(const grid::BrickView& view, int threads);
+inline constexpr double least_depth_m = 500;
+// `radar_m` is the height of the radar.
+[[nodiscard]] FlatField vil_density_field(const grid::BrickView& view, double threshold_dbz,
+                                          double radar_m, int threads);
+[[nodiscard]] FlatField maximum_height_field(const grid::BrickView& view, double threshold_dbz,
+                                             int threads);
 
 [[nodiscard]] FlatField lowest_seen_field(const grid::BrickView& view, int threads);
 [[nodiscard]] FlatField highest_seen_field(const grid::BrickView& view, int threads);
 
-// Of the scene's product, whose view is a map; the scene must be valid. bad_argument as the
-// products.
-[[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const Scene& scene,
+// Returns the height of the radar, or the mean of several.
+[[nodiscard]] double radar_height_m(const FrameFacts& facts);
+
+// Of the scene's product, whose view is a map; the scene must be valid for the view and its facts.
+// The columns are not used for a ppi. bad_argument as the products.
+[[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
+                                          const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);
 
 // One column, from the lowest level up.

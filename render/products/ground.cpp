@@ -118,4 +118,12 @@ void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads
     });
 }
 
+Image paint_pixels(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
+                   const ViewGeometry& geometry, const GroundLook& look, int threads) {
+    return paint(spec, geometry, look, threads,
+                 [&](std::size_t /*column*/, const GroundPatch& patch) {
+                     return shade_of(field, field.index(patch.x, patch.y), table, patch, look);
+                 });
+}
+
 }  // namespace stormcellar::render

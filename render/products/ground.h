@@ -74,6 +74,10 @@ struct GroundPatch {
 // Fades the ground beyond the grid, with the lines on it, to the page, unless it is seen from
 // straight above.
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture);
+// The same for a field of the pixels themselves (sweep_in_picture()).
+[[nodiscard]] Image paint_pixels(const grid::GridSpec& spec, const FlatField& field,
+                                 const ColourTable& table, const ViewGeometry& geometry,
+                                 const GroundLook& look, int threads);
 
 // Returns the index of the column whose cell holds a point of the ground; -1 beyond the grid.
 [[nodiscard]] std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint point);

@@ -13,7 +13,9 @@ Result<FlatField> still_field(const StillMap& map, int threads) {
                     product_name(map.scene.product), product_name(Product::composite));
     }
     if (auto valid = check_frame(map.view, map.facts, map.scene); !valid) return pass_on(valid);
-    return map_field(map.view, map.scene, summarize_columns(map.view, threads), threads);
+    const auto columns = map.view.sweep != nullptr ? std::vector<ColumnSummary>{}
+                                                   : summarize_columns(map.view, threads);
+    return map_field(map.view, map.facts, map.scene, columns, threads);
 }
 
 Rgba8 overlay_colour(const FlatField& field, std::size_t place, const ColourTable& table) {

@@ -23,6 +23,10 @@ std::string composite_title(const Scene& scene) {
     title.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(title.front())));
     return "Composite " + title + " (column maximum)";
 }
+std::string ppi_title(const Scene& scene) {
+    return fmt::format("{} at {:.1f} degrees elevation (PPI)", title_of_moment(scene),
+                       scene.elevation_deg);
+}
 std::string cappi_title(const Scene& scene) {
     return fmt::format("{} at {:g} km above sea level (CAPPI)", title_of_moment(scene),
                        scene.cappi_height_m / 1000);
@@ -35,6 +39,12 @@ std::string echo_top_title(const Scene& scene) {
 }
 std::string vil_title(const Scene& /*scene*/) {
     return "Vertically integrated liquid";
+}
+std::string vil_density_title(const Scene& scene) {
+    return fmt::format("VIL density, echo tops of {:g} dBZ", scene.echo_top_dbz);
+}
+std::string maximum_height_title(const Scene& scene) {
+    return fmt::format("Height of the maximum reflectivity, from {:g} dBZ", scene.echo_top_dbz);
 }
 std::string lowest_seen_title(const Scene& /*scene*/) {
     return "Lowest height seen";
@@ -49,6 +59,11 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .name = "composite",
      .aside = "column maximum",
      .title = composite_title},
+    {.product = Product::ppi,
+     .name = "ppi",
+     .aside = "one sweep as the radar saw it",
+     .title = ppi_title,
+     .is_of_sweep = true},
     {.product = Product::cappi, .name = "cappi", .title = cappi_title},
     {.product = Product::section, .name = "section", .view = View::section, .title = section_title},
     {.product = Product::echo_top,
@@ -57,13 +72,29 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .unit = "km",
      .colours = echo_top_colours,
      .needs_reflectivity = true,
-     .threshold_dbz = &Scene::echo_top_dbz},
+     .threshold_dbz = &Scene::echo_top_dbz,
+     .may_be_higher = true},
     {.product = Product::vil,
      .name = "vil",
      .title = vil_title,
      .unit = "kg/m2",
      .colours = vil_colours,
      .needs_reflectivity = true},
+    {.product = Product::vil_density,
+     .name = "vil-density",
+     .title = vil_density_title,
+     .unit = "g/m3",
+     .colours = vil_density_colours,
+     .needs_reflectivity = true,
+     .threshold_dbz = &Scene::echo_top_dbz},
+    {.product = Product::maximum_height,
+     .name = "maximum-height",
+     .aside = "of the column maximum",
+     .title = maximum_height_title,
+     .unit = "km",
+     .colours = height_colours,
+     .needs_reflectivity = true,
+     .threshold_dbz = &Scene::echo_top_dbz},
     {.product = Product::lowest_seen,
      .name = "lowest-seen",
      .title = lowest_seen_title,

@@ -90,7 +90,7 @@ Status validate(const Scene& scene) {
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const Eye look_at = camera.look_at.value_or(Eye{});
-    const std::array<Status, 22> checks = {
+    const std::array<Status, 24> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -115,6 +115,12 @@ Status validate(const Scene& scene) {
         check_range("range ring spacing (m)", scene.range_ring_spacing_m, limits::ring_spacing_m),
         check_range("the height of a CAPPI (m)", scene.cappi_height_m, limits::cappi_height_m),
         check_range("the threshold of echo tops (dBZ)", scene.echo_top_dbz, limits::echo_top_dbz),
+        scene.elevation_deg == Scene::lowest_sweep
+            ? Status{}
+            : check_range("elevation", scene.elevation_deg, limits::elevation_deg),
+        scene.sweep_number == Scene::no_number
+            ? Status{}
+            : check_range("the number of a sweep", scene.sweep_number, limits::sweep_number),
         check_section(scene),
         check_colours(scene),
     };

@@ -62,6 +62,10 @@ struct BrickEntry {
 };
 static_assert(sizeof(BrickEntry) == 24);
 
+class SweepLookup;  // stormcellar/grid/sweep_lookup.h
+
+// A view of one sweep (a ppi) has no bricks. Its spec, of one level, is the plane about the radar
+// on which the sweep is drawn, and `sweep` says what is at a place of it.
 struct BrickView {
     const GridSpec* spec = nullptr;
     Quantization quantization;
@@ -69,6 +73,7 @@ struct BrickView {
     std::span<const std::byte> codes;  // bricks_x * y * z places of 4,096 * code_bytes bytes
     std::span<const BrickEntry> bricks;
     std::span<const std::byte> states;  // blocks of 1,024 bytes, 4 cells a byte, low bits first
+    const SweepLookup* sweep = nullptr;
 
     [[nodiscard]] std::size_t brick_index(int bx, int by, int bz) const {
         return (static_cast<std::size_t>(bx) * static_cast<std::size_t>(bricks_y) +

@@ -52,6 +52,12 @@ struct ChosenSweep {
     const level2::Volume& volume, level2::Moment moment, double half_beam_deg,
     std::optional<UtcTime> nearest_to = std::nullopt);
 
+// Returns one sweep by its index in Volume::sweeps, with the same rule for its radials; none if it
+// does not exist or holds no such radial. `repeats` and `adjacent_to_next` keep their defaults.
+[[nodiscard]] std::optional<ChosenSweep> sweep_by_number(const level2::Volume& volume,
+                                                         std::size_t number, level2::Moment moment,
+                                                         double half_beam_deg);
+
 // Returns the fixed angles of the volume's VCP, rising. They come from message 5 or 7; without
 // these, the number of the VCP selects one of the patterns of the years before message 5 was sent
 // (11, 12, 21, 31, 32, 121). The result is empty if the angles are not known.

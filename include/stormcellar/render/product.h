@@ -16,7 +16,19 @@ namespace stormcellar::render {
 struct ColourTable;
 struct Scene;
 
-enum class Product { volume, composite, cappi, section, echo_top, vil, lowest_seen, highest_seen };
+enum class Product {
+    volume,
+    composite,
+    ppi,
+    cappi,
+    section,
+    echo_top,
+    vil,
+    vil_density,
+    maximum_height,
+    lowest_seen,
+    highest_seen
+};
 
 // What a picture is a picture of.
 enum class View {
@@ -34,10 +46,13 @@ struct ProductFacts {
     std::string_view unit = {};                    // empty: the moment's
     const ColourTable& (*colours)() = nullptr;     // null: the moment's
     bool needs_reflectivity = false;
-    // Of tops: the value that echo must reach. The picture says where a top may be higher.
+    // The value that echo must reach for a column to have a value.
     double Scene::*threshold_dbz = nullptr;
+    bool may_be_higher = false;  // of tops: the picture says where the true value may be larger
     // Columns that were seen may be without a value: no echo, or range folded.
     bool has_echo_states = true;
+    // Shows a sweep (BrickView::sweep) instead of a grid.
+    bool is_of_sweep = false;
 };
 
 [[nodiscard]] std::span<const ProductFacts> all_products();

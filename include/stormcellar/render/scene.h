@@ -37,6 +37,8 @@ inline constexpr NumberRange longitude_deg{-180, 360};
 inline constexpr NumberRange section_km{1, 5000};
 inline constexpr NumberRange cappi_height_m{-1e3, 6e4};
 inline constexpr NumberRange echo_top_dbz{-30, 80};
+inline constexpr NumberRange elevation_deg{-10, 90};  // or Scene::lowest_sweep
+inline constexpr NumberRange sweep_number{0, 9999};   // or Scene::no_number
 inline constexpr NumberRange slices{8, 4096};
 inline constexpr NumberRange exaggeration{0.1, 100};
 inline constexpr NumberRange pixel_tolerance{0, 0.1};
@@ -45,8 +47,8 @@ inline constexpr NumberRange opacity{1e-3, 1e3};
 inline constexpr NumberRange ring_spacing_m{1e3, 1e6};
 }  // namespace limits
 
-// The place of a camera, or of what it looks at: meters east and north of the middle of the grid, and
-// a height above sea level.
+// The place of a camera, or of what it looks at: meters east and north of the middle of the grid,
+// and a height above sea level.
 struct Eye {
     double x_m = 0, y_m = 0, height_m = 0;
 };
@@ -77,6 +79,12 @@ struct Scene {
     double cappi_height_m = 3000;                       // above sea level
     std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
     double echo_top_dbz = 18.5;
+    // Of a ppi: which sweep of a volume is meant, for those who find it. The picture shows that of
+    // its view, whose angle scene_shown() puts here.
+    static constexpr double lowest_sweep = -90;
+    static constexpr int no_number = -1;
+    double elevation_deg = lowest_sweep;
+    int sweep_number = no_number;
     int width = 796, height = 532;  // pixels
     Camera camera;
     int slices = 256;                  // parallel to the image plane

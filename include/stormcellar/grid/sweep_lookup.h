@@ -1,0 +1,105 @@
+// stormcellar/grid/sweep_lookup.h -- one sweep as the radar saw it: which gate is at a place.
+//
+// A place belongs to the radial whose azimuth is nearest; where neighboring radials are more than
+// one and a half spacings apart, each of the two reaches half a spacing, and nothing was seen in
+// between. Along the radial it belongs to the gate whose center is nearest, by the beam of 4/3 of
+// the earth's radius at the median elevation of the sweep's radials. Radials that were measured
+// more than half a beam off that elevation are left out, as in grids. Nothing is mixed and nothing
+// is quantized: what is returned is the value of one gate.
+//
+// Units     Meters and degrees; values are in the unit of the moment. Heights are above mean sea
+//           level. Places are azimuth and arc from the antenna (stormcellar/grid/site_frame.h).
+// Threads   Immutable; any thread may use it.
+// Errors    See find().
+// Accuracy  Enforced by tests/grid/sweep_lookup_test.cpp: equal to the gates, value for value, but
+//           for places within 0.2 m of the border of two gates or 1e-4 degrees of that of two
+//           radials.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/grid/site_frame.h"
+#include "stormcellar/grid/sweep_choice.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::grid {
+
+// Which sweep of a volume is meant. Without a number it is the one whose fixed angle is nearest to
+// the elevation, and without that the lowest. Of several sweeps of one angle (SAILS, split cuts) it
+// is the newest that choose_sweeps() finds as good as the others, or the nearest to a time.
+struct SweepWish {
+    std::optional<double> elevation_deg;
+    std::optional<std::size_t> number;  // index in Volume::sweeps
+    std::optional<UtcTime> nearest_to;
+};
+
+struct SweepFacts {
+    std::size_t number = 0;      // index in Volume::sweeps
+    int cut = 0;                 // of the VCP, from 1
+    double elevation_deg = 0;    // the median of the radials
+    double fixed_angle_deg = 0;  // the VCP's if it is known, else the measured one
+    std::size_t radial_count = 0;
+    double azimuth_spacing_deg = 0;
+    double gate_spacing_m = 0;  // the smallest, if the radials differ
+    double last_gate_m = 0;     // slant range of the far end of the last gate
+    double greatest_arc_m = 0;  // the same along the earth
+    float nyquist_mps = 0;      // of the first radial; 0: not known
+    UtcTime start, end;         // of the first and the last radial; the epoch: not known
+};
+
+// What one gate holds.
+struct GateValue {
+    CellStatus status = CellStatus::not_seen;
+    float value = 0;  // if the status is value
+};
+
+// Where a gate is, and when it was measured.
+struct GatePosition {
+    std::uint32_t radial = 0;  // index in Sweep::radials
+    std::int32_t gate = 0;
+    double azimuth_deg = 0;    // of the radial
+    double elevation_deg = 0;  // of the radial, as measured
+    double range_m = 0;        // slant range of the center of the gate
+    double height_m = 0;       // of the beam's axis there, at the elevation of the sweep
+    UtcTime time;              // of the radial
+};
+
+class SweepLookup {
+  public:
+    // Finds the sweep and prepares it. The volume is shared, because the sweep is read from it.
+    // Errors: not_found if no sweep, or not the one of that number, holds the moment; the message
+    // says which do.
+    [[nodiscard]] static Result<SweepLookup> find(std::shared_ptr<const level2::Volume> volume,
+                                                  const SitePosition& site, level2::Moment moment,
+                                                  double half_beam_deg, const SweepWish& wish);
+    SweepLookup(SweepLookup&&) noexcept;
+    SweepLookup& operator=(SweepLookup&&) noexcept;
+    ~SweepLookup();
+
+    [[nodiscard]] const SweepFacts& facts() const;
+    [[nodiscard]] const SitePosition& site() const;
+    [[nodiscard]] level2::Moment moment() const;
+    // The arc must be at least 0, the azimuth within [0, 360].
+    [[nodiscard]] GateValue at(PolarPoint place) const;
+    // Returns none where no radial saw the place, or beyond its gates.
+    [[nodiscard]] std::optional<GatePosition> position(PolarPoint place) const;
+
+  private:
+    struct Prepared;
+    explicit SweepLookup(std::unique_ptr<const Prepared> prepared);
+    std::unique_ptr<const Prepared> prepared_;
+};
+
+// Returns the fixed angles of the sweeps that hold the moment, one for each elevation, rising: what
+// SweepWish::elevation_deg can find.
+[[nodiscard]] std::vector<double> elevations_deg(const level2::Volume& volume,
+                                                 level2::Moment moment, double half_beam_deg);
+
+}  // namespace stormcellar::grid
