@@ -64,9 +64,8 @@ void put_steps(const StepIntegrals& steps, std::size_t distance, StepDirection d
     for (std::size_t i = 0; i < bins - distance; ++i) {
         const double seen = 1 - steps.through[i];
         if (!(seen > 0)) continue;
-        const std::size_t place = direction == StepDirection::rising
-                                      ? i * bins + i + distance
-                                      : (i + distance) * bins + i;
+        const std::size_t place = direction == StepDirection::rising ? i * bins + i + distance
+                                                                     : (i + distance) * bins + i;
         entries[place] = entry_of(steps.colour[0][i] / seen, steps.colour[1][i] / seen,
                                   steps.colour[2][i] / seen, steps.depth[i] * piece);
     }
