@@ -78,13 +78,16 @@ struct NamesValue {
 using PictureValue =
     std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
 
-// The products that use an option: one product only, all but one, or, with neither, all.
+// The products that use an option: one product only, all but one, maps, or, with none of these,
+// all.
 struct ProductUse {
     std::optional<render::Product> only{};
     std::optional<render::Product> all_but{};
+    bool maps = false;
 
     [[nodiscard]] bool includes(render::Product product) const {
-        return (!only || product == *only) && (!all_but || product != *all_but);
+        return (!only || product == *only) && (!all_but || product != *all_but) &&
+               (!maps || render::is_map(product));
     }
     // As in "cappi", "any product but section".
     [[nodiscard]] std::string text() const;

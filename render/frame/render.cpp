@@ -11,6 +11,7 @@
 #include "render/products/flat_field.h"
 #include "render/products/ground.h"
 #include "render/products/section.h"
+#include "render/products/smooth_field.h"
 #include "render/volume/haze.h"
 
 namespace stormcellar::render {
@@ -38,7 +39,8 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
     } else {
         const auto field = map_field(view, scene, columns, threads);
         if (!field) return pass_on(field);
-        base = paint_field(*view.spec, *field, colours, geometry, scale, threads);
+        base =
+            paint_field(*view.spec, *field, colours, geometry, scale, threads, is_smoothed(scene));
     }
     Canvas canvas(base);
     draw_border(canvas, frame.lines);

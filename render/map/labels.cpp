@@ -10,6 +10,7 @@
 #include "render/map/base_map.h"
 #include "render/map/colour_bar.h"
 #include "render/products/ground.h"
+#include "render/products/smooth_field.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/render/product.h"
@@ -74,6 +75,7 @@ std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_s
             break;
         case View::map:
             text = "Map, north up";
+            if (is_smoothed(scene)) text += "  \u00B7  smoothed";
             break;
         case View::section:
             return "Vertical section from A to B";

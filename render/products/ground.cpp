@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "render/image/round_step.h"
 #include "render/image/shades.h"
+#include "render/products/smooth_field.h"
 #include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
@@ -19,7 +20,7 @@ bool is_dot(int x, int y, double scale) {
     return (x + shift) % period < size && y % period < size;
 }
 
-// Calls shade(column, x, y) for every pixel over the grid.
+// Calls shade(column, x, y, point of the ground) for every pixel over the grid.
 template <class Shade>
 Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, int threads, Shade shade) {
     Image image(geometry.width(), geometry.height(), shades::page);
@@ -27,7 +28,7 @@ Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, int thread
         for (int x = 0; x < image.width; ++x) {
             const auto p = geometry.ground({x + 0.5, y + 0.5});
             const std::ptrdiff_t column = p ? column_at(spec, *p) : -1;
-            if (column >= 0) image.set(x, y, shade(static_cast<std::size_t>(column), x, y));
+            if (column >= 0) image.set(x, y, shade(static_cast<std::size_t>(column), x, y, *p));
         }
     });
     return image;
@@ -44,7 +45,7 @@ std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
 
 Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>& columns,
                    const ViewGeometry& geometry, GroundTells tells, double scale, int threads) {
-    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
+    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y, GroundPoint) {
         const std::uint16_t lowest = columns[column].lowest_seen;
         if (lowest == ColumnSummary::never) return shades::hatched(x, y, scale);
         const bool low = spec.levels_m[lowest] < low_coverage_m;
@@ -54,12 +55,17 @@ Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>&
 
 Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table, int x, int y,
                double scale) {
-    switch (field.status[place]) {
+    const bool at_least = !field.at_least.empty() && field.at_least[place] != 0;
+    return shade_of(field.status[place], field.values[place], at_least, table, x, y, scale);
+}
+
+Rgba8 shade_of(grid::CellStatus status, float value, bool at_least, const ColourTable& table, int x,
+               int y, double scale) {
+    switch (status) {
         case grid::CellStatus::value: {
-            const auto colour = colour_of(table, field.values[place]);
+            const auto colour = colour_of(table, value);
             if (!colour) return shades::seen;
-            const bool dotted = !field.at_least.empty() && field.at_least[place] != 0;
-            return dotted && is_dot(x, y, scale) ? shades::page : over(*colour, shades::seen);
+            return at_least && is_dot(x, y, scale) ? shades::page : over(*colour, shades::seen);
         }
         case grid::CellStatus::range_folded:
             return over(table.range_folded, shades::seen);
@@ -72,9 +78,18 @@ Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& tab
 }
 
 Image paint_field(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
-                  const ViewGeometry& geometry, double scale, int threads) {
-    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
-        return shade_of(field, column, table, x, y, scale);
+                  const ViewGeometry& geometry, double scale, int threads, bool smoothed) {
+    if (!smoothed) {
+        return paint(spec, geometry, threads, [&](std::size_t column, int x, int y, GroundPoint) {
+            return shade_of(field, column, table, x, y, scale);
+        });
+    }
+    const SmoothField smooth(field);
+    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y, GroundPoint p) {
+        const auto place = smooth.at(p.x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
+                                     p.y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1));
+        const bool at_least = !field.at_least.empty() && field.at_least[column] != 0;
+        return shade_of(place.status, place.value, at_least, table, x, y, scale);
     });
 }
 

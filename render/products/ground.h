@@ -38,10 +38,15 @@ enum class GroundTells { how_low, whether_seen };
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
                              int x, int y, double scale);
 
-// Paints a product, whose columns and rows are those of the grid.
+// The same for a value or a state of no field.
+[[nodiscard]] Rgba8 shade_of(grid::CellStatus status, float value, bool at_least,
+                             const ColourTable& table, int x, int y, double scale);
+
+// Paints a product, whose columns and rows are those of the grid; `smoothed` by
+// render/products/smooth_field.h.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColourTable& table, const ViewGeometry& geometry,
-                                double scale, int threads);
+                                double scale, int threads, bool smoothed = false);
 
 // Returns the index of the column whose cell holds a point of the ground; -1 beyond the grid.
 [[nodiscard]] std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint point);
