@@ -30,6 +30,7 @@ constexpr ProductUse by_cappi{.only = Product::cappi};
 constexpr ProductUse by_section{.only = Product::section};
 constexpr ProductUse by_ppi{.only = Product::ppi};
 constexpr ProductUse by_threshold{.with_threshold = true};
+constexpr ProductUse by_maps{.maps = true};
 constexpr ProductUse by_all_but_section{.all_but = Product::section};
 
 constexpr std::array section_places{
@@ -89,6 +90,16 @@ Status check_colors(const std::string& name) {
     return table ? Status{} : pass_on(table);
 }
 
+std::string known_smoothings() {
+    return "cubic or none";
+}
+
+Status check_smoothing(const std::string& name) {
+    if (name == "cubic" || name == "none") return {};
+    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", known_smoothings(),
+                printable(name));
+}
+
 // A table by name is the same everywhere; a file stands beside the scene file.
 std::string colors_beside(const std::filesystem::path& directory, const std::string& name) {
     std::string ending = std::filesystem::path(name).extension().native();
@@ -124,6 +135,15 @@ constexpr std::array option_rows{
                   .help =
                       "smooth for colors without classes (the default), nws for the classes of the "
                       "Weather Service, the name of a color table, or a .pal or .toml file"},
+    PictureOption{.option = "--smooth",
+                  .section = "picture",
+                  .key = "smooth",
+                  .value = TextValue{.field = [](To to) { return &to.options.smooth; },
+                                     .check = check_smoothing,
+                                     .known = known_smoothings},
+                  .used_by = by_maps,
+                  .help = "How the values of a map go from cell to cell, for the eye alone: {}, "
+                          "which shows the cells as they are. Default: cubic"},
     PictureOption{.option = "--height-km",
                   .section = "picture",
                   .key = "height_km",
@@ -387,6 +407,7 @@ std::string ProductUse::text() const {
         }
         return fmt::format("{}", fmt::join(names, ", "));
     }
+    if (maps) return "maps";
     if (!all_but) return "any product";
     return fmt::format("any product but {}", render::product_name(*all_but));
 }

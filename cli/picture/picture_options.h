@@ -78,16 +78,18 @@ struct NamesValue {
 using PictureValue =
     std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
 
-// The products that use an option: one product only, all but one, those with a threshold, or, with
-// none of these, all.
+// The products that use an option: one product only, all but one, those with a threshold, maps, or,
+// with none of these, all.
 struct ProductUse {
     std::optional<render::Product> only{};
     std::optional<render::Product> all_but{};
     bool with_threshold = false;
+    bool maps = false;
 
     [[nodiscard]] bool includes(render::Product product) const {
         return (!only || product == *only) && (!all_but || product != *all_but) &&
-               (!with_threshold || render::facts_of(product).threshold_dbz != nullptr);
+               (!with_threshold || render::facts_of(product).threshold_dbz != nullptr) &&
+               (!maps || render::is_map(product));
     }
     // As in "cappi", "any product but section".
     [[nodiscard]] std::string text() const;

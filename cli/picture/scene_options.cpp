@@ -243,6 +243,8 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
         if (!colours) return pass_on(colours);
         scene.colours = std::move(*colours);
     }
+    scene.smooth =
+        options.smooth.empty() ? options.file_product.empty() : options.smooth == "cubic";
     // A camera with a place of its own looks in perspective.
     if (scene.camera.eye && scene.camera.field_of_view_deg == 0) {
         scene.camera.field_of_view_deg = 60;

@@ -28,6 +28,7 @@ struct SceneOptions {
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string theme{render::theme_name(render::Theme::dark)};
     std::string colours;    // empty: those of the product or the moment
+    std::string smooth;     // cubic or none; empty: cubic, but none for a scene file
     std::string time_zone;  // IANA; empty: that of the machine
     bool no_labels = false;
     int threads = 0;      // 0: as many as the machine has

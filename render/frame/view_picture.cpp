@@ -9,6 +9,7 @@
 #include "render/products/flat_field.h"
 #include "render/products/ground.h"
 #include "render/products/section.h"
+#include "render/products/smooth_field.h"
 #include "render/products/sweep_field.h"
 #include "render/volume/haze.h"
 #include "stormcellar/render/render.h"
@@ -32,7 +33,8 @@ Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,
     }
     const auto field = map_field(drawn.view, drawn.facts, drawn.scene, drawn.columns, threads);
     if (!field) return pass_on(field);
-    return paint_field(spec, *field, colours_of(drawn.scene), geometry, look, threads);
+    return paint_field(spec, *field, colours_of(drawn.scene), geometry, look, threads,
+                       is_smoothed(drawn.scene));
 }
 
 void draw_volume(const DrawnView& drawn, const ViewGeometry& geometry, int threads,

@@ -9,6 +9,7 @@
 #include "render/map/base_map.h"
 #include "render/map/legend_layout.h"
 #include "render/products/ground.h"
+#include "render/products/smooth_field.h"
 #include "render/view/length_text.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
@@ -80,6 +81,7 @@ std::string view_line(const Scene& scene, const FrameFacts& facts, double ring_s
             break;
         case View::map:
             text = "Map, north up";
+            if (is_smoothed(scene)) text += "  \u00B7  smoothed";
             break;
         case View::section:
             return "Vertical section from A to B";

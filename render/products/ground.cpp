@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "render/products/smooth_field.h"
 #include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
@@ -33,7 +34,7 @@ Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, const Grou
             if (!p) continue;
             const std::ptrdiff_t column = column_at(spec, *p);
             if (column < 0 && look.water == nullptr) continue;
-            const GroundPatch patch{x, y, look.water != nullptr ? look.water->water_at(*p) : 0};
+            const GroundPatch patch{x, y, look.water != nullptr ? look.water->water_at(*p) : 0, *p};
             image.set(x, y,
                       column >= 0 ? shade(static_cast<std::size_t>(column), patch)
                                   : patch.shade(look, &GroundShades::beyond));
@@ -70,14 +71,19 @@ Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>&
 
 Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
                const GroundPatch& patch, const GroundLook& look) {
+    const bool at_least = !field.at_least.empty() && field.at_least[place] != 0;
+    return shade_of(field.status[place], field.values[place], at_least, table, patch, look);
+}
+
+Rgba8 shade_of(grid::CellStatus status, float value, bool at_least, const ColourTable& table,
+               const GroundPatch& patch, const GroundLook& look) {
     const Rgba8 plain = patch.shade(look, &GroundShades::seen);
-    switch (field.status[place]) {
+    switch (status) {
         case grid::CellStatus::value: {
-            const auto colour = colour_of(table, field.values[place]);
+            const auto colour = colour_of(table, value);
             if (!colour) return plain;
-            const bool dotted = !field.at_least.empty() && field.at_least[place] != 0;
-            return dotted && is_dot(patch.x, patch.y, look.scale) ? look.shades->page
-                                                                  : over(*colour, plain);
+            return at_least && is_dot(patch.x, patch.y, look.scale) ? look.shades->page
+                                                                    : over(*colour, plain);
         }
         case grid::CellStatus::range_folded:
             return over(table.range_folded, plain);
@@ -90,9 +96,20 @@ Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& tab
 }
 
 Image paint_field(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
-                  const ViewGeometry& geometry, const GroundLook& look, int threads) {
+                  const ViewGeometry& geometry, const GroundLook& look, int threads,
+                  bool smoothed) {
+    if (!smoothed) {
+        return paint(spec, geometry, look, threads,
+                     [&](std::size_t column, const GroundPatch& patch) {
+                         return shade_of(field, column, table, patch, look);
+                     });
+    }
+    const SmoothField smooth(field);
     return paint(spec, geometry, look, threads, [&](std::size_t column, const GroundPatch& patch) {
-        return shade_of(field, column, table, patch, look);
+        const auto place = smooth.at(patch.point.x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
+                                     patch.point.y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1));
+        const bool at_least = !field.at_least.empty() && field.at_least[column] != 0;
+        return shade_of(place.status, place.value, at_least, table, patch, look);
     });
 }
 

@@ -40,6 +40,7 @@ struct GroundLook {
 struct GroundPatch {
     int x = 0, y = 0;
     double water = 0;  // its share
+    GroundPoint point{};
 
     [[nodiscard]] Rgba8 shade(const GroundLook& look, Rgba8 GroundShades::*which) const {
         return mixed(look.shades->land.*which, look.shades->water.*which, water);
@@ -61,10 +62,16 @@ struct GroundPatch {
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
                              const GroundPatch& patch, const GroundLook& look);
 
-// Paints a product, whose columns and rows are those of the grid.
+// The same for a value or a state of no field.
+[[nodiscard]] Rgba8 shade_of(grid::CellStatus status, float value, bool at_least,
+                             const ColourTable& table, const GroundPatch& patch,
+                             const GroundLook& look);
+
+// Paints a product, whose columns and rows are those of the grid; `smoothed` by
+// render/products/smooth_field.h.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColourTable& table, const ViewGeometry& geometry,
-                                const GroundLook& look, int threads);
+                                const GroundLook& look, int threads, bool smoothed = false);
 
 // Returns true if parallel rays look straight down, as in a map.
 [[nodiscard]] bool is_from_above(const ViewGeometry& geometry);

@@ -95,6 +95,7 @@ struct Scene {
     double pixel_tolerance = 0;          // 0..0.1
     Light light;                         // off unless asked for
     bool haze = false;                   // volumes: air that was not seen veils what is behind it
+    bool smooth = false;                 // maps: values go smoothly from cell to cell
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // color bar, title, time, map
