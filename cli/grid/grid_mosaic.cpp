@@ -10,6 +10,7 @@
 
 #include "base/name_list.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/progress.h"
 #include "grid/place/site_extent.h"
 #include "level2/decode/volume_checks.h"
 
@@ -140,10 +141,14 @@ std::size_t MosaicSources::site_count() const {
 Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                   const GridRequest& request) {
     MosaicSources sources;
-    for (const std::string& file : files) {
+    Progress progress("files", files.size(), files.size() > 1);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string& file = files[i];
+        progress.show(i);
         auto source = load_volume(file, request);
         if (!source && request.inputs && request.inputs->is_found(file) &&
             is_no_volume(source.error())) {
+            progress.clear();
             print_note(fmt::format("left out: {}", source.error().message));
             continue;
         }

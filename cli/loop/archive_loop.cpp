@@ -263,8 +263,8 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     nothing = plan->stations.empty() ? "no station in the catalog reaches these bounds"
                                      : "no volume of these stations";
     const bool between = plan->mosaic || call.interval;
-    const auto volumes = pipeline::archive_volumes(*catalog, plan->stations,
-                                                   {*call.range.from, *call.range.to, between});
+    const auto volumes = pipeline::archive_volumes(
+        *catalog, plan->stations, {*call.range.from, *call.range.to, between, call.files});
     if (!volumes) return pass_on(volumes);
     for (const catalog::Trouble& trouble : catalog->troubles())
         fmt::print(stderr, "stormcellar: warning: {}\n", printable(trouble.error.message));

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,10 @@ namespace stormcellar::cli {
 struct ArchiveCall {
     ArchiveRequest request;
     std::filesystem::path catalog;
-    std::filesystem::path cache;  // empty: the private one
-    std::string domain;           // of a mosaic; empty: made of the stations' names
-    TimeRange range;              // both ends are needed
+    std::set<std::filesystem::path> files;  // of the catalog, only these; empty: all
+    std::filesystem::path cache;            // empty: the private one
+    std::string domain;                     // of a mosaic; empty: made of the stations' names
+    TimeRange range;                        // both ends are needed
     level2::Moment moment = level2::Moment::ref;
     std::optional<std::chrono::seconds> interval;
     grid::TimeMethod time = grid::TimeMethod::advected;

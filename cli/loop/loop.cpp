@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/steady_time.h"
+#include "cli/loop/files_loop.h"
 #include "cli/loop/loop_camera.h"
 #include "cli/loop/loop_draw.h"
 #include "cli/loop/loop_encoding.h"
@@ -206,6 +207,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
         if (auto left = leave_cache(*grids.call, *grids.archive); !left) {
             return report_error(left.error());
         }
+        if (auto left = leave_files(options); !left) return report_error(left.error());
     }
     print_report(options, shown.scene, report, grids.archive);
     return exit_done;
@@ -278,6 +280,7 @@ Result<render::Scene> check(LoopOptions& options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return pass_on(plan);
     options.plan = std::move(*plan);
+    if (auto taken = take_sources(options); !taken) return pass_on(taken);
     if (auto fine = check_sources(options); !fine) return pass_on(fine);
     return scene;
 }
@@ -326,6 +329,9 @@ int run_loop(LoopOptions options) {
     }
     Interrupt interrupt;
     if (options.follow.wanted) return follow_loop(options, *scene, interrupt);
+    if (!options.files.empty()) {
+        if (auto made = catalog_files(options, interrupt); !made) return report_error(made.error());
+    }
     auto grids = find_grids(options, *scene, interrupt);
     if (!grids) return report_error(grids.error());
     if (grids->frames.empty()) return exit_nothing_matched;

@@ -72,6 +72,7 @@ Result<ArchiveCall> call_of(const LoopOptions& options, const render::Scene& sce
     ArchiveCall call;
     call.request = std::move(*request);
     call.catalog = options.archive.catalog;
+    call.files = options.archive_files;
     call.cache = options.cache;
     call.domain = options.domain;
     call.range = range;

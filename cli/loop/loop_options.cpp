@@ -7,16 +7,26 @@
 #include <fmt/format.h>
 
 #include "base/name_list.h"
+#include "cli/shared/cache_domain.h"
+#include "stormcellar/cache/store.h"
 
 namespace stormcellar::cli {
 
 void add_loop_options(CLI::App& loop, LoopOptions& options) {
     add_scene_file(loop, options.scene_file, options.scene, options.plan, &options);
-    loop.add_option("--cache", options.cache,
-                    "Directory of the cache. With --catalog, the grids are made there");
-    loop.add_option("DOMAIN,--domain", options.domain,
-                    "Domain of the grids; a station's own domain is its ICAO identifier. With "
-                    "--catalog, the name of the mosaic");
+    loop.add_option("FILE", options.sources,
+                    "Level II files to make a loop of, also of several sites, or a domain of the "
+                    "cache. Tar and zip archives and directories work too. A word with a slash, or "
+                    "one that names a file, is a file; every other word is a domain")
+        ->option_text("FILE...|DOMAIN");
+    loop.add_option("--domain", options.typed_domain,
+                    "Domain of the grids; a station's own domain is its ICAO identifier. Default: "
+                    "the only one of the cache. Of files of several sites, and with --catalog, the "
+                    "name of the mosaic");
+    loop.add_option("--cache", options.cache_place.directory,
+                    "Directory of the cache. Default: that of the service. Of files, and with "
+                    "--catalog, the grids are made there. Default: a cache of your own");
+    add_config_option(loop, options.cache_place.config);
     add_time_range(loop, options.range);
     loop.add_option(
         "--interval", options.interval,
@@ -56,7 +66,7 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
         rhythm.interval = *interval;
     }
     if (options.time_method.empty()) return rhythm;
-    if (!rhythm.interval && !options.archive.asked()) {
+    if (!rhythm.interval && !options.archive.asked() && options.files.empty()) {
         return fail(ErrorCode::bad_argument, "--time-method needs --interval");
     }
     const auto method = grid::time_method_from_name(options.time_method);
@@ -68,14 +78,45 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
     return rhythm;
 }
 
-Status check_sources(const LoopOptions& options) {
-    if (options.follow.wanted && (options.archive.asked() || !options.interval.empty())) {
-        return fail(ErrorCode::bad_argument,
-                    "--follow cannot be used with --catalog or --interval");
+Status take_sources(LoopOptions& options) {
+    // Of files, and of an archive, a domain is the name of a mosaic.
+    auto names = tell_apart_from_cache(options.sources, {}, options.cache_place);
+    if (!names) return pass_on(names);
+    options.files = std::move(names->files);
+    if (!names->domain.empty() && !options.typed_domain.empty()) {
+        return fail(ErrorCode::bad_argument, "there are two domains, '{}' and '{}'; name one",
+                    options.typed_domain, names->domain);
     }
-    if (!options.archive.asked() && (options.cache.empty() || options.domain.empty())) {
+    for (const std::string& typed : {options.typed_domain, names->domain}) {
+        if (!typed.empty()) options.domain = typed;
+    }
+    // A scene file may be for a domain of the cache, and is then used for files.
+    if (!options.files.empty()) options.domain = options.typed_domain;
+    if (!options.files.empty() || options.archive.asked()) {
+        options.cache = options.cache_place.directory;
+        return {};
+    }
+    if (Status found = options.cache_place.find(); !found) {
+        if (options.sources.empty()) return found;
         return fail(ErrorCode::bad_argument,
-                    "a loop needs --cache and --domain, or --catalog and --stations");
+                    "'{}' names no file here, and there is no cache to look for such a domain; {}",
+                    options.domain, found.error().message);
+    }
+    options.cache = options.cache_place.directory;
+    if (!options.domain.empty()) return {};
+    const auto store = cache::StoreReader::open(options.cache);
+    return store ? take_only_domain(*store, options.domain) : pass_on(store);
+}
+
+Status check_sources(const LoopOptions& options) {
+    const bool made = options.archive.asked() || !options.files.empty();
+    if (options.follow.wanted && (made || !options.interval.empty())) {
+        return fail(ErrorCode::bad_argument,
+                    "--follow is for a domain of the cache; it cannot be used with files, "
+                    "--catalog or --interval");
+    }
+    if (options.archive.asked() && !options.files.empty()) {
+        return fail(ErrorCode::bad_argument, "a loop is of files or of a --catalog; name only one");
     }
     return {};
 }

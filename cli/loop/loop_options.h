@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "cli/picture/scene_options.h"
 #include "cli/shared/follow.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/service_places.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/animation.h"
 
@@ -21,9 +24,14 @@ namespace stormcellar::cli {
 class DrawnFrames;
 
 struct LoopOptions : LoopSettings {
-    std::string piped;  // the output that goes to standard output
+    std::string piped;                 // the output that goes to standard output
+    std::vector<std::string> sources;  // files, or a domain
+    std::string typed_domain;          // by --domain; `domain` may be that of a scene file
+    std::vector<std::string> files;    // of these; empty: a domain
+    PlaceOption cache_place;           // as typed; `cache` is what was found
     std::string cache;
     ArchiveOptions archive;
+    std::set<std::filesystem::path> archive_files;  // of files: only these of the catalog
     SceneFile scene_file;
     FollowOptions follow;
     std::string interval;     // between frames; empty: one frame for each grid
@@ -33,7 +41,7 @@ struct LoopOptions : LoopSettings {
     bool only_check = false;  // nothing is drawn
     SceneOptions scene;
     PicturePlanOptions plan;
-    DrawnFrames* kept = nullptr;  // for a loop that is followed
+    DrawnFrames* kept = nullptr;                             // for a loop that is followed
     std::optional<render::FittedView>* kept_view = nullptr;  // the same
 };
 
@@ -48,6 +56,10 @@ struct Rhythm {
 };
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Result<Rhythm> rhythm_of(const LoopOptions& options);
+
+// Sorts the words of the command line into files and a domain, and finds the cache of a domain.
+// Errors: those of tell_apart() and PlaceOption::find(), and of the cache.
+[[nodiscard]] Status take_sources(LoopOptions& options);
 
 // Errors: bad_argument if the source of the grids is missing, or --follow is combined with a source
 // that cannot be followed.

@@ -23,10 +23,10 @@
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
 #include "cli/picture/still_output.h"
+#include "cli/shared/cache_domain.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"
-#include "cli/shared/source_names.h"
 #include "render/frame/probe.h"
 #include "render/products/section.h"
 #include "stormcellar/base/file_system.h"
@@ -275,22 +275,6 @@ Status check_output(FrameOptions& options, render::Product product) {
     return {};
 }
 
-// Says which domain is meant where none is named: the only one of the cache.
-Status take_only_domain(const cache::StoreReader& store, std::string& domain) {
-    const auto domains = store.domains();
-    if (!domains) return pass_on(domains);
-    if (domains->size() == 1) {
-        domain = domains->front();
-        return {};
-    }
-    if (domains->empty()) {
-        return fail(ErrorCode::not_found, "{}: the cache is empty", store.directory().native());
-    }
-    return fail(ErrorCode::bad_argument,
-                "name a domain of the cache, or a file: the domains are {}",
-                fmt::join(*domains, ", "));
-}
-
 // Opens the cache and says which domain is meant.
 Result<cache::StoreReader> open_store(FrameOptions& options) {
     if (has_picture_grid_options(options.grid)) {
@@ -348,14 +332,7 @@ Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
 
 // Sorts the words of the command line into files and a domain.
 Status take_sources(FrameOptions& options) {
-    const auto is_domain = [&](const std::string& word) {
-        PlaceOption cache = options.cache;
-        if (!cache.find()) return false;
-        const auto store = cache::StoreReader::open(cache.directory);
-        const auto domains = store ? store->domains() : Result<std::vector<std::string>>{};
-        return domains && std::ranges::find(*domains, word) != domains->end();
-    };
-    auto names = tell_apart(options.sources, options.domain, is_domain);
+    auto names = tell_apart_from_cache(options.sources, options.domain, options.cache);
     if (!names) return pass_on(names);
     options.grid.files = std::move(names->files);
     options.domain = std::move(names->domain);

@@ -1,5 +1,10 @@
 #include "cli/shared/interrupt.h"
 
+#include <array>
+#include <cstddef>
+
+#include <signal.h>
+
 namespace stormcellar::cli {
 namespace {
 
@@ -8,8 +13,14 @@ std::atomic<int> which{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler may not wait for a lock");
 
-// SA_RESETHAND restores the usual effect of the signal, so that a second one ends the program.
+constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, watched.size()> actions_before{};
+
+// Restores what the signal did before, so that a second one ends the program.
 void note_signal(int number) {
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+        if (watched[i] == number) ::sigaction(number, &actions_before[i], nullptr);
+    }
     which = number;
     came = true;
 }
@@ -20,11 +31,11 @@ Interrupt::Interrupt() {
     came = false;
     which = 0;
     for (std::size_t i = 0; i < watched.size(); ++i) {
-        ::sigaction(watched[i], nullptr, &before_[i]);
-        if (before_[i].sa_handler == SIG_IGN) continue;
+        ::sigaction(watched[i], nullptr, &actions_before[i]);
+        if (actions_before[i].sa_handler == SIG_IGN) continue;
         struct sigaction action {};
         action.sa_handler = note_signal;
-        action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+        action.sa_flags = SA_RESTART;
         ::sigaction(watched[i], &action, nullptr);
     }
 }
@@ -44,7 +55,7 @@ void Interrupt::end_by_signal() {
 
 void Interrupt::restore() {
     for (std::size_t i = 0; i < watched.size(); ++i) {
-        ::sigaction(watched[i], &before_[i], nullptr);
+        ::sigaction(watched[i], &actions_before[i], nullptr);
     }
 }
 

@@ -7,10 +7,7 @@
 // Threads   One Interrupt at a time; the flag may be read from any thread.
 #pragma once
 
-#include <array>
 #include <atomic>
-
-#include <signal.h>
 
 namespace stormcellar::cli {
 
@@ -27,10 +24,7 @@ class Interrupt {
     void end_by_signal();
 
   private:
-    static constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
     void restore();
-
-    std::array<struct sigaction, watched.size()> before_{};
 };
 
 }  // namespace stormcellar::cli

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -55,29 +54,15 @@ Status check_output_file(const std::string& output, const std::vector<std::strin
 }
 
 Result<OutputFile> OutputFile::open(const std::string& output, std::string_view ending) {
-    if (!is_stdout(output)) return OutputFile(output, {});
-    std::error_code error;
-    const fs::path base = fs::temp_directory_path(error);
-    if (error) return fail(ErrorCode::io, "{}: {}", base.native(), error.message());
-    std::string name = (base / "stormcellar-XXXXXX").native();
-    if (::mkdtemp(name.data()) == nullptr) {
-        return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));
-    }
-    return OutputFile(fs::path{name} / fmt::format("output{}", ending), name);
-}
-
-OutputFile::OutputFile(OutputFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      temporary_(std::exchange(other.temporary_, std::filesystem::path{})) {}
-
-OutputFile::~OutputFile() {
-    if (temporary_.empty()) return;
-    std::error_code ignored;
-    fs::remove_all(temporary_, ignored);
+    if (!is_stdout(output)) return OutputFile(output, std::nullopt);
+    auto scratch = ScratchDirectory::make();
+    if (!scratch) return pass_on(scratch);
+    fs::path path = scratch->path() / fmt::format("output{}", ending);
+    return OutputFile(std::move(path), std::move(*scratch));
 }
 
 Status OutputFile::finish() {
-    if (temporary_.empty()) return {};
+    if (!scratch_) return {};
     const auto bytes = read_file(path_);
     if (!bytes) return pass_on(bytes);
     return to_stdout(*bytes);

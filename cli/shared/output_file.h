@@ -1,18 +1,22 @@
 // cli/shared/output_file.h -- the one file that a command writes, which may be standard output.
 //
 // "-" means standard output. The file is then made in a temporary place, because its format may
-// need to seek, and is copied when it is complete: a reader gets all of it or nothing.
+// need to seek, and is copied when it is complete: a reader gets all of it or nothing. A signal
+// that ends the program leaves nothing of it.
 //
 // Threads   One thread at a time.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "cli/shared/scratch_directory.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::cli {
@@ -32,11 +36,6 @@ class OutputFile {
     // making a temporary directory.
     [[nodiscard]] static Result<OutputFile> open(const std::string& output,
                                                  std::string_view ending = {});
-    OutputFile(OutputFile&& other) noexcept;
-    OutputFile& operator=(OutputFile&&) = delete;
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
-    ~OutputFile();
 
     // the path to write to
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -44,11 +43,11 @@ class OutputFile {
     [[nodiscard]] Status finish();
 
   private:
-    OutputFile(std::filesystem::path path, std::filesystem::path temporary)
-        : path_(std::move(path)), temporary_(std::move(temporary)) {}
+    OutputFile(std::filesystem::path path, std::optional<ScratchDirectory> scratch)
+        : path_(std::move(path)), scratch_(std::move(scratch)) {}
 
     std::filesystem::path path_;
-    std::filesystem::path temporary_;  // a directory of its own; empty: written in place
+    std::optional<ScratchDirectory> scratch_;  // none: written in place
 };
 
 // For bytes that are already in memory. Errors: those of writing.

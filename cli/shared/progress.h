@@ -1,8 +1,11 @@
-// cli/shared/progress.h -- a progress bar on stderr, if stderr is a terminal and a bar is wanted.
+// cli/shared/progress.h -- a progress bar on stderr with the rate and the time left, if stderr is a
+// terminal and a bar is wanted.
 #pragma once
 
 #include <cstddef>
 #include <string>
+
+#include "base/steady_time.h"
 
 namespace stormcellar::cli {
 
@@ -20,12 +23,15 @@ class Progress {
 
   private:
     std::string what_;
+    SteadyTime start_ = steady_now();
     std::size_t total_;
     bool shown_;
 };
 
-// Returns "frames [#####.....]  6/12".
+// Returns "frames [#####.....]  6/12, 2.5 a second, 3 s left" for work that has taken so long.
+// Without the end of it while that is not known: in the first second, before anything is done, and
+// after all.
 [[nodiscard]] std::string progress_line(const std::string& what, std::size_t done,
-                                        std::size_t total);
+                                        std::size_t total, double elapsed_s = 0);
 
 }  // namespace stormcellar::cli

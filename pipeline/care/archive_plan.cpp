@@ -43,8 +43,7 @@ std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
     return sites;
 }
 
-Result<fs::path> private_cache(const fs::path& catalog_directory, level2::Moment moment,
-                               const ArchivePlan& plan) {
+Result<fs::path> loops_directory() {
     const char* xdg = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
     fs::path base = xdg != nullptr ? fs::path(xdg) : fs::path();
@@ -56,6 +55,13 @@ Result<fs::path> private_cache(const fs::path& catalog_directory, level2::Moment
         }
         base = fs::path(home) / ".cache";
     }
+    return base / "stormcellar" / "loops";
+}
+
+Result<fs::path> private_cache(const fs::path& catalog_directory, level2::Moment moment,
+                               const ArchivePlan& plan) {
+    const auto base = loops_directory();
+    if (!base) return base;
     std::error_code error;
     const fs::path catalog = fs::weakly_canonical(catalog_directory, error);
     std::string recipe = fmt::format("{}\n{}\n{}\n{}\n", software_version,
@@ -72,8 +78,7 @@ Result<fs::path> private_cache(const fs::path& catalog_directory, level2::Moment
     }
     const auto hash = xxh3_64(std::as_bytes(std::span(recipe.data(), recipe.size())));
     const std::string name = plan.mosaic ? plan.mosaic->name : plan.stations.front();
-    return base / "stormcellar" / "loops" /
-           fmt::format("{}-{}-{:016x}", name, level2::moment_name(moment), hash);
+    return *base / fmt::format("{}-{}-{:016x}", name, level2::moment_name(moment), hash);
 }
 
 Status check_cache_directory(const fs::path& directory) {

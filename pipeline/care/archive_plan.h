@@ -32,6 +32,10 @@ struct ArchivePlan {
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
+// Returns the directory $XDG_CACHE_HOME/stormcellar/loops, or else that below ~/.cache, in which
+// all private caches are. Errors: bad_argument if the environment names no such place.
+[[nodiscard]] Result<std::filesystem::path> loops_directory();
+
 // Returns a directory below $XDG_CACHE_HOME, or else below ~/.cache. Its name contains a hash of
 // everything that determines the plan's grids: catalog, stations, grid, moment, rules and the
 // version of this software. Errors: bad_argument if the environment names no such place.

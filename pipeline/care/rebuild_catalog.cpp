@@ -93,7 +93,8 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     } else if (Status examined = catalog->examine(options.station); !examined) {
         return pass_on(examined);
     }
-    auto files = files_below(drop, report);
+    Result<std::vector<fs::path>> files = options.files;
+    if (options.files.empty()) files = files_below(drop, report);
     if (!files) return pass_on(files);
     std::erase_if(*files, [&](const fs::path& path) { return !may_be_of(path, options.station); });
 

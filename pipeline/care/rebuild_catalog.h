@@ -26,6 +26,9 @@ namespace stormcellar::pipeline {
 struct RebuildOptions {
     std::filesystem::path catalog;
     std::filesystem::path drop;  // symbolic links below it are not followed
+    // Only these files are examined, wherever below `drop` they are: absolute paths without links.
+    // Empty: all files below it.
+    std::vector<std::filesystem::path> files;
     // only this station's database, and files that may belong to it; empty: all
     std::string station;
     std::shared_ptr<StationRule> stations;  // stations that have a database; null: every ICAO

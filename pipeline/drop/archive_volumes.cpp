@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "stormcellar/base/member_name.h"
+
 namespace stormcellar::pipeline {
 namespace {
 
@@ -16,6 +18,13 @@ bool is_better(const CatalogEntry& a, const CatalogEntry& b) {
                           entry.generation);
     };
     return rank(a) > rank(b);
+}
+
+bool is_one_of(const std::set<std::filesystem::path>& files, const std::filesystem::path& path) {
+    if (files.empty() || files.contains(path) || files.contains(path.parent_path())) return true;
+    const auto members = member_names_in(path);
+    return std::ranges::any_of(
+        members, [&](const MemberName& name) { return files.contains(name.archive); });
 }
 
 std::vector<ArchiveVolume> each_once(const std::string& station,
@@ -59,12 +68,15 @@ Result<std::vector<ArchiveVolume>> archive_volumes(const catalog::CatalogReader&
     query.from = range.from - margin;
     query.to = range.with_neighbours ? range.to + farthest_neighbour : range.to;
     for (const std::string& station : stations) {
-        const auto entries = catalog.list(station, query);
+        auto entries = catalog.list(station, query);
         if (!entries) {
             const bool is_alone = stations.size() == 1;
             if (is_alone && entries.error().code != ErrorCode::not_found) return pass_on(entries);
             continue;
         }
+        std::erase_if(*entries, [&](const CatalogEntry& entry) {
+            return !is_one_of(range.only, entry.path);
+        });
         auto volumes = each_once(station, *entries);
         keep_taken(range, volumes);
         std::move(volumes.begin(), volumes.end(), std::back_inserter(all));

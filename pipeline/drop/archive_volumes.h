@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct ArchiveVolume {
 struct ArchiveRange {
     UtcTime from, to;              // inclusive
     bool with_neighbours = false;  // also the volumes next to the range
+    // Only volumes of these files, archives and directories of chunks are taken; empty: all.
+    std::set<std::filesystem::path> only{};
 };
 
 // No volume is longer. Volumes are looked for this far before the range.

@@ -22,10 +22,13 @@ bool has_smooth_values(Product product) {
         case Product::cappi:
         case Product::echo_top:
         case Product::vil:
+        case Product::vil_density:
+        case Product::maximum_height:
             return true;
-        // Levels of the grid, and what is no map.
+        // Levels of the grid, gates as they are, and what is no map.
         case Product::lowest_seen:
         case Product::highest_seen:
+        case Product::ppi:
         case Product::volume:
         case Product::section:
             break;

@@ -1,6 +1,15 @@
 #include "cli/shared/interrupt.h"
 
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
+
+#include "cli/shared/progress.h"
+#include "cli/shared/scratch_directory.h"
+#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -56,6 +65,73 @@ TEST(Interrupt, IgnoredSignalStaysIgnored) {
     }
     ::raise(SIGHUP);
     ::signal(SIGHUP, SIG_DFL);
+}
+
+// Makes a directory with a file in it and says in `name` where it is, for the parent of a process
+// that is about to end.
+void make_scratch_and_raise(int number, const std::filesystem::path& name) {
+    const auto scratch = ScratchDirectory::make();
+    std::ofstream(scratch->path() / "output.webp") << "half";
+    std::filesystem::create_directory(scratch->path() / "frames");
+    std::ofstream(name) << scratch->path().native();
+    ::raise(number);
+}
+
+class ScratchDirectoryDeathTest : public ::testing::Test {
+  protected:
+    [[nodiscard]] std::filesystem::path made() const {
+        std::string text;
+        std::getline(std::ifstream(directory_ / "name"), text);
+        return text;
+    }
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(ScratchDirectoryDeathTest, EverySignalThatEndsTheProgramRemovesIt) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        EXPECT_EXIT(make_scratch_and_raise(number, directory_ / "name"),
+                    ::testing::KilledBySignal(number), "");
+        ASSERT_FALSE(made().empty());
+        EXPECT_FALSE(std::filesystem::exists(made())) << number;
+    }
+}
+
+TEST_F(ScratchDirectoryDeathTest, ASecondSignalBesideAnInterruptRemovesItToo) {
+    EXPECT_EXIT(
+        {
+            const auto scratch = ScratchDirectory::make();
+            std::ofstream(directory_ / "name") << scratch->path().native();
+            const Interrupt interrupt;
+            ::raise(SIGINT);
+            ::raise(SIGINT);
+        },
+        ::testing::KilledBySignal(SIGINT), "");
+    ASSERT_FALSE(made().empty());
+    EXPECT_FALSE(std::filesystem::exists(made()));
+}
+
+TEST(ScratchDirectory, GoesWithItsObject) {
+    std::filesystem::path path;
+    {
+        auto scratch = ScratchDirectory::make();
+        ASSERT_TRUE(scratch);
+        const ScratchDirectory moved = std::move(*scratch);
+        path = moved.path();
+        EXPECT_TRUE(std::filesystem::is_directory(path));
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(ProgressLine, SaysRateAndTimeLeftOnceTheyAreKnown) {
+    EXPECT_EQ(progress_line("frames", 0, 12, 5), "frames [........................]  0/12");
+    EXPECT_EQ(progress_line("frames", 6, 12, 0.5), "frames [############............]  6/12");
+    EXPECT_EQ(progress_line("frames", 6, 12, 3),
+              "frames [############............]  6/12, 2.0 a second, 3 s left");
+    EXPECT_EQ(progress_line("files", 1, 241, 30),
+              "files [........................]   1/241, 2.0 a minute, 2 h 0 min left");
+    EXPECT_EQ(progress_line("files", 10, 100, 60),
+              "files [##......................]  10/100, 10.0 a minute, 9 min left");
+    EXPECT_EQ(progress_line("frames", 12, 12, 60), "frames [########################] 12/12");
 }
 
 }  // namespace

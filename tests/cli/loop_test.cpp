@@ -3,10 +3,12 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -239,6 +241,67 @@ TEST_F(Loop, AnOrbitTurnsTheCamera) {
     EXPECT_NE(turning[1].image.rgba, turning[0].image.rgba);
 }
 
+TEST_F(Loop, AnOrbitAroundOneGridHasAsManyFramesAsAskedFor) {
+    commit("20050822_024400", 40);
+    const auto frames_of = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"KBGM",    "-o",  out("o.webp"), "--no-labels",
+                                           "--width", "200", "--height",    "150"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto result = run(arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return render::decode_webp(out("o.webp")).frames;
+    };
+    // With a place of its own, the camera goes around the point that it looks at.
+    const auto frames = frames_of(
+        {"--orbit", "360", "--frames", "8", "--camera-km", "5,-90,30", "--look-at-km", "5,0,4"});
+    ASSERT_EQ(frames.size(), 8U);
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        EXPECT_NE(frames[i].image.rgba, frames[0].image.rgba) << i;
+    // A quarter of the way, clockwise: from the west.
+    const auto from_west = frames_of({"--camera-km=-85,0,30", "--look-at-km", "5,0,4"});
+    EXPECT_EQ(frames[2].image.rgba, from_west[0].image.rgba);
+}
+
+TEST_F(Loop, FramesAreSpreadOverTheGrids) {
+    commit_three();
+    const auto result = run({"KBGM", "-o", out("f/"), "--frames", "6", "--no-labels"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    std::vector<std::vector<std::byte>> frames;
+    for (int i = 0; i < 6; ++i)
+        frames.push_back(*read_file(out(fmt::format("f/frame_{:04}.png", i))));
+    EXPECT_FALSE(fs::exists(out("f/frame_0006.png")));
+    EXPECT_EQ(frames[0], frames[1]);
+    EXPECT_NE(frames[1], frames[2]);
+    EXPECT_EQ(frames[2], frames[3]);
+    EXPECT_EQ(frames[4], frames[5]);
+}
+
+TEST_F(Loop, TheCameraFliesThroughItsKeys) {
+    commit("20050822_024400", 40);
+    std::ofstream(directory_ / "fly.toml")
+        << "[picture]\nwidth = 200\nheight = 150\n[labels]\nshow = false\n"
+           "[camera]\nfield_of_view_deg = 50\n[loop]\nfps = 2\n"
+           "[[loop.camera]]\ntime_s = 0\nat_km = [0, -90, 30]\nlook_at_km = [0, 0, 5]\n"
+           "[[loop.camera]]\ntime_s = 1\nat_km = [-60, -60, 20]\nlook_at_km = [0, 0, 5]\n"
+           "[[loop.camera]]\ntime_s = 2\nat_km = [-90, 20, 40]\nlook_at_km = [0, 0, 5]\n";
+    const std::string scene = (directory_ / "fly.toml").string();
+    const auto result = run({"KBGM", "--scene", scene, "-o", out("f.webp")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto frames = render::decode_webp(out("f.webp")).frames;
+    ASSERT_EQ(frames.size(), 5U);  // 2 s of 2 frames, and the end
+    const auto still = [&](const std::string& place) {
+        EXPECT_EQ(run({"KBGM", "--scene", scene, "--camera-km=" + place, "--look-at-km", "0,0,5",
+                       "-o", out("s.webp")})
+                      .status,
+                  0);
+        return render::decode_webp(out("s.webp")).frames.front().image.rgba;
+    };
+    EXPECT_EQ(frames[0].image.rgba, still("0,-90,30"));
+    EXPECT_EQ(frames[2].image.rgba, still("-60,-60,20"));
+    EXPECT_EQ(frames[4].image.rgba, still("-90,20,40"));
+    EXPECT_NE(frames[1].image.rgba, frames[0].image.rgba);
+}
+
 TEST_F(Loop, QuietPrintsNothing) {
     commit_three();
     const auto result = run({"KBGM", "--quiet", "-o", out("a.webp")});
@@ -296,13 +359,16 @@ TEST_F(Loop, NonsenseIsBadUsageInOneLineAndWritesNothing) {
         {{"KBGM", "-o", out("a.webp"), "-o", out("./a.webp")}, "named twice"},
         {{"KBGM", "-o", out("a.webp"), "--tilt", "100"}, "tilt"},
         {{"KBGM", "-o", out("b.gif"), "-o", out("a.avi")}, "a.avi"},
-        {{"-o", out("a.webp")}, "--domain"},
+        {{"KBGM", "-o", out("a.webp"), "--last", "1", "--orbit", "360"}, "--frames 120"},
+        {{"KBGM", "-o", out("a.webp"), "--last", "1", "--frames", "9"}, "--orbit 360"},
+        {{"KBGM", "--domain", "KENX", "-o", out("a.webp")}, "two domains"},
+        {{"KBGM20050822_024414.gz", "-o", out("a.webp")}, "no such file"},
         {{"KBGM"}, "--output"},
     };
     std::ofstream(directory_ / "out/a.webp") << "mine";
     for (const auto& [arguments, message] : cases) {
         const auto result = run(arguments);
-        EXPECT_EQ(result.status, 2) << message;
+        EXPECT_EQ(result.status, message == "no such file" ? 1 : 2) << message;
         EXPECT_THAT(result.err, StartsWith("stormcellar: ")) << message;
         EXPECT_THAT(result.err, HasSubstr(message));
         EXPECT_THAT(written(), ElementsAre("a.webp")) << message;
@@ -347,6 +413,22 @@ TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
         {"loop", "KBGM", "--quiet", "--cache", cache, "-o", webp, "-o", frames}, frames_drawn);
     EXPECT_EQ(signal, SIGINT);
     EXPECT_THAT(written(), IsEmpty());
+}
+
+// 2026-11-25: Ctrl-C left the temporary directory through which standard output goes.
+TEST_F(Loop, InterruptedOnItsWayToStandardOutputItLeavesNoTemporaryDirectory) {
+    commit("20050822_024400", 40);
+    const fs::path temporary = directory_ / "tmp";
+    fs::create_directory(temporary);
+    ::setenv("TMPDIR", temporary.c_str(), 1);
+    const int signal = testing::interrupt_program(
+        STORMCELLAR_PROGRAM,
+        {"loop", "KBGM", "--quiet", "--cache", (directory_ / "cache").string(), "--orbit", "360",
+         "--frames", "2000", "-o", "-"},
+        [&] { return !fs::is_empty(temporary); });
+    ::unsetenv("TMPDIR");
+    EXPECT_EQ(signal, SIGINT);
+    EXPECT_TRUE(fs::is_empty(temporary));
 }
 
 // Many names of one file, which another thread cuts and mends again all the time: most frames are

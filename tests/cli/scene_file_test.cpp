@@ -85,7 +85,8 @@ TEST_F(SceneFileTest, EveryKeyOfAFlatPictureReachesTheScene) {
 TEST_F(SceneFileTest, EveryKeyOfPlanAndLoopIsTaken) {
     const Status status = read(
         "[plan]\ntolerance = \"dE 2\"\n[plan.effects]\nvalue_span = \"on\"\n"
-        "[loop]\ndomain = \"northeast\"\nfrom = \"-3h\"\nto = \"now\"\nlast = 12\nfps = 10\n"
+        "[loop]\ndomain = \"northeast\"\nfrom = \"-3h\"\nto = \"now\"\nlast = 12\nframes = 90\nfps "
+        "= 10\n"
         "dwell_s = 2\norbit_deg = 360\nping_pong = true\noutputs = [\"a.webp\", \"/b/c/\"]\n");
     ASSERT_TRUE(status) << status.error().message;
     EXPECT_EQ(settings_.plan.tolerance, "dE 2");
@@ -95,6 +96,7 @@ TEST_F(SceneFileTest, EveryKeyOfPlanAndLoopIsTaken) {
     EXPECT_EQ(loop.range.from, "-3h");
     EXPECT_EQ(loop.range.to, "now");
     EXPECT_EQ(loop.last, 12);
+    EXPECT_EQ(loop.frames, 90);
     EXPECT_EQ(loop.animation.frames_per_second, 10);
     EXPECT_EQ(loop.animation.last_frame_dwell_s, 2);
     EXPECT_EQ(loop.orbit_deg, 360);
@@ -136,6 +138,7 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
         {"camera", "field_of_view_deg = 151"},
         {"camera", "at_km = [1, 2]"},
         {"camera", "at_km = [1, 2, nan]"},
+        {"camera", "look_at_km = [1, 2]"},
         {"light", "kinds = \"shadow\""},
         {"light", "kinds = [\"moonshine\"]"},
         {"light", "sun_deg = [225, 3]"},
@@ -155,6 +158,7 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
         {"loop", "from = \"yesterday\""},
         {"loop", "to = \"\""},
         {"loop", "last = 0"},
+        {"loop", "frames = 0"},
         {"loop", "fps = 61"},
         {"loop", "dwell_s = -1"},
         {"loop", "orbit_deg = 3601"},
@@ -266,6 +270,46 @@ TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
     const auto picture = synth::read_scene(scenes / "picture-section.toml");
     ASSERT_FALSE(picture);
     EXPECT_THAT(picture.error().message, HasSubstr("this is a picture scene ([picture])"));
+}
+
+TEST_F(SceneFileTest, KeysOfTheCameraReachTheLoop) {
+    const Status status = read(
+        "[[loop.camera]]\ntime_s = 0\nazimuth_deg = 180\nzoom = 2\n"
+        "[[loop.camera]]\ntime_s = 2.5\nazimuth_deg = 90\ntilt_deg = 70\nturns = 1\n");
+    ASSERT_TRUE(status) << status.error().message;
+    const auto& keys = settings_.loop.camera;
+    ASSERT_EQ(keys.size(), 2U);
+    EXPECT_EQ(keys[0].zoom, 2);
+    EXPECT_EQ(keys[1].time_s, 2.5);
+    EXPECT_EQ(keys[1].azimuth_deg, 90);
+    EXPECT_EQ(keys[1].tilt_deg, 70);
+    EXPECT_EQ(keys[1].turns, 1);
+    EXPECT_FALSE(keys[1].eye);
+    ASSERT_TRUE(
+        read("[[loop.camera]]\ntime_s = 0\nat_km = [1, 2, 3]\n"
+             "[[loop.camera]]\ntime_s = 1\nat_km = [-1, 2, 3]\n"));
+    EXPECT_EQ(settings_.loop.camera[1].eye->x_m, -1000);
+}
+
+TEST_F(SceneFileTest, KeysOfTheCameraThatMakeNoSenseAreRefused) {
+    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\n"), HasSubstr("two keys"));
+    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\n[[loop.camera]]\nzoom = 2\n"),
+                HasSubstr("time_s: is missing"));
+    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\n[[loop.camera]]\ntime_s = 0\n"),
+                HasSubstr("key 2"));
+    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nzom = 3\n"), HasSubstr("zom"));
+    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nat_km = [1, 2]\n"),
+                HasSubstr("must be [east, north, up]"));
+}
+
+TEST_F(SceneFileTest, TheShippedFlightDraws) {
+    commit();
+    const fs::path scene = testing::source_directory() / "scenes" / "fly-supercell.toml";
+    const auto ran = run(fmt::format(
+        "loop KBGM --cache {} --scene {} --frames 3 --width 400 --height 300 --slices 16 -o {}",
+        cache(), scene.string(), at("fly/")));
+    EXPECT_EQ(ran.status, exit_done) << ran.err;
+    EXPECT_TRUE(fs::exists(directory_ / "fly" / "frame_0002.png"));
 }
 
 TEST_F(SceneFileTest, ShippedScenesDraw) {

@@ -1,0 +1,192 @@
+#include "cli/loop/files_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+#include <span>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "base/checksum.h"
+#include "cli/picture/picture.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/input_files.h"
+#include "cli/shared/progress.h"
+#include "pipeline/care/archive_plan.h"
+#include "pipeline/care/rebuild_catalog.h"
+#include "pipeline/drop/archive_volumes.h"
+#include "pipeline/keep/instance_lock.h"
+#include "stormcellar/base/station_rule.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A process that was just killed may hold the lock a moment longer.
+constexpr int lock_tries = 20;
+constexpr auto lock_pause = std::chrono::milliseconds{50};
+// All volumes lie between these, in milliseconds since 1970.
+constexpr UtcTime earliest{std::chrono::days{1}}, latest{std::chrono::days{100'000}};
+
+struct NamedFiles {
+    std::set<fs::path> named;   // files, archives, and directories of chunks
+    std::vector<fs::path> all;  // with the chunks of these, sorted
+};
+
+Status add_chunks(const fs::path& directory, std::vector<fs::path>& all) {
+    std::error_code error;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        std::error_code ignored;
+        if (entry->is_regular_file(ignored)) all.push_back(entry->path());
+    }
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    return {};
+}
+
+Result<NamedFiles> find_files(const std::vector<std::string>& names) {
+    if (std::ranges::find(names, "-") != names.end()) {
+        return fail(ErrorCode::bad_argument,
+                    "a loop reads its files twice, so it cannot take them from standard input");
+    }
+    const auto inputs = InputFiles::find(names);
+    if (!inputs) return pass_on(inputs);
+    for (const std::string& one : inputs->left_out())
+        print_note(fmt::format("left out: {}", one));
+    NamedFiles files;
+    for (const InputFile& file : inputs->files()) {
+        std::error_code error;
+        const fs::path path = fs::canonical(file.path, error);
+        if (error) {
+            return fail(ErrorCode::not_found, "{}: {}", file.path.native(), error.message());
+        }
+        if (!files.named.insert(path).second) continue;
+        if (!fs::is_directory(path, error)) {
+            files.all.push_back(path);
+        } else if (auto added = add_chunks(path, files.all); !added) {
+            return pass_on(added);
+        }
+    }
+    std::ranges::sort(files.all);
+    return files;
+}
+
+Result<fs::path> catalog_directory(const std::string& cache, const NamedFiles& files) {
+    std::set<std::string> parents;
+    for (const fs::path& path : files.named)
+        parents.insert(path.parent_path().native());
+    const std::string all = fmt::format("{}", fmt::join(parents, "\n"));
+    const auto name =
+        fmt::format("files-{:016x}", xxh3_64(std::as_bytes(std::span(all.data(), all.size()))));
+    if (!cache.empty()) {
+        std::error_code error;
+        const fs::path below = fs::absolute(cache, error);
+        if (error) return fail(ErrorCode::io, "{}: {}", cache, error.message());
+        return below / ("." + name) / "catalog";
+    }
+    const auto loops = pipeline::loops_directory();
+    if (!loops) return pass_on(loops);
+    return *loops / name / "catalog";
+}
+
+Result<pipeline::InstanceLock> lock_state(const fs::path& state) {
+    std::error_code error;
+    fs::create_directories(state, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", state.native(), error.message());
+    auto lock = pipeline::InstanceLock::acquire(state);
+    for (int tries = 1; !lock && tries < lock_tries; ++tries) {
+        std::this_thread::sleep_for(lock_pause);
+        lock = pipeline::InstanceLock::acquire(state);
+    }
+    if (lock) return lock;
+    return fail(ErrorCode::busy, "{}: another loop of these files is being made", state.native());
+}
+
+Status make_catalog(const fs::path& catalog, const NamedFiles& files, const LoopOptions& options,
+                    Interrupt& interrupt) {
+    const auto lock = lock_state(catalog.parent_path());
+    if (!lock) return pass_on(lock);
+    Progress bar("files", files.all.size(), !options.quiet);
+    pipeline::RebuildOptions rebuild;
+    rebuild.catalog = catalog;
+    rebuild.drop = "/";
+    rebuild.files = files.all;
+    rebuild.threads = thread_count(options.scene);
+    // What is in the catalog stays there, so the next run continues.
+    rebuild.progress = [&](std::size_t done, std::size_t all) {
+        bar.show(done, all);
+        if (!interrupt.flag()) return;
+        bar.clear();
+        fmt::print(stderr, "stormcellar: interrupted after {} of {} files\n", done, all);
+        interrupt.end_by_signal();
+    };
+    const auto report = pipeline::rebuild_catalog(rebuild);
+    if (!report) return pass_on(report);
+    bar.clear();
+    for (const Error& problem : report->problems)
+        print_note(printable(problem.message));
+    if (report->rejected > 0) {
+        print_note(fmt::format("{} {} no volume that can be decoded", report->rejected,
+                               report->rejected == 1 ? "file holds" : "files hold"));
+    }
+    return {};
+}
+
+// Sets the stations and the times that options do not say.
+Status take_range(const fs::path& catalog, LoopOptions& options) {
+    auto reader = catalog::CatalogReader::open(catalog);
+    if (!reader) return pass_on(reader);
+    const auto stations = reader->station_names();
+    if (!stations) return pass_on(stations);
+    std::vector<std::string> names;
+    UtcTime from = latest, to = earliest;
+    for (const std::string& station : *stations) {
+        const auto volumes = pipeline::archive_volumes(
+            *reader, {station}, {earliest, latest, false, options.archive_files});
+        if (!volumes) return pass_on(volumes);
+        if (volumes->empty() || station.empty()) continue;
+        names.push_back(station);
+        from = std::min(from, volumes->front().start);
+        for (const pipeline::ArchiveVolume& volume : *volumes)
+            to = std::max(to, volume.end);
+    }
+    if (names.empty()) {
+        return fail(ErrorCode::not_found, "none of the files holds a volume of a known station");
+    }
+    if (options.archive.stations.empty() && options.archive.bounds.empty()) {
+        options.archive.stations = fmt::format("{}", fmt::join(names, ","));
+    }
+    if (options.range.from.empty()) options.range.from = format_utc(from);
+    if (options.range.to.empty()) options.range.to = format_utc(to);
+    return {};
+}
+
+}  // namespace
+
+Status catalog_files(LoopOptions& options, Interrupt& interrupt) {
+    auto files = find_files(options.files);
+    if (!files) return pass_on(files);
+    const auto catalog = catalog_directory(options.cache, *files);
+    if (!catalog) return pass_on(catalog);
+    if (auto made = make_catalog(*catalog, *files, options, interrupt); !made) return made;
+    options.archive.catalog = catalog->native();
+    options.archive_files = std::move(files->named);
+    return take_range(*catalog, options);
+}
+
+Status leave_files(const LoopOptions& options) {
+    if (options.files.empty() || options.archive.keep_cache) return {};
+    const fs::path state = fs::path(options.archive.catalog).parent_path();
+    std::error_code error;
+    fs::remove_all(state, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", state.native(), error.message());
+    return {};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,120 @@
+// stormcellar loop FILE..., run as a user runs it.
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/base/file_system.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class FilesLoop : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
+    }
+    [[nodiscard]] static std::string sequence(const std::string& name = "") {
+        return (*testing::data_directory() / "sequence-kbgm" / name).string();
+    }
+    [[nodiscard]] testing::ProgramResult run(std::vector<std::string> sources,
+                                             const std::vector<std::string>& more = {}) const {
+        sources.insert(sources.begin(), "loop");
+        for (const char* word : {"--product", "composite", "--width", "300", "--height", "200",
+                                 "--spacing-km", "4", "--extent-km", "400,400", "--json"})
+            sources.emplace_back(word);
+        sources.insert(sources.end(), {"-o", out()});
+        sources.insert(sources.end(), more.begin(), more.end());
+        return testing::run_program(STORMCELLAR_PROGRAM, sources);
+    }
+    [[nodiscard]] nlohmann::json json_of(const std::vector<std::string>& sources,
+                                         const std::vector<std::string>& more = {}) const {
+        const auto result = run(sources, more);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return nlohmann::json::parse(result.out, nullptr, false);
+    }
+    [[nodiscard]] std::string out() const { return directory_ / "a.webp"; }
+    [[nodiscard]] std::vector<std::byte> loop() const { return *read_file(out()); }
+
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(FilesLoop, ADirectoryItsFilesAndTheirArchiveGiveTheSameLoop) {
+    const auto made = json_of({sequence()});
+    EXPECT_EQ(made["domain"], "KBGM");
+    EXPECT_EQ(made["frames"], 5);
+    EXPECT_EQ(made["grids_made"], 5);
+    EXPECT_EQ(made["from"], "2005-08-22T02:44:14Z");
+    EXPECT_EQ(made["to"], "2005-08-22T03:08:30Z");
+    const auto by_directory = loop();
+
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(sequence())) {
+        files.push_back(entry.path().string());
+    }
+    // The files are those of the directory, so the grids stand.
+    EXPECT_EQ(json_of(files)["grids_found"], 5);
+    EXPECT_EQ(loop(), by_directory);
+
+    const fs::path tar = directory_ / "all.tar";
+    ASSERT_EQ(std::system(("tar cf " + tar.string() + " -C " + sequence() + " .").c_str()), 0);
+    EXPECT_EQ(json_of({tar.string()})["grids_made"], 5);
+    EXPECT_EQ(loop(), by_directory);
+}
+
+TEST_F(FilesLoop, OnlyTheFilesThatAreNamedAreShown) {
+    const std::string second = sequence("KBGM20050822_025001.gz");
+    const std::string third = sequence("KBGM20050822_025549.gz");
+    EXPECT_EQ(json_of({sequence()})["frames"], 5);
+    const auto two = json_of({third, second});
+    EXPECT_EQ(two["frames"], 2);
+    EXPECT_EQ(two["grids_found"], 2);
+    EXPECT_EQ(two["from"], "2005-08-22T02:50:01Z");
+    EXPECT_EQ(json_of({sequence()}, {"--from", "2005-08-22T03:00"})["frames"], 2);
+}
+
+TEST_F(FilesLoop, FilesOfSeveralSitesGiveAMosaic) {
+    const auto made = json_of({(*testing::data_directory() / "mosaic-northeast").string()},
+                              {"--center", "42,-75"});
+    EXPECT_EQ(made["domain"], "mosaic-of-7");
+    EXPECT_EQ(made["volumes"], 7);
+    EXPECT_GE(made["frames"], 4);
+}
+
+TEST_F(FilesLoop, WithoutACacheToKeepNothingStays) {
+    EXPECT_EQ(json_of({sequence("KBGM20050822_025001.gz")}, {"--no-keep-cache"})["frames"], 1);
+    EXPECT_TRUE(fs::is_empty(directory_ / "home" / "stormcellar" / "loops"));
+}
+
+TEST_F(FilesLoop, ACacheThatIsNamedHoldsGridsAndCatalog) {
+    const std::string cache = directory_ / "cache";
+    EXPECT_EQ(json_of({sequence()}, {"--cache", cache})["grids_made"], 5);
+    EXPECT_FALSE(fs::exists(directory_ / "home"));
+    EXPECT_EQ(json_of({sequence()}, {"--cache", cache})["grids_found"], 5);
+}
+
+TEST_F(FilesLoop, SaysWhatItCannotUse) {
+    const auto piped = run({"-"});
+    EXPECT_EQ(piped.status, 2);
+    EXPECT_THAT(piped.err, HasSubstr("standard input"));
+    EXPECT_THAT(run({sequence()}, {"--catalog", "x"}).err, HasSubstr("name only one"));
+    EXPECT_THAT(run({sequence()}, {"--follow"}).err, HasSubstr("--follow is for a domain"));
+    EXPECT_THAT(run({sequence("none.gz")}).err, HasSubstr("none.gz"));
+    fs::create_directory(directory_ / "texts");
+    std::ofstream(directory_ / "texts" / "KBGM20050822_025001.gz") << "no volume at all";
+    const auto texts = run({(directory_ / "texts").string()});
+    EXPECT_EQ(texts.status, 1);
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+}  // namespace
+}  // namespace stormcellar
