@@ -185,7 +185,9 @@ struct OutOfRange {
 Status check_ranges(SceneOptions options) {
     const PictureSettings to{options, options.scene, nullptr};
     for (const PictureOption& row : picture_options()) {
-        if (row.is_of_loop()) continue;
+        // A default out of range stands for nothing given.
+        const bool is_given = contains(options.typed, row) || contains(options.in_file, row);
+        if (row.is_of_loop() || !is_given) continue;
         const auto said = std::visit(OutOfRange{to}, row.value);
         if (!said) continue;
         const bool is_in_file = !contains(options.typed, row) && contains(options.in_file, row);

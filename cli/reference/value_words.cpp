@@ -78,6 +78,9 @@ Names fields() {
     return names;
 }
 
+Names smoothings() {
+    return {"cubic", "none"};
+}
 Names themes() {
     return {std::string(render::theme_name(render::Theme::dark)),
             std::string(render::theme_name(render::Theme::light))};
@@ -176,6 +179,7 @@ const std::vector<ValueWord>& value_words() {
         {"--camera-km", "EAST,NORTH,UP"},
         {"--look-at-km", "EAST,NORTH,UP"},
         {"--theme", "THEME", Kept::nowhere, offered::themes},
+        {"--smooth", "HOW", Kept::nowhere, offered::smoothings},
         {"--geotiff", "CONTENT", Kept::nowhere, offered::tiff_contents},
         {"--panels", "MOMENTS", Kept::nowhere, offered::moments},
         {"--sun", "AZIMUTH,ELEVATION"},
