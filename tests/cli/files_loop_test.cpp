@@ -29,7 +29,7 @@ class FilesLoop : public ::testing::Test {
     [[nodiscard]] testing::ProgramResult run(std::vector<std::string> sources,
                                              const std::vector<std::string>& more = {}) const {
         sources.insert(sources.begin(), "loop");
-        for (const char* word : {"--product", "composite", "--width", "300", "--height", "200",
+        for (const char* word : {"--product", "composite", "--width", "400", "--height", "300",
                                  "--spacing-km", "4", "--extent-km", "400,400", "--json"})
             sources.emplace_back(word);
         sources.insert(sources.end(), {"-o", out()});
