@@ -177,6 +177,7 @@ void read_camera_keys(TomlTable& loop, const render::Camera& usual,
     constexpr NumberRange any_azimuth{-3600, 3600}, whole_turns{-100, 100}, day_s{0, 86'400};
     if (!loop.has("camera")) return;
     keys.clear();
+    bool are_read = true;
     for (TomlTable& table : loop.tables("camera")) {
         render::CameraKey key;
         const auto time_s = table.number("time_s", day_s);
@@ -189,8 +190,14 @@ void read_camera_keys(TomlTable& loop, const render::Camera& usual,
         key.turns = table.whole_number("turns", whole_turns).value_or(0);
         key.eye = read_place(table, "at_km");
         key.look_at = read_place(table, "look_at_km");
+        const auto is_read = [&](const char* name, bool there) {
+            return there || !table.has(name);
+        };
+        are_read = are_read && time_s && is_read("at_km", key.eye.has_value()) &&
+                   is_read("look_at_km", key.look_at.has_value());
         keys.push_back(key);
     }
+    if (!are_read) return;
     if (const auto path = render::CameraPath::make(keys, usual); !path) {
         loop.complain("camera", path.error().message);
     }

@@ -29,7 +29,7 @@ class FilesLoop : public ::testing::Test {
     [[nodiscard]] testing::ProgramResult run(std::vector<std::string> sources,
                                              const std::vector<std::string>& more = {}) const {
         sources.insert(sources.begin(), "loop");
-        for (const char* word : {"--product", "composite", "--width", "300", "--height", "200",
+        for (const char* word : {"--product", "composite", "--width", "400", "--height", "300",
                                  "--spacing-km", "4", "--extent-km", "400,400", "--json"})
             sources.emplace_back(word);
         sources.insert(sources.end(), {"-o", out()});
@@ -79,7 +79,8 @@ TEST_F(FilesLoop, OnlyTheFilesThatAreNamedAreShown) {
     EXPECT_EQ(two["frames"], 2);
     EXPECT_EQ(two["grids_found"], 2);
     EXPECT_EQ(two["from"], "2005-08-22T02:50:01Z");
-    EXPECT_EQ(json_of({sequence()}, {"--from", "2005-08-22T03:00"})["frames"], 2);
+    // Of the three volumes, the first began before that and ended after it.
+    EXPECT_EQ(json_of({sequence()}, {"--from", "2005-08-22T03:00"})["frames"], 3);
 }
 
 TEST_F(FilesLoop, FilesOfSeveralSitesGiveAMosaic) {

@@ -297,7 +297,8 @@ TEST_F(SceneFileTest, KeysOfTheCameraThatMakeNoSenseAreRefused) {
                 HasSubstr("time_s: is missing"));
     EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\n[[loop.camera]]\ntime_s = 0\n"),
                 HasSubstr("key 2"));
-    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nzom = 3\n"), HasSubstr("zom"));
+    EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nzom = 3\n[[loop.camera]]\ntime_s = 1\n"),
+                HasSubstr("zom"));
     EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nat_km = [1, 2]\n"),
                 HasSubstr("must be [east, north, up]"));
 }
