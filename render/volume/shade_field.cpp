@@ -48,6 +48,7 @@ class ShadeField::Baker {
         // Differences reach from the coarse cell before to the one after.
         per_m_ = {static_cast<float>(0.5 / (cells_across * spec.cell_width_m())),
                   static_cast<float>(0.5 / (cells_across * spec.cell_height_m())), 0.5F / level_m};
+        place_eye();
     }
 
     void place_eye() {
