@@ -64,7 +64,7 @@ struct Planned {
     Planned& operator=(const Planned&) = delete;
 };
 
-bool overlap(const Rect& a, const Rect& b) {
+bool marks_overlap(const Rect& a, const Rect& b) {
     return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
@@ -82,13 +82,14 @@ void expect_tidy(const Planned& planned) {
         EXPECT_LE(boxes[i].first.right(), planned.view.width()) << boxes[i].second;
         EXPECT_LE(boxes[i].first.bottom(), planned.view.height()) << boxes[i].second;
         for (std::size_t j = 0; j < i; ++j) {
-            EXPECT_FALSE(overlap(boxes[i].first, boxes[j].first))
+            EXPECT_FALSE(marks_overlap(boxes[i].first, boxes[j].first))
                 << boxes[i].second << " and " << boxes[j].second;
         }
         // No name is on a mark, its own or another.
         for (const auto* points : {&planned.marks.sites, &planned.marks.cities}) {
             for (const Point& p : *points) {
-                EXPECT_FALSE(overlap(boxes[i].first, {p.x - 1, p.y - 1, 2, 2})) << boxes[i].second;
+                EXPECT_FALSE(marks_overlap(boxes[i].first, {p.x - 1, p.y - 1, 2, 2}))
+                    << boxes[i].second;
             }
         }
     }
