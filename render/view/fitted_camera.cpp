@@ -18,7 +18,7 @@ constexpr double wider_share = 0.12, wider_m = 5e3;
 constexpr double least_half_m = 15e3;  // of the region, in each direction
 constexpr double filled_share = 0.84;
 constexpr double fitted_field_of_view_deg = 40;
-constexpr double usual_azimuth_deg = 180, farthest_turn_deg = 40;
+constexpr double usual_azimuth_deg = 180, farthest_turn_deg = 45;
 constexpr double long_ratio = 1.8;  // a region as long as this times its width is a line
 constexpr double top_dbz = 18;
 constexpr double least_top_m = 2e3;

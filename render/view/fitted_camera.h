@@ -9,7 +9,7 @@
 //            region are shown too. Moments other than REF show all columns with a value.
 //   place    The ground under these columns and their tops fill 84 % of the picture, in one of its
 //            two directions. The solution is exact, not iterated.
-//   azimuth  From the south; a long region is seen from its long side, at most 40 degrees from the
+//   azimuth  From the south; a long region is seen from its long side, at most 45 degrees from the
 //            south.
 //   tilt, exaggeration, opacity
 //            From the size of the region: near storms are seen from aside (70 degrees, exaggeration
