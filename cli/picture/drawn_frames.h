@@ -2,8 +2,8 @@
 //
 // When one grid arrives, all frames of the next loop but one are those of the last loop. A frame is
 // identified by the file of its grid (path, inode, time and size) and by the parts of the scene
-// that may differ from frame to frame, from plan to plan or with the echo: the camera, exaggeration,
-// opacity, light, slices, integration and rays.
+// that may differ from frame to frame, from plan to plan or with the echo: the camera,
+// exaggeration, opacity, light, slices, integration and rays.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -189,7 +189,7 @@ ColourTable vil_density_table() {
         {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C}, {3.5, 0xFF5A36},
         {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
     };
-    return of_product("vil-density", "g/m3", classes, 7);
+    return of_product("water-density", "g/m3", classes, 7);
 }
 
 ColourTable safe_reflectivity_table() {

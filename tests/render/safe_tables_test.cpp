@@ -134,8 +134,8 @@ TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(velocity, sights[0]), least_safe_step);
 }
 
-// Two values of a smooth table that are so far apart differ for everybody. Those of reflectivity are
-// not in the middle of the 1 dB in which a hue changes.
+// Two values of a smooth table that are so far apart differ for everybody. Those of reflectivity
+// are not in the middle of the 1 dB in which a hue changes.
 struct FarApart {
     const char* table;
     float from, to, apart, step;

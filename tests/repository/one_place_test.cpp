@@ -88,7 +88,8 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
     const auto keys = names_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
     ASSERT_GE(keys.size(), 28U);
     // These are words that the metadata and the JSON of a picture have as well.
-    const std::set<std::string> also_facts{"product", "moment", "width", "height"};
+    const std::set<std::string> also_facts{"product", "moment", "width",  "height",
+                                           "frames",  "sweep",  "smooth", "elevation"};
     // A key of [[loop.camera]] has these too; what is fitted to the echo asks whether they were
     // given.
     const std::set<std::string> of_the_view{

@@ -110,8 +110,8 @@ class ViewGeometry {
     double near_m_ = 0, far_m_ = 0;
 };
 
-// Returns the camera with the azimuth and the tilt by which it looks at its look_at, if it has a place
-// of its own. A camera that is right above or below that point keeps its azimuth.
+// Returns the camera with the azimuth and the tilt by which it looks at its look_at, if it has a
+// place of its own. A camera that is right above or below that point keeps its azimuth.
 [[nodiscard]] Camera aimed(const Camera& camera, double vertical_exaggeration,
                            bool curved_earth = false);
 
