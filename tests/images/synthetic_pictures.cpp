@@ -75,6 +75,7 @@ Scene scene_of(const std::string& name) {
         Scene scene = base_scene(Product::volume);
         scene.camera.azimuth_deg = 160;
         scene.camera.tilt_deg = 40;
+        scene.opacity = 6;
         scene.labels = false;
         return scene;
     }

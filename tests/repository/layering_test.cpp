@@ -56,7 +56,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"beam", {}},
       {"cells", {"beam", "frame"}},
       {"place", {"beam", "cells", "frame"}},
-      {"sweep", {"beam", "cells", "place"}},
+      {"sweep", {"beam", "cells", "frame", "place"}},
       {"fill", {"beam", "cells", "place", "sweep"}},
       {"mosaic", {"beam", "cells", "fill", "place", "sweep"}},
       {"plan", {"beam", "cells", "fill", "frame", "place", "sweep"}},
