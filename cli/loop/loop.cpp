@@ -280,6 +280,12 @@ Result<render::Scene> check(LoopOptions& options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return pass_on(plan);
     options.plan = std::move(*plan);
+    // A check looks at no cache, which may not be there yet.
+    const bool has_source =
+        !options.domain.empty() || !options.sources.empty() || options.archive.asked();
+    if (options.only_check && !has_source) {
+        return fail(ErrorCode::bad_argument, "a loop that is kept needs a domain: --domain");
+    }
     if (auto taken = take_sources(options); !taken) return pass_on(taken);
     if (auto fine = check_sources(options); !fine) return pass_on(fine);
     return scene;

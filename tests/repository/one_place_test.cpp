@@ -95,7 +95,7 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
     const std::set<std::string> of_the_view{
         "azimuth_deg", "tilt_deg",   "zoom",         "field_of_view_deg",
         "at_km",       "look_at_km", "exaggeration", "opacity",
-        "sun_deg",     "kinds",      "orbit_deg"};
+        "sun_deg",     "kinds",      "orbit_deg",    "elevation_deg"};
     for (const std::string& key : keys) {
         if (also_facts.contains(key) || of_the_view.contains(key)) continue;
         EXPECT_EQ(sources_with(quoted(key), {"cli/picture", "cli/loop"}), option_table) << key;
