@@ -281,8 +281,8 @@ Result<render::Scene> check(LoopOptions& options) {
     if (!plan) return pass_on(plan);
     options.plan = std::move(*plan);
     // A check looks at no cache, which may not be there yet.
-    const bool has_source =
-        !options.domain.empty() || !options.sources.empty() || options.archive.asked();
+    const bool has_source = !options.domain.empty() || !options.typed_domain.empty() ||
+                            !options.sources.empty() || options.archive.asked();
     if (options.only_check && !has_source) {
         return fail(ErrorCode::bad_argument, "a loop that is kept needs a domain: --domain");
     }

@@ -124,6 +124,9 @@ const std::vector<ValueWord>& value_words() {
         // what an option names
         {"DOMAIN", "DOMAIN", Kept::domains},
         {"--domain", "DOMAIN", Kept::domains},
+        // Files are offered beside domains.
+        {"FILE", "FILE", Kept::domains, nullptr, "frame"},
+        {"FILE", "FILE", Kept::domains, nullptr, "loop"},
         {"--station", "STATION", Kept::stations},
         {"--stations", "STATIONS", Kept::stations},
         {"COMMAND", "COMMAND", Kept::commands},
