@@ -1,6 +1,4 @@
 // stormcellar frame: draws one still picture, of files or of a grid in the cache.
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,205 +6,25 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
-#include "base/floating_point.h"
 #include "base/name_list.h"
 #include "base/steady_time.h"
 #include "cli/picture/fitted_view.h"
-#include "cli/picture/picture.h"
+#include "cli/picture/frame_options.h"
+#include "cli/picture/frame_panels.h"
+#include "cli/picture/frame_probe.h"
+#include "cli/picture/frame_report.h"
+#include "cli/picture/frame_sources.h"
 #include "cli/picture/picture_grid.h"
 #include "cli/picture/picture_metadata.h"
-#include "cli/picture/picture_panels.h"
 #include "cli/picture/picture_plan.h"
-#include "cli/picture/scene_file.h"
-#include "cli/picture/scene_options.h"
 #include "cli/picture/still_output.h"
-#include "cli/shared/cache_domain.h"
 #include "cli/shared/commands.h"
-#include "cli/shared/query_options.h"
-#include "cli/shared/service_places.h"
-#include "render/frame/probe.h"
-#include "render/products/section.h"
-#include "stormcellar/base/file_system.h"
-#include "stormcellar/base/version.h"
-#include "stormcellar/cache/store.h"
-#include "stormcellar/render/product.h"
+#include "stormcellar/render/render.h"
 #include "stormcellar/render/still.h"
 
 namespace stormcellar::cli {
 namespace {
-
-struct FrameOptions {
-    std::vector<std::string> sources;  // files, or a domain
-    std::string domain;
-    PlaceOption cache;
-    GridOptions grid;      // of files
-    std::string time;      // empty: the latest
-    std::string output;    // empty: nothing is drawn, only probed
-    std::string panels;    // moments of a picture with several; empty: one
-    std::string probe;     // "X,Y"
-    std::string probe_at;  // "LAT,LON"
-    std::string geotiff;   // what a GeoTIFF holds
-    render::TiffContent tiff = render::TiffContent::values;
-    bool json = false;
-    SceneFile scene_file;
-    SceneOptions scene;
-    PicturePlanOptions plan;
-};
-
-// Returns the time at or before which a grid is looked for; none: now.
-Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
-    if (options.time.empty()) return std::optional<UtcTime>{};
-    const auto time = parse_utc(options.time, now_utc());
-    if (!time) return fail(time.error().code, "--time: {}", time.error().message);
-    return std::optional{*time};
-}
-
-// Returns the newest grid of the domain at or before the time; none if there is none.
-Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
-                                                   const FrameOptions& options,
-                                                   level2::Moment moment) {
-    const auto until = until_of(options);
-    if (!until) return pass_on(until);
-    auto entries = store.list(options.domain, moment, std::nullopt, *until);
-    if (!entries) return pass_on(entries);
-    if (!*until) cache::leave_out_future(*entries, now_utc());
-    if (entries->empty()) return std::optional<cache::StoreEntry>{};
-    if (!*until) warn_of_future(entries->back().time);
-    return std::optional{entries->back()};
-}
-
-int report_nothing(const cache::StoreReader& store, const FrameOptions& options,
-                   level2::Moment moment) {
-    return report_no_grid(
-        store, options.domain, moment,
-        options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
-}
-
-struct Timing {
-    double read_s = 0, render_s = 0, write_s = 0, total_s = 0;
-};
-
-using Json = nlohmann::ordered_json;
-
-Json json_or_null(const std::optional<double>& number) {
-    return number ? Json(*number) : Json();
-}
-
-Json json_of(const render::Probe& probe) {
-    const bool valued = probe.status == grid::CellStatus::value;
-    Json json{{"latitude_deg", probe.place.latitude_deg},
-              {"longitude_deg", probe.place.longitude_deg},
-              {"status", grid::cell_status_name(probe.status)},
-              {"value", valued ? Json(probe.value) : Json()},
-              {"unit", probe.unit},
-              {"at_least", probe.at_least},
-              {"height_m", json_or_null(probe.height_m)},
-              {"lowest_seen_m", json_or_null(probe.lowest_seen_m)},
-              {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
-    if (probe.distance_m) json["distance_m"] = *probe.distance_m;
-    if (probe.gate) {
-        json["gate"] = {
-            {"radial", probe.gate->radial},           {"gate", probe.gate->gate},
-            {"azimuth_deg", probe.gate->azimuth_deg}, {"elevation_deg", probe.gate->elevation_deg},
-            {"range_m", probe.gate->range_m},         {"time", format_utc(probe.gate->time)}};
-    }
-    return json;
-}
-
-// Prints a line for the place, one for what is there, and one for how far the column was seen.
-void print_probe(const render::Probe& probe, const FrameOptions& options,
-                 const render::Scene& scene, const cache::GridDescription& grid) {
-    fmt::print("{} {}, {}\n", printable(options.domain), format_utc(grid.time),
-               render::product_title(scene));
-    fmt::print("place  {}", render::place_text(probe.place));
-    if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
-    fmt::print("\nvalue  {}", render::probe_text(probe));
-    if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
-    if (probe.gate) {
-        fmt::print(
-            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
-            "time   {}\n",
-            probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
-            probe.gate->elevation_deg, probe.gate->range_m / 1000, format_utc(probe.gate->time));
-    } else if (render::facts_of(scene.product).is_of_sweep) {
-        fmt::print("\nseen   by no radial\n");
-    } else if (probe.lowest_seen_m) {
-        fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
-                   *probe.highest_seen_m / 1000);
-    } else {
-        fmt::print("\nseen   at no height\n");
-    }
-}
-
-using MaybeProbe = std::optional<render::Probe>;
-
-void report_frame(const FrameOptions& options, const render::Scene& scene,
-                  const cache::GridDescription& grid, const Timing& timing,
-                  const MaybeProbe& probe) {
-    if (!options.json) {
-        if (probe) print_probe(*probe, options, scene, grid);
-        if (options.output.empty()) return;
-        const bool is_data = still_format(options.output).encode_map != nullptr;
-        fmt::print(stderr, "{}: {} {}, {}, {} x {} {}, {:.0f} ms\n", printable(options.output),
-                   printable(options.domain), format_utc(grid.time), options.scene.product,
-                   is_data ? grid.spec.nx : scene.width, is_data ? grid.spec.ny : scene.height,
-                   is_data ? "cells" : "pixels", timing.total_s * 1e3);
-        return;
-    }
-    Json json;
-    if (!options.output.empty()) json["output"] = options.output;
-    json["domain"] = options.domain;
-    json["time"] = format_utc(grid.time);
-    json["product"] = options.scene.product;
-    json["moment"] = options.scene.moment;
-    json["width"] = scene.width;
-    json["height"] = scene.height;
-    json["partial"] = grid.provenance.partial;
-    if (probe) json["probe"] = json_of(*probe);
-    json["read_s"] = timing.read_s;
-    json["render_s"] = timing.render_s;
-    json["write_s"] = timing.write_s;
-    json["total_s"] = timing.total_s;
-    fmt::print("{}\n", json.dump(1, ' ', true, Json::error_handler_t::replace));
-}
-
-Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
-                              const PictureGrid& file) {
-    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
-    const int threads = thread_count(options.scene);
-    const auto as_maybe = [](Result<render::Probe> probe) -> Result<MaybeProbe> {
-        if (!probe) return pass_on(probe);
-        return MaybeProbe{std::move(*probe)};
-    };
-    if (!options.probe.empty()) {
-        const auto pixel = numbers_of("--probe", options.probe, 2);
-        if (!pixel) return pass_on(pixel);
-        const double x = (*pixel)[0];
-        const double y = (*pixel)[1];
-        if (std::floor(x) != x || std::floor(y) != y) {
-            return fail(ErrorCode::bad_argument, "--probe needs two whole numbers, not '{}'",
-                        options.probe);
-        }
-        if (!is_within(x, 0.0, scene.width - 1.0) || !is_within(y, 0.0, scene.height - 1.0)) {
-            return fail(ErrorCode::bad_argument,
-                        "--probe {} lies outside the picture of {} x {} pixels: 0,0 to {},{}",
-                        options.probe, scene.width, scene.height, scene.width - 1,
-                        scene.height - 1);
-        }
-        return as_maybe(render::probe_pixel(file.view(), facts, scene, static_cast<int>(x),
-                                            static_cast<int>(y), threads));
-    }
-    if (!options.probe_at.empty()) {
-        const auto place = numbers_of("--probe-at", options.probe_at, 2);
-        if (!place) return pass_on(place);
-        return as_maybe(
-            render::probe_place(file.view(), facts, scene, {(*place)[0], (*place)[1]}, threads));
-    }
-    return MaybeProbe{};
-}
 
 // Draws the scene and encodes the picture; of a format of maps, encodes the map of the grid
 // instead. Calls `drawn` between the two.
@@ -222,9 +40,9 @@ Result<std::vector<std::byte>> encode_frame(const render::StillFormat& format,
     return format.encode_picture(*picture, options);
 }
 
-Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scene,
-                          const PictureGrid& file, SteadyTime start) {
-    Timing timing;
+Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene& scene,
+                               const PictureGrid& file, SteadyTime start) {
+    FrameTiming timing;
     timing.read_s = seconds_since(start);
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
     const int threads = thread_count(options.scene);
@@ -252,153 +70,6 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     return timing;
 }
 
-Status check_options(const FrameOptions& options) {
-    const bool probes = !options.probe.empty() || !options.probe_at.empty();
-    if (!options.probe.empty() && !options.probe_at.empty()) {
-        return fail(ErrorCode::bad_argument, "--probe and --probe-at cannot be used together");
-    }
-    if (options.output.empty()) {
-        if (probes) return {};
-        return fail(ErrorCode::bad_argument,
-                    "there is nothing to do; give -o, --probe or --probe-at");
-    }
-    return {};
-}
-
-// Checks what -o and --geotiff say together with the product.
-Status check_output(FrameOptions& options, render::Product product) {
-    if (options.output.empty()) return {};
-    if (Status fits = check_still_output(options.output, product, options.json); !fits) return fits;
-    const auto tiff = parse_tiff_content(options.geotiff, options.output);
-    if (!tiff) return pass_on(tiff);
-    options.tiff = *tiff;
-    return {};
-}
-
-// Opens the cache and says which domain is meant.
-Result<cache::StoreReader> open_store(FrameOptions& options) {
-    if (has_picture_grid_options(options.grid)) {
-        return fail(ErrorCode::bad_argument,
-                    "options of the grid, such as --center, are for files; the grids of the cache "
-                    "are made already");
-    }
-    if (Status found = options.cache.find(); !found) {
-        if (options.sources.empty()) return pass_on(found);
-        return fail(ErrorCode::bad_argument,
-                    "'{}' names no file here, and there is no cache to look for such a domain; {}",
-                    options.domain, found.error().message);
-    }
-    auto store = cache::StoreReader::open(options.cache.directory);
-    if (!store) return store;
-    if (options.domain.empty()) {
-        if (Status taken = take_only_domain(*store, options.domain); !taken) return pass_on(taken);
-    }
-    return store;
-}
-
-// Returns none, after it was reported, if no grid matched.
-Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, const render::Scene& scene) {
-    const level2::Moment moment = scene.moment;
-    if (render::facts_of(scene.product).is_of_sweep) {
-        return fail(ErrorCode::bad_argument,
-                    "{} shows a sweep, and the cache holds grids; name the Level II file to draw",
-                    render::product_name(scene.product));
-    }
-    const auto store = open_store(options);
-    if (!store) return pass_on(store);
-    const auto entry = find_grid(*store, options, moment);
-    if (!entry) return pass_on(entry);
-    if (!*entry) {
-        report_nothing(*store, options, moment);
-        return std::optional<PictureGrid>{};
-    }
-    auto grid = PictureGrid::open((*entry)->path);
-    if (!grid) return pass_on(grid);
-    return std::optional{std::move(*grid)};
-}
-
-Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
-                                                 const render::Scene& scene) {
-    options.grid.moment = options.scene.moment;
-    options.grid.threads = thread_count(options.scene);
-    options.grid.time = options.time;
-    auto grid = render::facts_of(scene.product).is_of_sweep
-                    ? PictureGrid::make_sweep(options.grid, scene)
-                    : PictureGrid::make(options.grid);
-    if (!grid) return pass_on(grid);
-    options.domain = grid->name();
-    return std::optional{std::move(*grid)};
-}
-
-// Sorts the words of the command line into files and a domain.
-Status take_sources(FrameOptions& options) {
-    auto names = tell_apart_from_cache(options.sources, options.domain, options.cache);
-    if (!names) return pass_on(names);
-    options.grid.files = std::move(names->files);
-    options.domain = std::move(names->domain);
-    return {};
-}
-
-Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
-                                                 const std::vector<PanelScene>& panels) {
-    if (Status taken = take_sources(options); !taken) return pass_on(taken);
-    if (options.grid.files.empty()) {
-        const auto store = open_store(options);
-        if (!store) return pass_on(store);
-        const auto until = until_of(options);
-        if (!until) return pass_on(until);
-        return stored_panels(*store, options.domain, panels, *until);
-    }
-    options.grid.threads = thread_count(options.scene);
-    options.grid.time = options.time;
-    auto grids = gridded_panels(options.grid, panels);
-    if (grids) options.domain = grids->front().name();
-    return grids;
-}
-
-Result<Timing> make_panels(FrameOptions& options, const std::vector<PanelScene>& panels,
-                           const std::vector<PictureGrid>& grids, SteadyTime start) {
-    Timing timing;
-    timing.read_s = seconds_since(start);
-    const auto picture = draw_panels(options.domain, panels, grids, options.scene);
-    if (!picture) return pass_on(picture);
-    timing.render_s = seconds_since(start) - timing.read_s;
-    const auto& first = grids.front().description();
-    const render::StillOptions still{
-        .metadata = metadata_of({options.domain, first.time, first.time, std::nullopt, {}, {}},
-                                first, panels.front().scene)};
-    const auto bytes = still_format(options.output).encode_picture(*picture, still);
-    if (!bytes) return pass_on(bytes);
-    if (auto written = write_still(options.output, *bytes); !written) return pass_on(written);
-    timing.total_s = seconds_since(start);
-    timing.write_s = timing.total_s - timing.read_s - timing.render_s;
-    return timing;
-}
-
-int run_panels(FrameOptions& options, SteadyTime start) {
-    if (!options.probe.empty() || !options.probe_at.empty()) {
-        return report_error({ErrorCode::bad_argument,
-                             "--probe and --probe-at are for a picture of one moment, not for "
-                             "--panels"});
-    }
-    const auto panels = panel_scenes(options.panels, options.scene_file, options.scene);
-    if (!panels) return report_error(panels.error());
-    if (const Status fine = check_output(options, panels->front().scene.product); !fine)
-        return report_error(fine.error());
-    if (still_format(options.output).encode_picture == nullptr) {
-        return report_error(
-            {ErrorCode::bad_argument, "--panels makes a picture; GeoTIFF and KMZ hold one map"});
-    }
-    const auto grids = grids_of_panels(options, *panels);
-    if (!grids) return report_error(grids.error());
-    if (grids->empty()) return exit_nothing_matched;
-    const auto timing = make_panels(options, *panels, *grids, start);
-    if (!timing) return report_error(timing.error());
-    options.scene.moment = options.panels;
-    report_frame(options, panels->front().scene, grids->front().description(), *timing, {});
-    return exit_done;
-}
-
 // Chooses what was not asked for by the echo. A sweep is seen from above, as it is.
 Status fit_scene(const FrameOptions& options, const PictureGrid& grid, render::Scene& scene) {
     if (grid.view().sweep != nullptr) {
@@ -414,18 +85,16 @@ Status fit_scene(const FrameOptions& options, const PictureGrid& grid, render::S
 int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
-    if (const Status fine = check_options(options); !fine) return report_error(fine.error());
+    if (const Status fine = check_frame_options(options); !fine) return report_error(fine.error());
     if (!options.panels.empty()) return run_panels(options, start);
     auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
-    if (const Status fine = check_output(options, scene->product); !fine)
+    if (const Status fine = check_frame_output(options, scene->product); !fine)
         return report_error(fine.error());
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
     options.plan = std::move(*plan);
-    if (const Status taken = take_sources(options); !taken) return report_error(taken.error());
-    const auto grid =
-        options.grid.files.empty() ? stored_grid(options, *scene) : grid_of_files(options, *scene);
+    const auto grid = grid_of_frame(options, *scene);
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
     if (const Status fitted = fit_scene(options, **grid, *scene); !fitted)
@@ -433,7 +102,7 @@ int run_frame(FrameOptions options) {
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
-    Timing timing{seconds_since(start), 0, 0, seconds_since(start)};
+    FrameTiming timing{seconds_since(start), 0, 0, seconds_since(start)};
     if (!options.output.empty()) {
         const auto drawn = make_frame(options, *scene, **grid, start);
         if (!drawn) return report_error(drawn.error());

@@ -1,0 +1,12 @@
+// cli/picture/frame_panels.h -- frame --panels: one picture of several moments.
+#pragma once
+
+#include "base/steady_time.h"
+#include "cli/picture/frame_options.h"
+
+namespace stormcellar::cli {
+
+// Draws and reports the picture; `start` is when the command began. Returns the exit status.
+[[nodiscard]] int run_panels(FrameOptions& options, SteadyTime start);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,29 @@
+// cli/picture/frame_probe.h -- frame --probe and --probe-at: what is at one place of a picture.
+#pragma once
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/picture/frame_options.h"
+#include "cli/picture/picture_grid.h"
+#include "render/frame/probe.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::cli {
+
+using MaybeProbe = std::optional<render::Probe>;
+
+// Returns none if no option asks for it. Errors: bad_argument, naming the option, for a text that
+// is no place of the picture; those of probe_pixel() and probe_place().
+[[nodiscard]] Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
+                                            const PictureGrid& file);
+
+// Prints a line for the place, one for what is there, and one for how far the column was seen, or
+// which gate it is.
+void print_probe(const render::Probe& probe, const FrameOptions& options,
+                 const render::Scene& scene, const cache::GridDescription& grid);
+// The same for --json.
+[[nodiscard]] nlohmann::ordered_json json_of(const render::Probe& probe);
+
+}  // namespace stormcellar::cli
