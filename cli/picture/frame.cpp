@@ -25,10 +25,12 @@
 #include "cli/picture/still_output.h"
 #include "cli/shared/cache_domain.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/named_place.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"
 #include "render/frame/probe.h"
 #include "render/products/section.h"
+#include "render/view/length_text.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/store.h"
@@ -47,7 +49,7 @@ struct FrameOptions {
     std::string output;    // empty: nothing is drawn, only probed
     std::string panels;    // moments of a picture with several; empty: one
     std::string probe;     // "X,Y"
-    std::string probe_at;  // "LAT,LON"
+    std::string probe_at;  // a place
     std::string geotiff;   // what a GeoTIFF holds
     render::TiffContent tiff = render::TiffContent::values;
     bool json = false;
@@ -122,20 +124,27 @@ void print_probe(const render::Probe& probe, const FrameOptions& options,
     fmt::print("{} {}, {}\n", printable(options.domain), format_utc(grid.time),
                render::product_title(scene));
     fmt::print("place  {}", render::place_text(probe.place));
-    if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
-    fmt::print("\nvalue  {}", render::probe_text(probe));
-    if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
+    const render::UnitFacts& distance = render::facts_of(scene.units.distance);
+    const render::UnitFacts& height = render::facts_of(scene.units.height);
+    const auto height_number = [&](double height_m) {
+        return render::number_text(height_m / height.si, 4);
+    };
+    if (probe.distance_m)
+        fmt::print(", {:.1f} {} from A", *probe.distance_m / distance.si, distance.symbol);
+    fmt::print("\nvalue  {}", render::probe_text(probe, scene.units));
+    if (probe.height_m) fmt::print(" at {} {}", height_number(*probe.height_m), height.symbol);
     if (probe.gate) {
         fmt::print(
-            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
+            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {} {}\n"
             "time   {}\n",
             probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
-            probe.gate->elevation_deg, probe.gate->range_m / 1000, format_utc(probe.gate->time));
+            probe.gate->elevation_deg, render::number_text(probe.gate->range_m / distance.si),
+            distance.symbol, format_utc(probe.gate->time));
     } else if (render::facts_of(scene.product).is_of_sweep) {
         fmt::print("\nseen   by no radial\n");
     } else if (probe.lowest_seen_m) {
-        fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
-                   *probe.highest_seen_m / 1000);
+        fmt::print("\nseen   {} to {} {}\n", height_number(*probe.lowest_seen_m),
+                   height_number(*probe.highest_seen_m), height.symbol);
     } else {
         fmt::print("\nseen   at no height\n");
     }
@@ -200,10 +209,9 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
                                             static_cast<int>(y), threads));
     }
     if (!options.probe_at.empty()) {
-        const auto place = numbers_of("--probe-at", options.probe_at, 2);
+        const auto place = parse_place("--probe-at", options.probe_at);
         if (!place) return pass_on(place);
-        return as_maybe(
-            render::probe_place(file.view(), facts, scene, {(*place)[0], (*place)[1]}, threads));
+        return as_maybe(render::probe_place(file.view(), facts, scene, *place, threads));
     }
     return MaybeProbe{};
 }
@@ -234,7 +242,10 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     if (!done) return pass_on(done);
     const PictureFacts told{
         options.domain, file.description().time, file.description().time, std::nullopt, {}, *done};
-    render::StillOptions still{.metadata = metadata_of(told, file.description(), planned),
+    render::Scene written = planned;
+    // Data stay in the units of the grid.
+    if (still_format(options.output).encode_map != nullptr) written.units = {};
+    render::StillOptions still{.metadata = metadata_of(told, file.description(), written),
                                .tiff = options.tiff,
                                .threads = threads};
     // A map as data has no picture's size.
@@ -478,8 +489,9 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");
-    frame.add_option("--probe-at", options->probe_at,
-                     "Print the value at this place: LAT,LON in degrees (maps and volumes)");
+    frame.add_option(
+        "--probe-at", options->probe_at,
+        fmt::format("Print the value at this place (maps and volumes): {}", place_for_help));
     frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);
