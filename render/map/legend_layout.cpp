@@ -18,9 +18,10 @@ void put_swatch(LabelBuilder& builder, const LegendRow& row, double x, double ba
                   row.colour, row.hatched);
 }
 
-void lay_out_upright_bar(LabelBuilder& builder, const ColourTable& table, const Rect& box) {
+void lay_out_upright_bar(LabelBuilder& builder, const Legend& legend, const Rect& box) {
     const double text_height = builder.scaled(bar_text);
-    const ColourBar bar = colour_bar(table, box, 1.15 * text_height, builder.shades().land.seen);
+    const ColourBar bar = colour_bar({*legend.table, legend.shown_per_value}, box,
+                                     1.15 * text_height, builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
     builder.outline(box);
@@ -42,8 +43,8 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     const double aside = builder.scaled(16);
     const double left = std::round(band.x + heading + aside);
     const Rect box = {left, top, std::max(1.0, std::floor(band.right() - aside - left)), height};
-    const ColourBar bar =
-        lying_bar(*legend.table, box, width_of, builder.scaled(7), builder.shades().land.seen);
+    const ColourBar bar = lying_bar({*legend.table, legend.shown_per_value}, box, width_of,
+                                    builder.scaled(7), builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
     builder.outline(box);
@@ -127,7 +128,7 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
     if (legend.table == nullptr) return;
     builder.put(legend.bar_heading, x, panel.y + builder.scaled(13), room, builder.strong(11));
     const double top = std::round(panel.y + builder.scaled(24));
-    lay_out_upright_bar(builder, *legend.table,
+    lay_out_upright_bar(builder, legend,
                         {std::round(x), top, std::round(builder.scaled(18)),
                          std::max(15.0, std::round(y - builder.scaled(2) - top))});
 }
