@@ -22,7 +22,8 @@ bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& 
         moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
 }
 
-// Decodes the metadata, so that the pattern says which cuts are needed. Returns none if it does not.
+// Decodes the metadata, so that the pattern says which cuts are needed. Returns none if it does
+// not.
 std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
                                            level2::DecodeOptions options,
                                            const std::vector<level2::Moment>& moments,

@@ -97,12 +97,10 @@ Json json_of(const render::Probe& probe) {
               {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
     if (probe.distance_m) json["distance_m"] = *probe.distance_m;
     if (probe.gate) {
-        json["gate"] = {{"radial", probe.gate->radial},
-                        {"gate", probe.gate->gate},
-                        {"azimuth_deg", probe.gate->azimuth_deg},
-                        {"elevation_deg", probe.gate->elevation_deg},
-                        {"range_m", probe.gate->range_m},
-                        {"time", format_utc(probe.gate->time)}};
+        json["gate"] = {
+            {"radial", probe.gate->radial},           {"gate", probe.gate->gate},
+            {"azimuth_deg", probe.gate->azimuth_deg}, {"elevation_deg", probe.gate->elevation_deg},
+            {"range_m", probe.gate->range_m},         {"time", format_utc(probe.gate->time)}};
     }
     return json;
 }
@@ -117,11 +115,11 @@ void print_probe(const render::Probe& probe, const FrameOptions& options,
     fmt::print("\nvalue  {}", render::probe_text(probe));
     if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
     if (probe.gate) {
-        fmt::print("\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
-                   "time   {}\n",
-                   probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
-                   probe.gate->elevation_deg, probe.gate->range_m / 1000,
-                   format_utc(probe.gate->time));
+        fmt::print(
+            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
+            "time   {}\n",
+            probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
+            probe.gate->elevation_deg, probe.gate->range_m / 1000, format_utc(probe.gate->time));
     } else if (render::facts_of(scene.product).is_of_sweep) {
         fmt::print("\nseen   by no radial\n");
     } else if (probe.lowest_seen_m) {

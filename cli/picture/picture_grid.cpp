@@ -184,9 +184,8 @@ Result<PictureGrid> PictureGrid::make_sweep(GridOptions options, const render::S
     if (!request) return pass_on(request);
     request->inputs = *inputs;
     const grid::SweepWish wish = wish_of(scene, request->frame_time);
-    auto source = load_volume(file, *request, [&wish](const level2::Volume& volume) {
-        return cuts_of(volume, wish);
-    });
+    auto source = load_volume(
+        file, *request, [&wish](const level2::Volume& volume) { return cuts_of(volume, wish); });
     if (!source) return pass_on(source);
     auto volumes = std::make_shared<std::vector<SourceVolume>>();
     volumes->push_back(std::move(*source));
@@ -197,8 +196,8 @@ Result<PictureGrid> PictureGrid::make_sweep(GridOptions options, const render::S
     auto plane = plane_of(*request, options, *sweep);
     if (!plane) return pass_on(plane);
     auto description = describe_sweep(*sweep, std::move(*plane), kept, file);
-    return PictureGrid(std::make_unique<Swept>(Swept{
-        kept.site.icao, std::move(description), std::move(volumes), std::move(*sweep)}));
+    return PictureGrid(std::make_unique<Swept>(
+        Swept{kept.site.icao, std::move(description), std::move(volumes), std::move(*sweep)}));
 }
 
 grid::BrickView PictureGrid::view() const {

@@ -1,5 +1,5 @@
-// cli/picture/picture_grid.h -- what a picture is drawn from: a grid of the cache, one that was made
-// in memory from files, or one sweep of a file.
+// cli/picture/picture_grid.h -- what a picture is drawn from: a grid of the cache, one that was
+// made in memory from files, or one sweep of a file.
 //
 // Threads   A PictureGrid may be used by one thread at a time, its view by any.
 // Errors    See each function.
@@ -32,10 +32,10 @@ class PictureGrid {
     // files, the moment, the place of the grid and the number of threads. Errors name the file or
     // the option.
     [[nodiscard]] static Result<PictureGrid> make(GridOptions options);
-    // Takes one sweep of one file, for a ppi; only the cuts and the moment that it needs are decoded
-    // where the pattern of the volume says which those are. The plane about the site, or about the
-    // center that the options name, reaches to the last gate unless they say how far. Errors name
-    // the file or the option.
+    // Takes one sweep of one file, for a ppi; only the cuts and the moment that it needs are
+    // decoded where the pattern of the volume says which those are. The plane about the site, or
+    // about the center that the options name, reaches to the last gate unless they say how far.
+    // Errors name the file or the option.
     [[nodiscard]] static Result<PictureGrid> make_sweep(GridOptions options,
                                                         const render::Scene& scene);
     PictureGrid(PictureGrid&&) noexcept;

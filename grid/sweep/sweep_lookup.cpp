@@ -97,8 +97,8 @@ Result<SweepLookup> SweepLookup::find(std::shared_ptr<const level2::Volume> volu
     for (const level2::SweepMoment& kind : sweep.moments) {
         if (kind.moment != moment || kind.gate_spacing_m <= 0) continue;
         facts.gate_spacing_m = std::min<double>(facts.gate_spacing_m, kind.gate_spacing_m);
-        facts.last_gate_m = std::max(
-            facts.last_gate_m, kind.range_m(kind.gate_stride) - 0.5 * kind.gate_spacing_m);
+        facts.last_gate_m =
+            std::max(facts.last_gate_m, kind.range_m(kind.gate_stride) - 0.5 * kind.gate_spacing_m);
     }
     note_times(sweep, *chosen, facts);
 
@@ -129,8 +129,8 @@ GateValue SweepLookup::at(PolarPoint place) const {
     const auto arc_m = static_cast<float>(place.arc_m);
     if (!(arc_m >= 0 && arc_m < prepared_->end_m)) return {};
     const auto azimuth_deg = static_cast<float>(place.azimuth_deg);
-    const Sample sample = prepared_->polar.sample(azimuth_deg < 360 ? azimuth_deg : 0.0F,
-                                                  ArcTable::place_of(arc_m));
+    const Sample sample =
+        prepared_->polar.sample(azimuth_deg < 360 ? azimuth_deg : 0.0F, ArcTable::place_of(arc_m));
     return {sample.status, sample.value};
 }
 

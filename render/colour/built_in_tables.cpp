@@ -179,9 +179,9 @@ ColourTable height_table() {
 
 ColourTable vil_density_table() {
     constexpr ColourClass classes[] = {
-        {0.25, 0x6C7A89}, {0.5, 0x4F7FB5}, {1, 0x2FA4D8},   {1.5, 0x35C3A0},
-        {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C},   {3.5, 0xFF5A36},
-        {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8},   {6, 0xF4C6F2},
+        {0.25, 0x6C7A89}, {0.5, 0x4F7FB5}, {1, 0x2FA4D8}, {1.5, 0x35C3A0},
+        {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C}, {3.5, 0xFF5A36},
+        {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
     };
     return of_product("vil-density", "g/m3", classes, 7);
 }
@@ -305,21 +305,12 @@ std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
 }
 
 const std::vector<ColourTable>& built_in_tables() {
-    static const std::vector<ColourTable> tables = {nws_reflectivity_table(),
-                                                    nws_velocity_table(),
-                                                    nws_spectrum_width_table(),
-                                                    nws_zdr_table(),
-                                                    nws_rho_table(),
-                                                    nws_echo_top_table(),
-                                                    nws_vil_table(),
-                                                    phi_table(),
-                                                    cfp_table(),
-                                                    height_table(),
-                                                    vil_density_table(),
-                                                    safe_reflectivity_table(),
-                                                    safe_velocity_table(),
-                                                    safe_zdr_table(),
-                                                    safe_rho_table()};
+    static const std::vector<ColourTable> tables = {
+        nws_reflectivity_table(), nws_velocity_table(), nws_spectrum_width_table(),
+        nws_zdr_table(),          nws_rho_table(),      nws_echo_top_table(),
+        nws_vil_table(),          phi_table(),          cfp_table(),
+        height_table(),           vil_density_table(),  safe_reflectivity_table(),
+        safe_velocity_table(),    safe_zdr_table(),     safe_rho_table()};
     return tables;
 }
 

@@ -28,8 +28,8 @@ struct Frame {
 // Draws the picture with its lines, but without the labels around it.
 Result<Image> draw_picture(const grid::BrickView& view, const FrameFacts& facts,
                            const std::vector<ColumnSummary>& columns, const Scene& scene,
-                           const ViewGeometry& geometry, const Frame& frame,
-                           int threads, FrameCache& cache) {
+                           const ViewGeometry& geometry, const Frame& frame, int threads,
+                           FrameCache& cache) {
     const double scale = frame.layout.scale;
     const bool volume = view_of(scene.product) == View::volume;
     const ColourTable& colours = colours_of(scene);
@@ -38,8 +38,9 @@ Result<Image> draw_picture(const grid::BrickView& view, const FrameFacts& facts,
         const auto tells = scene.haze ? GroundTells::whether_seen : GroundTells::how_low;
         base = paint_ground(*view.spec, columns, geometry, tells, scale, threads);
     } else if (view.sweep != nullptr) {
-        base = paint_pixels(*view.spec, sweep_in_picture(*view.sweep, *view.spec, geometry, threads),
-                            colours, geometry, scale, threads);
+        base =
+            paint_pixels(*view.spec, sweep_in_picture(*view.sweep, *view.spec, geometry, threads),
+                         colours, geometry, scale, threads);
     } else {
         const auto field = map_field(view, facts, scene, columns, threads);
         if (!field) return pass_on(field);
@@ -119,8 +120,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     if (auto valid = check_frame(view, facts, asked); !valid) return pass_on(valid);
     const Scene scene = scene_shown(view, asked);
     const bool of_sweep = view.sweep != nullptr;
-    const auto columns =
-        of_sweep ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
+    const auto columns = of_sweep ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
     Frame frame;
     frame.lines.ring_spacing_m = drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m);
     frame.layout.width = scene.width;
@@ -153,8 +153,9 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     }
 
     const bool section = view_of(scene.product) == View::section;
-    auto picture = section ? draw_section_picture(view, scene, frame, threads)
-                           : draw_picture(view, facts, columns, scene, geometry, frame, threads, cache);
+    auto picture = section
+                       ? draw_section_picture(view, scene, frame, threads)
+                       : draw_picture(view, facts, columns, scene, geometry, frame, threads, cache);
     if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
     canvas.place(*picture, frame.layout.left, frame.layout.top);

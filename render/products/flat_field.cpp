@@ -235,17 +235,17 @@ FlatField vil_density_field(const BrickView& view, double threshold_dbz, double 
 }
 
 FlatField maximum_height_field(const BrickView& view, double threshold_dbz, int threads) {
-    return for_each_column(
-        view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
-            std::optional<std::size_t> best;
-            for (std::size_t i = 0; i < cells.status.size(); ++i) {
-                if (!reaches(cells, i, threshold_dbz)) continue;
-                if (!best || cells.values[i] > cells.values[*best]) best = i;
-            }
-            if (!best) return out.put(place, state_without_value(cells), 0);
-            out.put(place, CellStatus::value,
-                    static_cast<float>(view.spec->levels_m[*best] / 1000));
-        });
+    return for_each_column(view, threads,
+                           [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+                               std::optional<std::size_t> best;
+                               for (std::size_t i = 0; i < cells.status.size(); ++i) {
+                                   if (!reaches(cells, i, threshold_dbz)) continue;
+                                   if (!best || cells.values[i] > cells.values[*best]) best = i;
+                               }
+                               if (!best) return out.put(place, state_without_value(cells), 0);
+                               out.put(place, CellStatus::value,
+                                       static_cast<float>(view.spec->levels_m[*best] / 1000));
+                           });
 }
 
 double radar_height_m(const FrameFacts& facts) {

@@ -14,7 +14,8 @@
 //               is Z = 0. Cells that are not seen or range folded add nothing: half of the layer
 //               beside them is left out. The first and the last level reach half a level beyond
 //               themselves, like cells.
-//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is a
+//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
+//   a
 //               mean density, so tall and low storms compare; hail shows as much in little depth.
 //               Columns have a value where there is an echo top. Where the top may be higher, or
 //               VIL lacks what was not seen, the result is that of the part that was seen. A top
@@ -26,7 +27,8 @@
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
 // A column without a value of the products of reflectivity is range folded if any cell is, because
-// the echo behind it is unknown; else no echo (below the threshold) if any cell was seen; else not seen.
+// the echo behind it is unknown; else no echo (below the threshold) if any cell was seen; else not
+// seen.
 //
 // Units     Heights are above mean sea level.
 // Threads   Pure functions; the same bits for any number of threads.

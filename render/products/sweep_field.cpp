@@ -27,8 +27,8 @@ class RasterFromSite {
         const grid::SiteFrame frame(site.latitude_deg, site.longitude_deg);
         for_each_piece(static_cast<int>(points_.size()) / across_, threads, [&](int row) {
             for (int column = 0; column < across_; ++column) {
-                points_[index(column, row)] = grid::SiteFrame::to_plane(
-                    frame.to_polar(to_geo(column * step_, row * step_)));
+                points_[index(column, row)] =
+                    grid::SiteFrame::to_plane(frame.to_polar(to_geo(column * step_, row * step_)));
             }
         });
     }
@@ -121,11 +121,10 @@ FlatField sweep_in_columns(const grid::SweepLookup& sweep, const grid::GridSpec&
         return field;
     }
     const grid::GridProjection projection(spec);
-    const RasterFromSite raster(sweep.site(), field.width, field.height, spec.cell_width_m(),
-                                threads, [&](int ix, int iy) {
-                                    return projection.to_geo({static_cast<double>(ix),
-                                                              static_cast<double>(iy)});
-                                });
+    const RasterFromSite raster(
+        sweep.site(), field.width, field.height, spec.cell_width_m(), threads, [&](int ix, int iy) {
+            return projection.to_geo({static_cast<double>(ix), static_cast<double>(iy)});
+        });
     fill([&](int ix, int iy) { return raster.at(ix, iy); });
     return field;
 }

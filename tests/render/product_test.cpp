@@ -81,17 +81,17 @@ TEST(MapField, IsTheScenesProduct) {
     const auto view = bricks.view();
     const auto columns = summarize_columns(view, 1);
     Scene scene = scene_of(Product::composite, Moment::ref);
-    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 40);
+    EXPECT_EQ(map_field(view, {}, scene, columns, 1)->values[4], 40);
     scene.product = Product::cappi;
     scene.cappi_height_m = 1000;
-    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 30);
+    EXPECT_EQ(map_field(view, {}, scene, columns, 1)->values[4], 30);
     scene.product = Product::echo_top;
     scene.echo_top_dbz = 25;
-    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 1.25F);
+    EXPECT_EQ(map_field(view, {}, scene, columns, 1)->values[4], 1.25F);
     scene.product = Product::highest_seen;
-    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 2);
+    EXPECT_EQ(map_field(view, {}, scene, columns, 1)->values[4], 2);
     scene.product = Product::volume;
-    EXPECT_FALSE(map_field(view, scene, columns, 1));
+    EXPECT_FALSE(map_field(view, {}, scene, columns, 1));
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ static_assert(sizeof(BrickEntry) == 24);
 
 class SweepLookup;  // stormcellar/grid/sweep_lookup.h
 
-// A view of one sweep (a ppi) has no bricks. Its spec, of one level, is the plane about the radar on
-// which the sweep is drawn, and `sweep` says what is at a place of it.
+// A view of one sweep (a ppi) has no bricks. Its spec, of one level, is the plane about the radar
+// on which the sweep is drawn, and `sweep` says what is at a place of it.
 struct BrickView {
     const GridSpec* spec = nullptr;
     Quantization quantization;

@@ -3,9 +3,9 @@
 // A place belongs to the radial whose azimuth is nearest; where neighboring radials are more than
 // one and a half spacings apart, each of the two reaches half a spacing, and nothing was seen in
 // between. Along the radial it belongs to the gate whose center is nearest, by the beam of 4/3 of
-// the earth's radius at the median elevation of the sweep's radials. Radials that were measured more
-// than half a beam off that elevation are left out, as in grids. Nothing is mixed and nothing is
-// quantized: what is returned is the value of one gate.
+// the earth's radius at the median elevation of the sweep's radials. Radials that were measured
+// more than half a beam off that elevation are left out, as in grids. Nothing is mixed and nothing
+// is quantized: what is returned is the value of one gate.
 //
 // Units     Meters and degrees; values are in the unit of the moment. Heights are above mean sea
 //           level. Places are azimuth and arc from the antenna (stormcellar/grid/site_frame.h).

@@ -23,8 +23,9 @@ struct FrameCache;  // render/frame/frame_cache.h
 // Draws a picture. If a loop hands the same cache to all its frames, the map and the colors are
 // prepared only once and memory is allocated only once; the pixels are the same with or without it.
 // A ppi needs a view of a sweep (BrickView::sweep), every other product one of a grid. Errors:
-// bad_argument if the moment of the view is not that of the scene, if the view is of the other kind,
-// for heights beyond those of the grid, and for a section outside the grid; those of check_frame().
+// bad_argument if the moment of the view is not that of the scene, if the view is of the other
+// kind, for heights beyond those of the grid, and for a section outside the grid; those of
+// check_frame().
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameCache* cache = nullptr);
