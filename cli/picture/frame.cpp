@@ -45,6 +45,7 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
                                const PictureGrid& file, SteadyTime start) {
     FrameTiming timing;
     timing.read_s = seconds_since(start);
+    timing.decode_s = decode_s(file);
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
     const int threads = thread_count(options.scene);
     render::Scene planned = scene;
@@ -106,7 +107,9 @@ int run_frame(FrameOptions options) {
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
-    FrameTiming timing{seconds_since(start), 0, 0, seconds_since(start)};
+    FrameTiming timing{.read_s = seconds_since(start),
+                       .decode_s = decode_s(**grid),
+                       .total_s = seconds_since(start)};
     if (!options.output.empty()) {
         const auto drawn = make_frame(options, *scene, **grid, start);
         if (!drawn) return report_error(drawn.error());
