@@ -12,6 +12,17 @@ constexpr double bar_text = 10;
 constexpr double row_text = 9.5;
 constexpr double swatch_side = 11;
 
+// The rows look alike: where one has no room, all become smaller, down to three quarters.
+double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& rows, double room) {
+    double size = row_text;
+    const auto too_wide = [&](const LegendRow& row) {
+        return builder.width_of(row.text, builder.plain(size)) > room;
+    };
+    while (size > 0.75 * row_text && std::ranges::any_of(rows, too_wide))
+        size -= 0.125;
+    return size;
+}
+
 void put_swatch(LabelBuilder& builder, const LegendRow& row, double x, double baseline) {
     const double side = std::round(builder.scaled(swatch_side));
     builder.block({std::round(x), std::round(baseline - side + builder.scaled(2)), side, side},
@@ -114,11 +125,12 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
         y -= builder.scaled(12);
     }
     if (!legend.notes.empty()) y -= builder.scaled(6);
+    const double text_x = x + builder.scaled(swatch_side + 6);
+    const double row_room = panel.right() - builder.scaled(4) - text_x;
+    const double row_size = size_of_rows(builder, legend.rows, row_room);
     for (auto line = legend.rows.rbegin(); line != legend.rows.rend(); ++line) {
         put_swatch(builder, *line, x, y);
-        const double text_x = x + builder.scaled(swatch_side + 6);
-        builder.put(line->text, text_x, y, panel.right() - builder.scaled(4) - text_x,
-                    builder.plain(row_text));
+        builder.put(line->text, text_x, y, row_room, builder.plain(row_size));
         y -= row;
     }
     if (!legend.heading.empty()) {

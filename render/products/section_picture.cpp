@@ -13,14 +13,15 @@ namespace {
 class Axes {
   public:
     Axes(Canvas& canvas, const Fonts& fonts, const Section& section, const SectionPlace& place,
-         const GroundLook& look, const Units& units)
+         const GroundLook& look, const Units& units, int picture_width)
         : canvas_(canvas),
           fonts_(fonts),
           section_(section),
           distance_(facts_of(units.distance)),
           height_(facts_of(units.height)),
           shades_(*look.shades),
-          scale_(look.scale) {
+          scale_(look.scale),
+          picture_width_(picture_width) {
         left_ = place.left;
         right_ = place.left + place.width;
         top_ = place.top;
@@ -41,11 +42,14 @@ class Axes {
     }
 
   private:
-    // Draws a text so that `share` of its width lies left of x.
+    // Draws a text so that `share` of its width lies left of x, or farther left where the picture
+    // ends.
     void put(const std::string& text, double x, double baseline, double share, bool strong) {
         const double size = 10 * scale_;
-        canvas_.text(fonts_, text, {x - share * fonts_.width(text, size, strong), baseline}, size,
-                     strong, strong ? shades_.text : shades_.quiet_text);
+        const double width = fonts_.width(text, size, strong);
+        const double left = std::min(x - share * width, picture_width_ - width - 3 * scale_);
+        canvas_.text(fonts_, text, {left, baseline}, size, strong,
+                     strong ? shades_.text : shades_.quiet_text);
     }
 
     void draw_heights() {
@@ -101,6 +105,7 @@ class Axes {
     const UnitFacts& height_;
     const Shades& shades_;
     double scale_;
+    double picture_width_;
     double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
 };
 
@@ -128,7 +133,7 @@ Image draw_section(const Section& section, const ColourTable& table, const Secti
     }
     if (fonts == nullptr) return image;
     Canvas canvas(image);
-    Axes(canvas, *fonts, section, place, look, units).draw();
+    Axes(canvas, *fonts, section, place, look, units, width).draw();
     return canvas.image();
 }
 

@@ -60,7 +60,7 @@ TEST(NamedPlace, AmbiguousNamesListTheirStates) {
               "--at: 'Moore' may be Moore, ID; Moore, MT; Moore, OK; Moore, TX; name one of them "
               "with its state, or give LAT,LON");
     EXPECT_THAT(refusal("Franklin"), HasSubstr(" more; name one"));
-    EXPECT_THAT(refusal("Milford, IN"), HasSubstr("Milford, IN (39.17,-86.15); Milford, IN (41."));
+    EXPECT_THAT(refusal("Milford, IN"), HasSubstr("Milford, IN (39.35,-85.62); Milford, IN (41."));
 }
 
 TEST(NamedPlace, UnknownNamesHaveASuggestion) {
