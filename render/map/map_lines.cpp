@@ -100,9 +100,15 @@ std::vector<Point> picture_outline(const MapLines& lines) {
 }  // namespace
 
 double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m) {
-    const double reach =
-        std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m()) / 2;
+    const double width = spec.nx * spec.cell_width_m();
+    const double height = spec.ny * spec.cell_height_m();
     double spacing = asked_m;
+    if (asked_m == Scene::usual_rings) {
+        spacing = 50e3;
+        while (std::min(width, height) / 2 / spacing > 6.5)
+            spacing *= 2;
+    }
+    const double reach = std::hypot(width, height) / 2;
     while (reach / spacing > 20)
         spacing *= 2;
     return spacing;
