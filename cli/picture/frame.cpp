@@ -135,6 +135,9 @@ Run set_up_frame(CLI::App& frame) {
                      "Domain of the cache; a station's own domain is its ICAO identifier. Default: "
                      "the only one");
     add_place(frame, options->cache);
+    frame.add_option("--catalog", options->catalog.directory,
+                     "Directory of the catalog (state/catalog), which says where the raw file of a "
+                     "ppi of a domain is. Default: that of the service");
     frame.add_option("--time", options->time,
                      "Of a domain, draw the newest grid at or before this time, in UTC or relative "
                      "as -1h. Default: the latest grid. Of files, the time of the grid, as for "

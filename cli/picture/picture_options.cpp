@@ -318,7 +318,8 @@ constexpr std::array option_rows{
                              .range = limits::ring_spacing_m.in(per_km),
                              .unit = per_km},
         .used_by = by_all_but_section,
-        .help = "Distance from one range ring to the next in km, {} to {}"},
+        .help = "Distance from one range ring to the next in km, {} to {}. Default: 50, or more "
+                "where the map is large"},
     PictureOption{
         .option = "--units",
         .section = "labels",
