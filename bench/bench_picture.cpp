@@ -82,8 +82,9 @@ void measure(const fs::path& file, const Request& request, Table& table) {
         std::vector<Stages> least(pictures().size());
         for (int run = 0; run < request.runs; ++run) {
             for (std::size_t i = 0; i < pictures().size(); ++i) {
-                std::vector<std::string> words = {"frame", file.string(), "-o", output.string(),
-                                                  "--json", "--threads", std::to_string(threads)};
+                std::vector<std::string> words = {
+                    "frame",     file.string(),          "-o", output.string(), "--json",
+                    "--threads", std::to_string(threads)};
                 const auto& own = pictures()[i].options;
                 words.insert(words.end(), own.begin(), own.end());
                 const auto made = run_stormcellar(std::move(words));
