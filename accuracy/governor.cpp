@@ -9,15 +9,21 @@
 namespace stormcellar::accuracy {
 namespace {
 
+// Returns true if only a sample says how large the effect is. That a sample shows none of it is no
+// proof: in a sparse scene 1 of 8 cells was off by 1.4 dB, and none of the sampled ones. Positions
+// are computed from the geometry, so that there an effect of size 0 does not touch them.
+bool rests_on_sample(const Effect& effect, Quantity quantity) {
+    if (effect.evidence != Evidence::sample) return false;
+    return quantity != Quantity::position || effect.predicted.position_m > 0;
+}
+
 // Returns true if the sum of what the choice leaves off is known without a sample.
 bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         const std::vector<Effect>& effects = chain.steps[i].effects;
         for (std::size_t k = choice.rungs[i]; k < effects.size(); ++k) {
             if (effects[k].setting == Setting::not_asked) continue;
-            if (effects[k].evidence == Evidence::sample && effects[k].predicted.of(quantity) > 0) {
-                return false;
-            }
+            if (rests_on_sample(effects[k], quantity)) return false;
         }
     }
     return true;

@@ -3,8 +3,8 @@
 // Predictions from a sample can be wrong, and effects can act together. So choices whose predicted
 // sums are within the budget are measured by the caller's `measure`, in order of rising effort, and
 // the first that meets the budget wins. A choice meets a limit
-//   by proof       if every effect left off that touches the quantity is exact or has a proven
-//                  bound,
+//   by proof       if every effect left off that touches the quantity has a proven bound (a sample
+//                  that shows no effect is no proof),
 //   by measuring   if the measured upper bound is within the limit.
 // A choice that leaves nothing off, or is proven in every bounded quantity, is not measured. If the
 // sample is too small for a bound, the limit is not met, so that no choice passes by luck. When all

@@ -34,6 +34,13 @@ void refuse_empty(CLI::App& command) {
         refuse_empty(*inner);
 }
 
+// Returns the subcommand that is typed first, if no other one is needed to run it or to explain it.
+// To set up the options of all takes ten times as long as to set up those of one.
+const Subcommand* only_command(int argc, char** argv) {
+    const Subcommand* const typed = argc < 2 ? nullptr : find_subcommand(argv[1]);
+    return typed != find_subcommand("help") ? typed : nullptr;
+}
+
 // CLI11 would only report that a subcommand is missing.
 std::optional<std::string> unknown_command(int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-' || find_subcommand(argv[1]) != nullptr) return std::nullopt;
@@ -100,8 +107,11 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
 
     Commands commands;
-    for (const Subcommand& subcommand : subcommands())
-        commands.push_back(add_subcommand(app, subcommand));
+    const Subcommand* const only = only_command(argc, argv);
+    for (const Subcommand& subcommand : subcommands()) {
+        if (only == nullptr || only == &subcommand)
+            commands.push_back(add_subcommand(app, subcommand));
+    }
     refuse_empty(app);
     if (argc == 3 && std::string_view{argv[1]} == "--reference")
         return print_reference(app, argv[2]);

@@ -11,6 +11,7 @@
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/moment_option.h"
+#include "cli/shared/named_place.h"
 #include "grid/cells/level_range.h"
 #include "stormcellar/export/grid_format.h"
 
@@ -150,9 +151,9 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
     if (!projection) return pass_on(projection);
     request.projection = *projection;
     if (!options.center.empty()) {
-        const auto center = parse_pair("--center", "LAT,LON in degrees", options.center);
+        const auto center = parse_place(options.center_option, options.center);
         if (!center) return pass_on(center);
-        request.center_deg = *center;
+        request.center_deg = {center->latitude_deg, center->longitude_deg};
     }
     if (options.parallels.empty()) return {};
     if (!grid::facts_of(request.projection).takes_parallels) {
@@ -376,9 +377,18 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
 }
 
 void add_place_options(CLI::App& app, GridOptions& options) {
-    app.add_option(
+    CLI::Option* center = app.add_option(
         "--center", options.center,
-        "Center of the grid: LAT,LON in degrees. Default: the site, or the middle of the sites");
+        fmt::format("Center of the grid: {}. Default: the site, or the middle of the sites",
+                    place_for_help));
+    app.add_option_function<std::string>(
+           "--at",
+           [&options](const std::string& place) {
+               options.center = place;
+               options.center_option = "--at";
+           },
+           "Another name of --center")
+        ->excludes(center);
     app.add_option("--projection", options.projection,
                    fmt::format("Projection of the grid: {}", known_projections(" or ")))
         ->capture_default_str();

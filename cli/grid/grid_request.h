@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/shared/input_files.h"
@@ -26,6 +27,7 @@ struct GridOptions {
     std::vector<std::string> files;
     std::string output;
     std::string center;
+    std::string_view center_option = "--center";  // or --at, as it was typed
     std::string projection{grid::projection_name(grid::Projection::azimuthal_equidistant)};
     std::string parallels;
     std::string extent_km, extent_deg;

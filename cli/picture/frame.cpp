@@ -20,6 +20,7 @@
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/still_output.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/named_place.h"
 #include "stormcellar/render/render.h"
 #include "stormcellar/render/still.h"
 
@@ -44,6 +45,7 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
                                const PictureGrid& file, SteadyTime start) {
     FrameTiming timing;
     timing.read_s = seconds_since(start);
+    timing.decode_s = decode_s(file);
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
     const int threads = thread_count(options.scene);
     render::Scene planned = scene;
@@ -52,7 +54,10 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
     if (!done) return pass_on(done);
     const PictureFacts told{
         options.domain, file.description().time, file.description().time, std::nullopt, {}, *done};
-    render::StillOptions still{.metadata = metadata_of(told, file.description(), planned),
+    render::Scene written = planned;
+    // Data stay in the units of the grid.
+    if (still_format(options.output).encode_map != nullptr) written.units = {};
+    render::StillOptions still{.metadata = metadata_of(told, file.description(), written),
                                .tiff = options.tiff,
                                .threads = threads};
     // A map as data has no picture's size.
@@ -102,7 +107,9 @@ int run_frame(FrameOptions options) {
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
-    FrameTiming timing{seconds_since(start), 0, 0, seconds_since(start)};
+    FrameTiming timing{.read_s = seconds_since(start),
+                       .decode_s = decode_s(**grid),
+                       .total_s = seconds_since(start)};
     if (!options.output.empty()) {
         const auto drawn = make_frame(options, *scene, **grid, start);
         if (!drawn) return report_error(drawn.error());
@@ -147,8 +154,9 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");
-    frame.add_option("--probe-at", options->probe_at,
-                     "Print the value at this place: LAT,LON in degrees (maps and volumes)");
+    frame.add_option(
+        "--probe-at", options->probe_at,
+        fmt::format("Print the value at this place (maps and volumes): {}", place_for_help));
     frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);

@@ -24,7 +24,7 @@ struct FrameOptions {
     std::string output;    // empty: nothing is drawn, only probed
     std::string panels;    // moments of a picture with several; empty: one
     std::string probe;     // "X,Y"
-    std::string probe_at;  // "LAT,LON"
+    std::string probe_at;  // a place
     std::string geotiff;   // what a GeoTIFF holds
     render::TiffContent tiff = render::TiffContent::values;
     bool json = false;

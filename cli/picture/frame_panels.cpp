@@ -16,6 +16,7 @@ Result<FrameTiming> make_panels(FrameOptions& options, const std::vector<PanelSc
                                 const std::vector<PictureGrid>& grids, SteadyTime start) {
     FrameTiming timing;
     timing.read_s = seconds_since(start);
+    timing.decode_s = decode_s(grids.front());
     const auto picture = draw_panels(options.domain, panels, grids, options.scene);
     if (!picture) return pass_on(picture);
     timing.render_s = seconds_since(start) - timing.read_s;

@@ -7,7 +7,9 @@
 
 #include "base/floating_point.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/named_place.h"
 #include "render/products/section.h"
+#include "render/view/length_text.h"
 #include "stormcellar/render/product.h"
 
 namespace stormcellar::cli {
@@ -47,20 +49,27 @@ void print_probe(const render::Probe& probe, const FrameOptions& options,
     fmt::print("{} {}, {}\n", printable(options.domain), format_utc(grid.time),
                render::product_title(scene));
     fmt::print("place  {}", render::place_text(probe.place));
-    if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
-    fmt::print("\nvalue  {}", render::probe_text(probe));
-    if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
+    const render::UnitFacts& distance = render::facts_of(scene.units.distance);
+    const render::UnitFacts& height = render::facts_of(scene.units.height);
+    const auto height_number = [&](double height_m) {
+        return render::number_text(height_m / height.si, 4);
+    };
+    if (probe.distance_m)
+        fmt::print(", {:.1f} {} from A", *probe.distance_m / distance.si, distance.symbol);
+    fmt::print("\nvalue  {}", render::probe_text(probe, scene.units));
+    if (probe.height_m) fmt::print(" at {} {}", height_number(*probe.height_m), height.symbol);
     if (probe.gate) {
         fmt::print(
-            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {:g} km\n"
+            "\ngate   {} of radial {}: azimuth {:.2f}, elevation {:.2f} degrees, range {} {}\n"
             "time   {}\n",
             probe.gate->gate, probe.gate->radial, probe.gate->azimuth_deg,
-            probe.gate->elevation_deg, probe.gate->range_m / 1000, format_utc(probe.gate->time));
+            probe.gate->elevation_deg, render::number_text(probe.gate->range_m / distance.si),
+            distance.symbol, format_utc(probe.gate->time));
     } else if (render::facts_of(scene.product).is_of_sweep) {
         fmt::print("\nseen   by no radial\n");
     } else if (probe.lowest_seen_m) {
-        fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
-                   *probe.highest_seen_m / 1000);
+        fmt::print("\nseen   {} to {} {}\n", height_number(*probe.lowest_seen_m),
+                   height_number(*probe.highest_seen_m), height.symbol);
     } else {
         fmt::print("\nseen   at no height\n");
     }
@@ -93,10 +102,9 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
                                             static_cast<int>(y), threads));
     }
     if (!options.probe_at.empty()) {
-        const auto place = numbers_of("--probe-at", options.probe_at, 2);
+        const auto place = parse_place("--probe-at", options.probe_at);
         if (!place) return pass_on(place);
-        return as_maybe(
-            render::probe_place(file.view(), facts, scene, {(*place)[0], (*place)[1]}, threads));
+        return as_maybe(render::probe_place(file.view(), facts, scene, *place, threads));
     }
     return MaybeProbe{};
 }

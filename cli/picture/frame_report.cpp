@@ -32,10 +32,18 @@ void report_frame(const FrameOptions& options, const render::Scene& scene,
     json["partial"] = grid.provenance.partial;
     if (probe) json["probe"] = json_of(*probe);
     json["read_s"] = timing.read_s;
+    json["decode_s"] = timing.decode_s;
     json["render_s"] = timing.render_s;
     json["write_s"] = timing.write_s;
     json["total_s"] = timing.total_s;
     fmt::print("{}\n", json.dump(1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+double decode_s(const PictureGrid& grid) {
+    double sum_s = 0;
+    for (const SourceVolume& source : grid.volumes())
+        sum_s += source.read_s + source.decode_s;
+    return sum_s;
 }
 
 }  // namespace stormcellar::cli

@@ -77,7 +77,7 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
     add("Stations", stations);
     add("Product", std::string(render::product_name(scene.product)));
     add("Moment", std::string(level2::moment_name(scene.moment)));
-    add("Units", render::unit_shown(scene));
+    add("Units", render::written_unit(scene).symbol);
     add("Grid", grid_text(grid.spec));
     add("Gridding", gridding_text(provenance));
     add("Gridding error", provenance.predicted_error);

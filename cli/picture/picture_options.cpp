@@ -14,6 +14,7 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/moment_option.h"
 #include "render/colour/built_in_tables.h"
+#include "cli/shared/named_place.h"
 #include "render/colour/colour_file.h"
 #include "stormcellar/render/product.h"
 
@@ -47,6 +48,13 @@ constexpr std::array sun_places{NumberPlace{"azimuth", turns_deg},
 
 void set_section(To to, std::span<const double> ends) {
     to.scene.section = render::SectionLine{{ends[0], ends[1]}, {ends[2], ends[3]}};
+}
+
+Result<std::vector<double>> read_section(const std::string& option, const std::string& text) {
+    const auto ends = parse_two_places(option, text);
+    if (!ends) return pass_on(ends);
+    return std::vector{(*ends)[0].latitude_deg, (*ends)[0].longitude_deg, (*ends)[1].latitude_deg,
+                       (*ends)[1].longitude_deg};
 }
 
 void set_camera(To to, std::span<const double> at) {
@@ -179,9 +187,10 @@ constexpr std::array option_rows{
     PictureOption{.option = "--section",
                   .section = "picture",
                   .key = "section",
-                  .value = NumbersValue{section_places, set_section},
+                  .value = NumbersValue{section_places, set_section, read_section},
                   .used_by = by_section,
-                  .help = "The two ends of a vertical section: LAT,LON,LAT,LON in degrees"},
+                  .help = "The two ends of a vertical section: LAT,LON,LAT,LON in degrees, or two "
+                          "places as in \"Moore, OK; KINX\""},
     PictureOption{.option = "--echo-top-dbz",
                   .section = "picture",
                   .key = "echo_top_dbz",
@@ -318,6 +327,20 @@ constexpr std::array option_rows{
                              .unit = per_km},
         .used_by = by_all_but_section,
         .help = "Distance from one range ring to the next in km, {} to {}"},
+    PictureOption{
+        .option = "--units",
+        .section = "labels",
+        .key = "units",
+        .value = NamesValue{.set = [](To to, const std::string& names) -> Status {
+                                const auto units = render::units_from_names(names);
+                                if (!units) return pass_on(units);
+                                to.scene.units = *units;
+                                return {};
+                            },
+                            .get = [](To to) { return render::unit_names(to.scene.units); }},
+        .help = "Units in which the picture writes speeds, distances and heights, separated by "
+                "commas, as in knots,miles,kft: m/s, knots, mph or km/h; km, miles or "
+                "nautical-miles; km, kft or feet. Default: m/s,km"},
     PictureOption{.option = "--time-zone",
                   .section = "labels",
                   .key = "time_zone",

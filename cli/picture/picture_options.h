@@ -60,6 +60,9 @@ struct NumberPlace {
 struct NumbersValue {
     std::span<const NumberPlace> places{};
     void (*set)(PictureSettings, std::span<const double>) = nullptr;
+    // How the command line reads them; null: as numbers separated by commas.
+    Result<std::vector<double>> (*read)(const std::string& option,
+                                        const std::string& text) = nullptr;
 };
 struct TextValue {
     std::string* (*field)(PictureSettings) = nullptr;

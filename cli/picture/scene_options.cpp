@@ -81,7 +81,9 @@ struct ValueAdder {
 
     CLI::Option* operator()(const NumbersValue& value) const {
         const auto take = [&value, option = name, settings = to](const std::string& text) {
-            const auto numbers = numbers_of(option, text, value.places.size());
+            const auto numbers = value.read != nullptr
+                                     ? value.read(option, text)
+                                     : numbers_of(option, text, value.places.size());
             if (!numbers) {
                 if (!settings.options.problem) settings.options.problem = numbers.error();
                 return;
@@ -225,7 +227,8 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     scene.theme = *theme;
     if (scene.product == render::Product::section && !scene.section) {
         return fail(ErrorCode::bad_argument,
-                    "a section needs its two ends; give {} LAT,LON,LAT,LON, or {} in a scene file",
+                    "a section needs its two ends; give {} LAT,LON,LAT,LON or two names of places, "
+                    "or {} in a scene file",
                     section_option().option, key_of(section_option()));
     }
     if (scene.elevation_deg != render::Scene::lowest_sweep &&

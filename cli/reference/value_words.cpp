@@ -15,6 +15,7 @@
 #include "stormcellar/render/product.h"
 #include "stormcellar/render/still.h"
 #include "stormcellar/render/theme.h"
+#include "stormcellar/render/units.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -80,6 +81,9 @@ Names fields() {
 
 Names smoothings() {
     return {"cubic", "none"};
+}
+Names units() {
+    return row_names(render::all_units());
 }
 Names themes() {
     return {std::string(render::theme_name(render::Theme::dark)),
@@ -172,16 +176,18 @@ const std::vector<ValueWord>& value_words() {
         {"--bytes", "SIZE"},
         {"--faults", "FAULTS"},
         // places and sizes
-        {"--center", "LAT,LON"},
+        {"--center", "PLACE"},
+        {"--at", "PLACE"},
         {"--position", "LAT,LON,HEIGHT"},
         {"--bounds", "WEST,SOUTH,EAST,NORTH"},
         {"--parallels", "LAT1,LAT2"},
-        {"--section", "LAT,LON,LAT,LON"},
+        {"--section", "PLACE;PLACE"},
         {"--probe", "X,Y"},
-        {"--probe-at", "LAT,LON"},
+        {"--probe-at", "PLACE"},
         {"--camera-km", "EAST,NORTH,UP"},
         {"--look-at-km", "EAST,NORTH,UP"},
         {"--theme", "THEME", Kept::nowhere, offered::themes},
+        {"--units", "UNITS", Kept::nowhere, offered::units},
         {"--smooth", "HOW", Kept::nowhere, offered::smoothings},
         {"--geotiff", "CONTENT", Kept::nowhere, offered::tiff_contents},
         {"--panels", "MOMENTS", Kept::nowhere, offered::moments},

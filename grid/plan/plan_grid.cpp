@@ -54,6 +54,9 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     for (accuracy::Effect& effect : step.effects) {
         effect.predicted.position_m = effect_position_m(position_scene(scene), effect.name);
         effect.evidence = accuracy::Evidence::sample;
+        // About its site a grid is the same in every frame.
+        if (step.name == step::frame && centered)
+            effect.evidence = accuracy::Evidence::proven_bound;
         if (effect.name == "exact_geodesic") effect.evidence = accuracy::Evidence::proven_bound;
         if (effect.name == "velocity_folding" && may_fold(scene)) {
             effect.predicted.value = std::numeric_limits<double>::infinity();

@@ -27,8 +27,7 @@ Status check_panels(std::span<const Panel> panels) {
 PictureFacts facts_of_whole(std::span<const Panel> panels,
                             const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();
-    PictureFacts facts{legend_of(first.scene),
-                       drawn_ring_spacing(*first.view.spec, first.scene.range_ring_spacing_m),
+    PictureFacts facts{legend_of(first.scene), drawn_ring_spacing(*first.view.spec, first.scene),
                        coverage_of(columns, *first.view.spec)};
     facts.legend.product.clear();
     for (const Panel& panel : panels) {

@@ -12,9 +12,8 @@ Result<LabelLayout> layout_of(const grid::BrickView& view, const FrameFacts& fac
     if (!scene.labels) return layout;
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    return lay_out_labels(
-        *fonts, scene, facts,
-        {legend_of(scene), drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m), coverage});
+    return lay_out_labels(*fonts, scene, facts,
+                          {legend_of(scene), drawn_ring_spacing(*view.spec, scene), coverage});
 }
 
 }  // namespace stormcellar::render

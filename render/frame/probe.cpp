@@ -9,6 +9,7 @@
 #include "render/products/flat_field.h"
 #include "render/products/ground.h"
 #include "render/products/section.h"
+#include "render/view/length_text.h"
 #include "stormcellar/grid/projection.h"
 
 namespace stormcellar::render {
@@ -166,7 +167,7 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
     return probe_column(view, facts, scene, column, place, threads);
 }
 
-std::string probe_text(const Probe& probe) {
+std::string probe_text(const Probe& probe, const Units& units) {
     switch (probe.status) {
         case CellStatus::not_seen:
             return "not seen";
@@ -177,8 +178,12 @@ std::string probe_text(const Probe& probe) {
         case CellStatus::value:
             break;
     }
-    return fmt::format("{}{:.6g}{}{}", probe.at_least ? "at least " : "", probe.value,
-                       probe.unit.empty() ? "" : " ", probe.unit);
+    const ShownUnit unit = shown_unit(probe.unit, units);
+    // A value that was converted has no more digits than it had before.
+    const int digits = unit.symbol == probe.unit ? 6 : 4;
+    return fmt::format("{}{}{}{}", probe.at_least ? "at least " : "",
+                       number_text(unit.per_stored * static_cast<double>(probe.value), digits),
+                       unit.symbol.empty() ? "" : " ", unit.symbol);
 }
 
 }  // namespace stormcellar::render

@@ -26,7 +26,7 @@ struct Probe {
     grid::CellStatus status = grid::CellStatus::not_seen;
     float value = 0;        // if the status is value
     bool at_least = false;  // the true value may be larger
-    std::string unit;
+    std::string unit;       // of the value as it is stored: "m/s", "km"
     // height of the value: of a maximum, a CAPPI, a point of a section, or the beam at a gate
     std::optional<double> height_m;
     std::optional<double> distance_m;                     // along a section
@@ -43,7 +43,7 @@ struct Probe {
 [[nodiscard]] Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, grid::GeoPoint place, int threads);
 
-// Returns "52.5 dBZ", "at least 12 km" or "no echo".
-[[nodiscard]] std::string probe_text(const Probe& probe);
+// Returns "52.5 dBZ", "at least 12 km" or "no echo", in these units.
+[[nodiscard]] std::string probe_text(const Probe& probe, const Units& units);
 
 }  // namespace stormcellar::render

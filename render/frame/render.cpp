@@ -58,10 +58,10 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     }
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    const auto layout = lay_out_labels(
-        *fonts, scene, facts,
-        {legend_of(scene), drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m),
-         of_sweep ? std::nullopt : std::optional(coverage_of(columns, *view.spec))});
+    const auto layout =
+        lay_out_labels(*fonts, scene, facts,
+                       {legend_of(scene), drawn_ring_spacing(*view.spec, scene),
+                        of_sweep ? std::nullopt : std::optional(coverage_of(columns, *view.spec))});
     if (!layout) return pass_on(layout);
     const auto picture =
         draw_view(drawn, {layout->width, layout->height, layout->scale}, &*fonts, threads, cache);

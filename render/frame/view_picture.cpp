@@ -61,7 +61,8 @@ Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size
         cut_section(drawn.view, scene.moment, *scene.section, place.width, place.height, threads);
     if (auto in_grid = check_in_grid(section, *drawn.view.spec); !in_grid) return pass_on(in_grid);
     const GroundLook look{&shades_of(scene.theme), nullptr, size.scale};
-    return draw_section(section, colours_of(scene), place, size.width, size.height, look, fonts);
+    return draw_section(section, colours_of(scene), place, size.width, size.height, look,
+                        scene.units, fonts);
 }
 
 // The line from A to B in pixels: at least two points, all of them finite.
@@ -119,7 +120,8 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
     MapLines lines{.geometry = &geometry,
                    .spec = &spec,
                    .sites = &drawn.facts.sites,
-                   .ring_spacing_m = drawn_ring_spacing(spec, scene.range_ring_spacing_m),
+                   .ring_spacing_m = drawn_ring_spacing(spec, scene),
+                   .units = scene.units,
                    .heights = view == View::volume,
                    .scale = size.scale,
                    .shades = &shades_of(scene.theme)};

@@ -20,7 +20,17 @@ void add_block(ColourBar& bar, const Rect& box, double low_y, double high_y, Rgb
     bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, colour});
 }
 
-ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_tick, Rgba8 ground) {
+// The bounds of classes are round in the unit of the table. In another one they are rounded: to the
+// unit from 10 on, else to a tenth.
+std::string bound_text(double value, const BarScale& scale) {
+    const double shown = value * scale.shown_per_value;
+    if (scale.shown_per_value == 1) return fmt::format("{:g}", shown);
+    const double parts = std::abs(shown) < 9.95 ? 10 : 1;
+    return fmt::format("{:g}", std::round(shown * parts) / parts + 0.0);
+}
+
+ColourBar stepped_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
+    const ColourTable& table = scale.table;
     ColourBar bar;
     const std::size_t classes = table.stops.size();
     const double height = box.height / static_cast<double>(classes);
@@ -37,12 +47,13 @@ ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_ti
         }
         const bool reaches_far = i == 0 && table.bar_begin;
         if (i % every == 0 && !reaches_far)
-            bar.ticks.push_back({low, fmt::format("{:g}", table.stops[i].from)});
+            bar.ticks.push_back({low, bound_text(static_cast<double>(table.stops[i].from), scale)});
     }
     return bar;
 }
 
-ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tick, Rgba8 ground) {
+ColourBar smooth_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
+    const ColourTable& table = scale.table;
     ColourBar bar;
     const double lowest = static_cast<double>(table.bar_begin.value_or(table.lowest()));
     const double span = std::max(1e-6, static_cast<double>(table.end) - lowest);
@@ -56,24 +67,27 @@ ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tic
                   over(colour.value_or(table.stops.front().colour), ground));
     }
     const double step =
-        round_step(span, std::max(1, static_cast<int>(box.height / std::max(1.0, least_tick))));
-    const auto first = static_cast<int>(std::ceil(lowest / step - 1e-6));
-    const auto last = static_cast<int>(std::floor((lowest + span) / step + 1e-6));
+        round_step(span * scale.shown_per_value,
+                   std::max(1, static_cast<int>(box.height / std::max(1.0, least_tick))));
+    const auto first = static_cast<int>(std::ceil(lowest * scale.shown_per_value / step - 1e-6));
+    const auto last =
+        static_cast<int>(std::floor((lowest + span) * scale.shown_per_value / step + 1e-6));
     for (int i = first; i <= last; ++i) {
-        const double value = i * step;
-        bar.ticks.push_back({bottom - (value - lowest) / span * rows, fmt::format("{:g}", value)});
+        const double shown = i * step;
+        const double value = shown / scale.shown_per_value;
+        bar.ticks.push_back({bottom - (value - lowest) / span * rows, fmt::format("{:g}", shown)});
     }
     return bar;
 }
 
 }  // namespace
 
-ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick, Rgba8 ground) {
-    return is_stepped(table) ? stepped_bar(table, box, least_tick, ground)
-                             : smooth_bar(table, box, least_tick, ground);
+ColourBar colour_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
+    return is_stepped(scale.table) ? stepped_bar(scale, box, least_tick, ground)
+                                   : smooth_bar(scale, box, least_tick, ground);
 }
 
-ColourBar lying_bar(const ColourTable& table, const Rect& box,
+ColourBar lying_bar(const BarScale& scale, const Rect& box,
                     const std::function<double(const std::string&)>& width_of, double gap,
                     Rgba8 ground) {
     // A bar that stands on its left end, with fewer numbers until none touches the next.
@@ -87,10 +101,10 @@ ColourBar lying_bar(const ColourTable& table, const Rect& box,
         return false;
     };
     double least_tick = gap;
-    ColourBar bar = colour_bar(table, upright, least_tick, ground);
+    ColourBar bar = colour_bar(scale, upright, least_tick, ground);
     while (crowded(bar.ticks) && least_tick < 2 * box.width) {
         least_tick *= 1.25;
-        bar = colour_bar(table, upright, least_tick, ground);
+        bar = colour_bar(scale, upright, least_tick, ground);
     }
     for (BarBlock& block : bar.blocks) {
         block.box = {box.x + box.width - block.box.bottom(), box.y, block.box.height, box.height};

@@ -32,11 +32,17 @@ struct ColourBar {
 // the bar is linear in the value from the first stop to `end`, with ticks at round values. A box
 // with fewer pixels than classes loses classes, but not its ends.
 // Translucent colors show the `ground` below.
-[[nodiscard]] ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick,
+// What the numbers say: those of the table, or those in another unit.
+struct BarScale {
+    const ColourTable& table;
+    double shown_per_value = 1;
+};
+
+[[nodiscard]] ColourBar colour_bar(const BarScale& scale, const Rect& box, double least_tick,
                                    Rgba8 ground);
 // The same bar, lying: it rises to the right. The numbers, of this width each, are at least `gap`
 // apart.
-[[nodiscard]] ColourBar lying_bar(const ColourTable& table, const Rect& box,
+[[nodiscard]] ColourBar lying_bar(const BarScale& scale, const Rect& box,
                                   const std::function<double(const std::string&)>& width_of,
                                   double gap, Rgba8 ground);
 

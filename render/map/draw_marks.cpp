@@ -119,7 +119,7 @@ void draw_scale_bar(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
     canvas.line(shape, 3.4 * lines.scale, lines.shades->halo, false);
     canvas.line(shape, 1.2 * lines.scale, lines.shades->text, false);
     const double size = 10 * lines.scale;
-    canvas.text(fonts, distance_text(bar.metres),
+    canvas.text(fonts, distance_text(bar.metres, lines.units),
                 {left.x + 3 * lines.scale, left.y - 4 * lines.scale}, size, false,
                 lines.shades->text, lines.shades->halo);
 }

@@ -103,7 +103,7 @@ std::string view_line(const Scene& scene, const FrameFacts& facts, double ring_s
             return "Vertical section from A to B";
     }
     if (facts.sites.size() == 1) {
-        text += "  \u00B7  range rings every " + distance_text(ring_spacing_m);
+        text += "  \u00B7  range rings every " + distance_text(ring_spacing_m, scene.units);
     }
     return text;
 }
@@ -216,7 +216,7 @@ FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, double ring_s
     if (coverage) {
         texts.seen =
             fmt::format("Seen: {} of the columns, {} below {}", percent_text(coverage->seen),
-                        percent_text(coverage->seen_low), distance_text(low_coverage_m));
+                        percent_text(coverage->seen_low), height_text(low_coverage_m, scene.units));
     }
     texts.credit = fmt::format("{}  \u00B7  stormcellar {}", map_credit, software_version);
     return texts;

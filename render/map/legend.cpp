@@ -19,13 +19,14 @@ std::string clear_words(const Scene& scene, std::string_view between) {
     const bool takes_all =
         table.bar_begin || (look_of(scene.moment).is_never_negative && !(table.lowest() > 0));
     if (takes_all) return "no echo";
-    const std::string unit = unit_shown(scene);
-    return fmt::format("no echo {} < {:g}{}{}", between, table.lowest(), unit.empty() ? "" : " ",
-                       unit);
+    const ShownUnit unit = written_unit(scene);
+    return fmt::format("no echo {} < {}{}{}", between,
+                       number_text(unit.per_stored * static_cast<double>(table.lowest()), 4),
+                       unit.symbol.empty() ? "" : " ", unit.symbol);
 }
 
 void add_volume_rows(const Scene& scene, Legend& legend) {
-    const std::string height = distance_text(low_coverage_m);
+    const std::string height = height_text(low_coverage_m, scene.units);
     const Shades& shades = shades_of(scene.theme);
     if (scene.haze) {
         legend.heading = "Coverage";
@@ -65,7 +66,9 @@ Legend legend_of(const Scene& scene) {
     Legend legend;
     legend.product = product_title(scene);
     legend.table = &colours_of(scene);
-    legend.bar_heading = unit_shown(scene);
+    const ShownUnit unit = written_unit(scene);
+    legend.bar_heading = unit.symbol;
+    legend.shown_per_value = unit.per_stored;
     if (legend.bar_heading.empty()) legend.bar_heading = level2::moment_name(scene.moment);
     if (view_of(scene.product) == View::volume) {
         add_volume_rows(scene, legend);

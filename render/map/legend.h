@@ -25,6 +25,7 @@ struct Legend {
     std::vector<std::string> notes;      // in small print below
     std::string bar_heading;             // the unit, else the name of the moment
     const ColourTable* table = nullptr;  // of the color bar; null: no bar
+    double shown_per_value = 1;          // of the bar's numbers, by those of the table
 };
 
 // Makes the legend of a valid scene, whose table must outlive it.

@@ -12,15 +12,27 @@ constexpr double bar_text = 10;
 constexpr double row_text = 9.5;
 constexpr double swatch_side = 11;
 
+// The rows look alike: where one has no room, all become smaller, down to three quarters.
+double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& rows, double room) {
+    double size = row_text;
+    const auto too_wide = [&](const LegendRow& row) {
+        return builder.width_of(row.text, builder.plain(size)) > room;
+    };
+    while (size > 0.75 * row_text && std::ranges::any_of(rows, too_wide))
+        size -= 0.125;
+    return size;
+}
+
 void put_swatch(LabelBuilder& builder, const LegendRow& row, double x, double baseline) {
     const double side = std::round(builder.scaled(swatch_side));
     builder.block({std::round(x), std::round(baseline - side + builder.scaled(2)), side, side},
                   row.colour, row.hatched);
 }
 
-void lay_out_upright_bar(LabelBuilder& builder, const ColourTable& table, const Rect& box) {
+void lay_out_upright_bar(LabelBuilder& builder, const Legend& legend, const Rect& box) {
     const double text_height = builder.scaled(bar_text);
-    const ColourBar bar = colour_bar(table, box, 1.15 * text_height, builder.shades().land.seen);
+    const ColourBar bar = colour_bar({*legend.table, legend.shown_per_value}, box,
+                                     1.15 * text_height, builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
     builder.outline(box);
@@ -42,8 +54,8 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     const double aside = builder.scaled(16);
     const double left = std::round(band.x + heading + aside);
     const Rect box = {left, top, std::max(1.0, std::floor(band.right() - aside - left)), height};
-    const ColourBar bar =
-        lying_bar(*legend.table, box, width_of, builder.scaled(7), builder.shades().land.seen);
+    const ColourBar bar = lying_bar({*legend.table, legend.shown_per_value}, box, width_of,
+                                    builder.scaled(7), builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
         builder.block(block.box, block.colour);
     builder.outline(box);
@@ -113,11 +125,12 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
         y -= builder.scaled(12);
     }
     if (!legend.notes.empty()) y -= builder.scaled(6);
+    const double text_x = x + builder.scaled(swatch_side + 6);
+    const double row_room = panel.right() - builder.scaled(4) - text_x;
+    const double row_size = size_of_rows(builder, legend.rows, row_room);
     for (auto line = legend.rows.rbegin(); line != legend.rows.rend(); ++line) {
         put_swatch(builder, *line, x, y);
-        const double text_x = x + builder.scaled(swatch_side + 6);
-        builder.put(line->text, text_x, y, panel.right() - builder.scaled(4) - text_x,
-                    builder.plain(row_text));
+        builder.put(line->text, text_x, y, row_room, builder.plain(row_size));
         y -= row;
     }
     if (!legend.heading.empty()) {
@@ -127,7 +140,7 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
     if (legend.table == nullptr) return;
     builder.put(legend.bar_heading, x, panel.y + builder.scaled(13), room, builder.strong(11));
     const double top = std::round(panel.y + builder.scaled(24));
-    lay_out_upright_bar(builder, *legend.table,
+    lay_out_upright_bar(builder, legend,
                         {std::round(x), top, std::round(builder.scaled(18)),
                          std::max(15.0, std::round(y - builder.scaled(2) - top))});
 }

@@ -5,6 +5,7 @@
 
 #include "base/degree.h"
 #include "render/map/map_ground.h"
+#include "render/view/length_text.h"
 
 namespace stormcellar::render {
 namespace {
@@ -99,10 +100,10 @@ std::vector<Point> picture_outline(const MapLines& lines) {
 
 }  // namespace
 
-double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m) {
+double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene) {
     const double reach =
         std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m()) / 2;
-    double spacing = asked_m;
+    double spacing = round_distance(scene.range_ring_spacing_m, scene.units);
     while (reach / spacing > 20)
         spacing *= 2;
     return spacing;

@@ -17,6 +17,7 @@
 #include "render/image/canvas.h"
 #include "render/map/map_layer.h"
 #include "stormcellar/grid/grid.h"
+#include "stormcellar/render/scene.h"
 #include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
@@ -27,14 +28,16 @@ struct MapLines {
     const std::vector<grid::SitePosition>* sites = nullptr;
     const MapLayer* map = nullptr;  // its cities are marked; null: no cities
     double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
+    Units units;                    // of what is written
     bool heights = false;           // a scale of heights at the left edge of the box
     double scale = 1;               // of lines and text
     const Shades* shades = &shades::dark;
     double left = 0, top = 0;
 };
 
-// Returns the spacing that is asked for, doubled until there are at most 20 rings.
-[[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m);
+// Returns the spacing that is asked for, or the nearest that is round in the unit of distances,
+// doubled until there are at most 20 rings.
+[[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene);
 
 // Draws a thin line around the ground.
 void draw_border(Canvas& canvas, const MapLines& lines);

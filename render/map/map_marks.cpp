@@ -25,6 +25,9 @@ constexpr std::array towns = {TownLook{400'000, 10.5, true}, TownLook{100'000, 9
 // Where there are more sites, their names are small, and fewer.
 constexpr std::size_t few_sites = 3;
 constexpr double north_radius = 17;
+// Of the scale of heights: 1 to 10 km, 5 to 50 thousand feet.
+constexpr double least_step_m = 1000;
+constexpr double most_step_m = 15300;
 
 class Planner {
   public:
@@ -150,15 +153,17 @@ class Planner {
         const auto metres = metres_per_pixel();
         if (!metres) return std::nullopt;
         const double most_m = *metres * std::min(0.25 * geometry_.width(), scaled(130));
-        const double power = std::pow(10, std::floor(std::log10(most_m)));
+        const double unit_m = facts_of(lines_.units.distance).si;
+        const double power = unit_m * std::pow(10, std::floor(std::log10(most_m / unit_m)));
         ScaleBar bar;
         for (const double digit : {1.0, 2.0, 5.0}) {
             if (digit * power <= most_m) bar.metres = digit * power;
         }
         bar.length = bar.metres / *metres;
         const double size = scaled(text_size);
-        const double width =
-            std::max(bar.length, scaled(3) + fonts_.width(distance_text(bar.metres), size, false));
+        const double width = std::max(
+            bar.length,
+            scaled(3) + fonts_.width(distance_text(bar.metres, lines_.units), size, false));
         bar.box = {0, 0, width + scaled(6), size + scaled(11)};
         return bar;
     }
@@ -213,21 +218,23 @@ class Planner {
         const double top_m = geometry_.top_m();
         const auto top = pixel(*edge, top_m);
         const auto zero = pixel(*edge, 0);
-        const auto one_km = pixel(*edge, 1000);
-        if (!top || !zero || !one_km) return;
+        const double unit_m = height_step_unit_m(lines_.units);
+        const auto one_unit = pixel(*edge, unit_m);
+        if (!top || !zero || !one_unit) return;
         const double size = scaled(text_size);
-        const double km = std::abs(one_km->y - zero->y);
+        const double unit = std::abs(one_unit->y - zero->y);
         double step_m = 0;
-        for (const double candidate : {10000.0, 5000.0, 2000.0, 1000.0}) {
-            if (km * candidate / 1000 >= 1.7 * size) step_m = candidate;
+        for (const double steps : {50.0, 20.0, 10.0, 5.0, 2.0, 1.0}) {
+            const bool is_usual = steps * unit_m >= least_step_m && steps * unit_m <= most_step_m;
+            if (is_usual && unit * steps >= 1.7 * size) step_m = steps * unit_m;
         }
         if (step_m == 0) return;
-        const double width = fonts_.width("00 km", size, false);
+        const double width = fonts_.width(height_text(10 * unit_m, lines_.units), size, false);
         HeightScale heights{edge_at, *top, {}, edge_at.x > width + scaled(12) ? -1.0 : 1.0};
         for (int i = 1; i * step_m <= top_m; ++i) {
             const auto tick = pixel(*edge, i * step_m);
             if (!tick || tick->y < size || tick->y > geometry_.height() - size) continue;
-            const std::string text = distance_text(i * step_m);
+            const std::string text = height_text(i * step_m, lines_.units);
             const double x = tick->x + heights.side * scaled(7) -
                              (heights.side < 0 ? fonts_.width(text, size, false) : 0);
             auto placed =
@@ -253,7 +260,7 @@ class Planner {
             if (lowest == nullptr) return;
             const auto ground = geometry_.ground({lowest->x, lowest->y});
             if (!ground || !inside_grid(*ground)) return;
-            const std::string text = distance_text(i * lines_.ring_spacing_m);
+            const std::string text = distance_text(i * lines_.ring_spacing_m, lines_.units);
             const double width = fonts_.width(text, size, false);
             if (auto placed = claim(text, {lowest->x - width / 2, lowest->y + 0.36 * size}, size,
                                     false, lines_.shades->quiet_text)) {

@@ -52,12 +52,12 @@ struct SectionPlace {
 };
 [[nodiscard]] SectionPlace section_place(int width, int height, double scale, bool labels);
 
-// Draws the section with axes: distance and height in km, latitude and longitude of both ends, and
-// the factor by which heights are stretched, which follows from filling the picture. If `fonts` is
-// null, there are no axes.
+// Draws the section with axes: distance and height in their units, latitude and longitude of both
+// ends, and the factor by which heights are stretched, which follows from filling the picture. If
+// `fonts` is null, there are no axes.
 [[nodiscard]] Image draw_section(const Section& section, const ColourTable& table,
                                  const SectionPlace& place, int width, int height,
-                                 const GroundLook& look, const Fonts* fonts);
+                                 const GroundLook& look, const Units& units, const Fonts* fonts);
 
 // Returns "35.333 N 97.278 W", rounded to 0.001 degrees.
 [[nodiscard]] std::string place_text(grid::GeoPoint point);

@@ -5,6 +5,7 @@
 #include "render/image/round_step.h"
 #include "render/image/shades.h"
 #include "render/products/section.h"
+#include "render/view/length_text.h"
 
 namespace stormcellar::render {
 namespace {
@@ -12,12 +13,15 @@ namespace {
 class Axes {
   public:
     Axes(Canvas& canvas, const Fonts& fonts, const Section& section, const SectionPlace& place,
-         const GroundLook& look)
+         const GroundLook& look, const Units& units, int picture_width)
         : canvas_(canvas),
           fonts_(fonts),
           section_(section),
+          distance_(facts_of(units.distance)),
+          height_(facts_of(units.height)),
           shades_(*look.shades),
-          scale_(look.scale) {
+          scale_(look.scale),
+          picture_width_(picture_width) {
         left_ = place.left;
         right_ = place.left + place.width;
         top_ = place.top;
@@ -32,42 +36,46 @@ class Axes {
         draw_ends();
         const double across = section_.length_m / (right_ - left_);
         const double up = (section_.top_m - section_.bottom_m) / (bottom_ - top_);
-        put(fmt::format("Height above sea level, km  \u00B7  vertical \u00D7{:.3g}", across / up),
+        put(fmt::format("Height above sea level, {}  \u00B7  vertical \u00D7{:.3g}", height_.symbol,
+                        across / up),
             left_, top_ - 9 * scale_, 0, false);
     }
 
   private:
-    // Draws a text so that `share` of its width lies left of x.
+    // Draws a text so that `share` of its width lies left of x, or farther left where the picture
+    // ends.
     void put(const std::string& text, double x, double baseline, double share, bool strong) {
         const double size = 10 * scale_;
-        canvas_.text(fonts_, text, {x - share * fonts_.width(text, size, strong), baseline}, size,
-                     strong, strong ? shades_.text : shades_.quiet_text);
+        const double width = fonts_.width(text, size, strong);
+        const double left = std::min(x - share * width, picture_width_ - width - 3 * scale_);
+        canvas_.text(fonts_, text, {left, baseline}, size, strong,
+                     strong ? shades_.text : shades_.quiet_text);
     }
 
     void draw_heights() {
-        const double range_km = (section_.top_m - section_.bottom_m) / 1000;
-        const double bottom_km = section_.bottom_m / 1000;
+        const double range = (section_.top_m - section_.bottom_m) / height_.si;
+        const double bottom = section_.bottom_m / height_.si;
         const int most = std::max(2, static_cast<int>((bottom_ - top_) / (28 * scale_)));
-        const double step = round_step(range_km, most);
-        for (int i = static_cast<int>(std::ceil(bottom_km / step - 1e-9));
-             i * step <= bottom_km + range_km; ++i) {
-            const double y = bottom_ - (i * step - bottom_km) / range_km * (bottom_ - top_);
+        const double step = round_step(range, most);
+        for (int i = static_cast<int>(std::ceil(bottom / step - 1e-9)); i * step <= bottom + range;
+             ++i) {
+            const double y = bottom_ - (i * step - bottom) / range * (bottom_ - top_);
             canvas_.line({{left_ - 4 * scale_, y}, {left_, y}}, scale_, shades_.border, false);
             if (i != 0) canvas_.line({{left_, y}, {right_, y}}, scale_, faint(), false);
-            put(fmt::format("{:g}", i * step), left_ - 7 * scale_, y + 3.5 * scale_, 1, false);
+            put(number_text(i * step), left_ - 7 * scale_, y + 3.5 * scale_, 1, false);
         }
     }
 
     void draw_distances() {
-        const double length_km = section_.length_m / 1000;
+        const double length = section_.length_m / distance_.si;
         const int most = std::max(2, static_cast<int>((right_ - left_) / (60 * scale_)));
-        const double step = round_step(length_km, most);
-        for (int i = 0; i * step <= length_km * (1 + 1e-9); ++i) {
-            const double x = left_ + i * step / length_km * (right_ - left_);
+        const double step = round_step(length, most);
+        for (int i = 0; i * step <= length * (1 + 1e-9); ++i) {
+            const double x = left_ + i * step / length * (right_ - left_);
             canvas_.line({{x, bottom_}, {x, bottom_ + 4 * scale_}}, scale_, shades_.border, false);
-            const bool last = (i + 1) * step > length_km * (1 + 1e-9);
-            put(fmt::format("{:g}{}", i * step, last ? " km" : ""), x, bottom_ + 16 * scale_, 0.5,
-                false);
+            const bool last = (i + 1) * step > length * (1 + 1e-9);
+            put(number_text(i * step) + (last ? fmt::format(" {}", distance_.symbol) : ""), x,
+                bottom_ + 16 * scale_, 0.5, false);
         }
     }
 
@@ -93,8 +101,11 @@ class Axes {
     Canvas& canvas_;
     const Fonts& fonts_;
     const Section& section_;
+    const UnitFacts& distance_;
+    const UnitFacts& height_;
     const Shades& shades_;
     double scale_;
+    double picture_width_;
     double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
 };
 
@@ -108,7 +119,8 @@ std::string place_text(grid::GeoPoint point) {
 }
 
 Image draw_section(const Section& section, const ColourTable& table, const SectionPlace& place,
-                   int width, int height, const GroundLook& look, const Fonts* fonts) {
+                   int width, int height, const GroundLook& look, const Units& units,
+                   const Fonts* fonts) {
     Image image(width, height, look.shades->page);
     for (int y = 0; y < place.height; ++y) {
         for (int x = 0; x < place.width; ++x) {
@@ -121,7 +133,7 @@ Image draw_section(const Section& section, const ColourTable& table, const Secti
     }
     if (fonts == nullptr) return image;
     Canvas canvas(image);
-    Axes(canvas, *fonts, section, place, look).draw();
+    Axes(canvas, *fonts, section, place, look, units, width).draw();
     return canvas.image();
 }
 

@@ -72,11 +72,14 @@ Result<Image> draw_legend_panel(const StillMap& map) {
                     line.bold, line.colour);
         baseline += line_px;
     }
-    const std::string unit = unit_shown(map.scene);
-    canvas.text(*fonts, unit.empty() ? std::string(level2::moment_name(map.scene.moment)) : unit,
-                {margin_px, bar_top - 6}, text_px, false, shades.quiet_text);
+    const ShownUnit unit = written_unit(map.scene);
+    canvas.text(
+        *fonts,
+        unit.symbol.empty() ? std::string(level2::moment_name(map.scene.moment)) : unit.symbol,
+        {margin_px, bar_top - 6}, text_px, false, shades.quiet_text);
     const Rect bar{margin_px, bar_top, bar_width_px, bar_height_px};
-    const ColourBar shown = colour_bar(table, bar, line_px - 2, shades.land.seen);
+    const ColourBar shown =
+        colour_bar({table, unit.per_stored}, bar, line_px - 2, shades.land.seen);
     for (const BarBlock& block : shown.blocks)
         canvas.fill(block.box, block.colour);
     for (const BarTick& tick : shown.ticks) {

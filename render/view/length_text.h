@@ -1,13 +1,29 @@
-// render/view/length_text.h -- how labels write lengths on the ground and heights.
+// render/view/length_text.h -- how labels write numbers, lengths on the ground and heights.
 //
 // Threads   Pure functions.
 #pragma once
 
 #include <string>
 
+#include "stormcellar/render/units.h"
+
 namespace stormcellar::render {
 
-// Returns "50 km" or "200 m".
-[[nodiscard]] std::string distance_text(double metres);
+// Returns the number rounded to so many significant digits, without trailing zeros and never with
+// an exponent: "9840".
+[[nodiscard]] std::string number_text(double number, int digits = 6);
+
+// Returns "50 km", "200 m" or "30 mi". A length that is not round in its unit has three digits.
+[[nodiscard]] std::string distance_text(double metres, const Units& units);
+// Returns "3 km", "9.84 kft" or "9840 ft".
+[[nodiscard]] std::string height_text(double metres, const Units& units);
+
+// Returns the round length that is nearest to `metres` (above 0), by their ratio: 1, 1.5, 2, 2.5,
+// 3, 4, 5, 6 or 8 of the unit of distances, or so many tens, hundreds or tenths. Kilometers stay as
+// they are.
+[[nodiscard]] double round_distance(double metres, const Units& units);
+
+// Returns the unit in which steps of heights are counted, in meters: 1 km, or 1000 feet.
+[[nodiscard]] double height_step_unit_m(const Units& units);
 
 }  // namespace stormcellar::render

@@ -7,6 +7,7 @@
 #include "base/name_list.h"
 #include "base/nearest_name.h"
 #include "render/colour/built_in_tables.h"
+#include "render/view/length_text.h"
 #include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
@@ -28,8 +29,9 @@ std::string ppi_title(const Scene& scene) {
                        scene.elevation_deg);
 }
 std::string cappi_title(const Scene& scene) {
-    return fmt::format("{} at {:g} km above sea level (CAPPI)", title_of_moment(scene),
-                       scene.cappi_height_m / 1000);
+    const UnitFacts& unit = facts_of(scene.units.height);
+    return fmt::format("{} at {} {} above sea level (CAPPI)", title_of_moment(scene),
+                       number_text(scene.cappi_height_m / unit.si, 4), unit.symbol);
 }
 std::string section_title(const Scene& scene) {
     return title_of_moment(scene) + ", vertical section";
@@ -170,6 +172,10 @@ const ColourTable& colours_of(const Scene& scene) {
 std::string unit_shown(const Scene& scene) {
     const std::string_view unit = facts_of(scene.product).unit;
     return unit.empty() ? unit_of(scene.moment) : std::string(unit);
+}
+
+ShownUnit written_unit(const Scene& scene) {
+    return shown_unit(unit_shown(scene), scene.units);
 }
 
 }  // namespace stormcellar::render

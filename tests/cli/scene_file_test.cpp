@@ -33,7 +33,8 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
         "at_km = [-20, 5.5, 3]\n"
         "[light]\nkinds = [\"shadow\", \"gradient\"]\nsun_deg = [120, 30]\n"
         "[volume]\nslices = 64\nexaggeration = 4\nopacity = 0.5\ncurved_earth = true\nhaze = true\n"
-        "[labels]\nshow = false\nring_spacing_km = 25\ntime_zone = \"America/Chicago\"\n");
+        "[labels]\nshow = false\nring_spacing_km = 25\ntime_zone = \"America/Chicago\"\n"
+        "units = [\"knots\", \"miles\", \"kft\"]\n");
     ASSERT_TRUE(status) << status.error().message;
     const auto scene = scene_of(settings_.scene);
     ASSERT_TRUE(scene) << scene.error().message;
@@ -57,6 +58,7 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
     EXPECT_EQ(scene->opacity, 0.5);
     EXPECT_TRUE(scene->curved_earth);
     EXPECT_TRUE(scene->haze);
+    EXPECT_EQ(render::unit_names(scene->units), "knots,miles,kft");
     EXPECT_FALSE(scene->labels);
     EXPECT_EQ(scene->range_ring_spacing_m, 25e3);
     EXPECT_EQ(settings_.scene.time_zone, "America/Chicago");
@@ -149,6 +151,8 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
         {"volume", "curved_earth = \"yes\""},
         {"labels", "show = 1"},
         {"labels", "ring_spacing_km = 0.5"},
+        {"labels", "units = [\"knot\"]"},
+        {"labels", "units = \"knots\""},
         {"labels", "time_zone = \"Nowhere/Land\""},
         {"plan", "tolerance = \"much\""},
         {"plan", "effects = [\"value_span=on\"]"},

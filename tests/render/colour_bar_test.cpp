@@ -33,7 +33,7 @@ void expect_filled(const ColourBar& bar, const Rect& whole) {
 }
 
 TEST(ColourBar, ClassesHaveOneHeightAndTheirLowerBounds) {
-    const ColourBar bar = colour_bar(nws_reflectivity(), box, 11.5, shades::dark.land.seen);
+    const ColourBar bar = colour_bar({nws_reflectivity()}, box, 11.5, shades::dark.land.seen);
     ASSERT_EQ(bar.blocks.size(), 15U);
     expect_filled(bar, box);
     ASSERT_EQ(bar.ticks.size(), 15U);
@@ -49,7 +49,7 @@ TEST(ColourBar, UnevenClassesKeepTheirPlace) {
     const Rgba8 a = {1, 0, 0, 255};
     const Rgba8 b = {2, 0, 0, 255};
     const ColourBar bar =
-        colour_bar(table_of({{-50, a, a}, {-1, b, b}, {0.5, a, a}, {100, b, b}}, 200), box, 11.5,
+        colour_bar({table_of({{-50, a, a}, {-1, b, b}, {0.5, a, a}, {100, b, b}}, 200)}, box, 11.5,
                    shades::dark.land.seen);
     ASSERT_EQ(bar.blocks.size(), 4U);
     expect_filled(bar, box);
@@ -62,7 +62,7 @@ TEST(ColourBar, UnevenClassesKeepTheirPlace) {
 TEST(ColourBar, TicksKeepTheirDistanceInALowBar) {
     for (const double height : {400.0, 150.0, 61.0, 30.0, 15.0}) {
         const Rect low = {0, 50, 20, height};
-        const ColourBar bar = colour_bar(nws_reflectivity(), low, 11.5, shades::dark.land.seen);
+        const ColourBar bar = colour_bar({nws_reflectivity()}, low, 11.5, shades::dark.land.seen);
         expect_filled(bar, low);
         for (std::size_t i = 1; i < bar.ticks.size(); ++i)
             EXPECT_GE(bar.ticks[i - 1].at - bar.ticks[i].at, 10.5) << height;
@@ -74,7 +74,7 @@ TEST(ColourBar, ABlendIsRegularInValue) {
     const ColourTable table = table_of({{-30, {0, 0, 255, 255}, {255, 255, 255, 255}},
                                         {10, {255, 255, 255, 255}, {255, 0, 0, 255}}},
                                        30);
-    const ColourBar bar = colour_bar(table, box, 20, shades::dark.land.seen);
+    const ColourBar bar = colour_bar({table}, box, 20, shades::dark.land.seen);
     expect_filled(bar, box);
     EXPECT_GT(bar.blocks.size(), 100U);
     for (const BarBlock& block : bar.blocks) {
@@ -95,15 +95,15 @@ TEST(ColourBar, ABlendIsRegularInValue) {
 
 TEST(ColourBar, AClassThatReachesDownFarHasNoNumber) {
     const ColourBar bar =
-        colour_bar(default_colour_table(level2::Moment::vel), box, 11.5, shades::dark.land.seen);
+        colour_bar({default_colour_table(level2::Moment::vel)}, box, 11.5, shades::dark.land.seen);
     EXPECT_EQ(bar.blocks.size(), 15U);
     EXPECT_EQ(bar.ticks.front().text, "-33");
 }
 
 TEST(ColourBar, ClearColoursShowTheGround) {
     const ColourBar bar = colour_bar(
-        table_of({{0, {9, 9, 9, 0}, {9, 9, 9, 0}}, {10, {1, 2, 3, 255}, {1, 2, 3, 255}}}, 20), box,
-        11.5, shades::dark.land.seen);
+        {table_of({{0, {9, 9, 9, 0}, {9, 9, 9, 0}}, {10, {1, 2, 3, 255}, {1, 2, 3, 255}}}, 20)},
+        box, 11.5, shades::dark.land.seen);
     EXPECT_EQ(bar.blocks.front().colour, shades::dark.land.seen);
 }
 

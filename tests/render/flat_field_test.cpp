@@ -1,6 +1,8 @@
 #include "render/products/flat_field.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -175,6 +177,92 @@ TEST(Vil, TakesTheMeanOfZInALayerAndLeavesOutWhatWasNotSeen) {
     const FlatField field = vil_field(bricks.view(), 1);
     EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "its own half of both layers";
     EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers with Z / 2";
+}
+
+// The slow and obvious form of both, asked cell by cell of the view.
+struct SlowColumn {
+    std::optional<double> top_m;
+    std::optional<double> height_km;
+};
+SlowColumn slow_column(const grid::BrickView& view, int ix, int iy, double threshold_dbz) {
+    const auto& levels_m = view.spec->levels_m;
+    SlowColumn slow;
+    double largest = -1e9;
+    for (int iz = 0; iz < view.spec->nz(); ++iz) {
+        if (view.status(ix, iy, iz) != CellStatus::value) continue;
+        const auto dbz = static_cast<double>(view.value(ix, iy, iz));
+        if (dbz < threshold_dbz) continue;
+        const double here_m = levels_m[static_cast<std::size_t>(iz)];
+        if (dbz > largest) slow.height_km = here_m / 1000;
+        largest = std::max(largest, dbz);
+        slow.top_m = here_m;
+        const bool goes_on =
+            iz + 1 < view.spec->nz() && view.status(ix, iy, iz + 1) == CellStatus::value;
+        if (!goes_on) continue;
+        const auto above = static_cast<double>(view.value(ix, iy, iz + 1));
+        const double step_m = levels_m[static_cast<std::size_t>(iz) + 1] - here_m;
+        if (above < threshold_dbz) {
+            slow.top_m = here_m + step_m * (dbz - threshold_dbz) / (dbz - above);
+        }
+    }
+    return slow;
+}
+
+TEST(VilDensity, AndTheHeightOfTheMaximumAgreeWithTheSlowForm) {
+    const auto bricks = bricks_of(storm_grid(small_spec(40, 30, 8000, 500)));
+    const grid::BrickView view = bricks.view();
+    constexpr double radar_m = 370;
+    const FlatField density = vil_density_field(view, 18.5, radar_m, 2);
+    const FlatField height = maximum_height_field(view, 18.5, 2);
+    const FlatField vil = vil_field(view, 1);
+    int valued = 0;
+    for (int iy = 0; iy < 40; ++iy) {
+        for (int ix = 0; ix < 40; ++ix) {
+            const SlowColumn slow = slow_column(view, ix, iy, 18.5);
+            const std::size_t at = density.index(ix, iy);
+            ASSERT_EQ(density.status[at] == CellStatus::value, slow.top_m.has_value());
+            ASSERT_EQ(height.status[at] == CellStatus::value, slow.height_km.has_value());
+            if (!slow.top_m) continue;
+            ++valued;
+            const double wanted =
+                1000 * static_cast<double>(vil.values[at]) / std::max(500.0, *slow.top_m - radar_m);
+            ASSERT_NEAR(static_cast<double>(density.values[at]), wanted, 1e-5 * wanted + 1e-6);
+            ASSERT_FLOAT_EQ(height.values[at], static_cast<float>(*slow.height_km));
+        }
+    }
+    EXPECT_GT(valued, 30);
+}
+
+TEST(VilDensity, IsVilOverTheHeightOfTheTopAboveTheRadar) {
+    const auto bricks = columns_of({repeated(valued(45), 10),
+                                    {quiet},
+                                    repeated(unseen, 20),
+                                    repeated(folded, 20),
+                                    {valued(45)}});
+    const grid::BrickView view = bricks.view();
+    const FlatField density = vil_density_field(view, 18.5, 1000, 1);
+    const FlatField vil = vil_field(view, 1);
+    EXPECT_FLOAT_EQ(density.values[0], vil.values[0] * 1000 / 4000) << "echo up to 5 km";
+    EXPECT_EQ(density.status[1], CellStatus::no_echo);
+    EXPECT_EQ(density.status[2], CellStatus::not_seen);
+    EXPECT_EQ(density.status[3], CellStatus::range_folded);
+    EXPECT_FLOAT_EQ(density.values[4], vil.values[4] * 1000 / 500) << "a top below the radar";
+    EXPECT_TRUE(density.at_least.empty());
+    FrameFacts facts;
+    facts.sites = {{"KAAA", 35, -97, 300}, {"KBBB", 36, -97, 500}};
+    EXPECT_DOUBLE_EQ(radar_height_m(facts), 400);
+}
+
+TEST(MaximumHeight, IsThatOfTheLowestOfTheLargestCells) {
+    const auto bricks = columns_of({{valued(20), valued(40), valued(40), valued(30)},
+                                    {valued(10), valued(12)},
+                                    repeated(unseen, 20),
+                                    {folded, valued(30)}});
+    const FlatField field = maximum_height_field(bricks.view(), 18.5, 1);
+    EXPECT_FLOAT_EQ(field.values[0], 1);
+    EXPECT_EQ(field.status[1], CellStatus::no_echo) << "below the threshold";
+    EXPECT_EQ(field.status[2], CellStatus::not_seen);
+    EXPECT_FLOAT_EQ(field.values[3], 1);
 }
 
 TEST(HeightsSeen, AreThoseOfTheOutermostCellsSeen) {

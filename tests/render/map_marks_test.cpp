@@ -262,9 +262,9 @@ TEST(MapCache, MakesTheMapAgainWhenTheViewIsAnother) {
 }
 
 TEST(DistanceText, SaysMetresAndKilometres) {
-    EXPECT_EQ(distance_text(500), "500 m");
-    EXPECT_EQ(distance_text(1000), "1 km");
-    EXPECT_EQ(distance_text(2500), "2.5 km");
+    EXPECT_EQ(distance_text(500, {}), "500 m");
+    EXPECT_EQ(distance_text(1000, {}), "1 km");
+    EXPECT_EQ(distance_text(2500, {}), "2.5 km");
 }
 
 }  // namespace

@@ -53,25 +53,25 @@ TEST_F(ProbeTest, OfAMapTellsTheColumnThatIsDrawnThere) {
     EXPECT_EQ(probe->highest_seen_m, 5000);
     EXPECT_NEAR(probe->place.latitude_deg, place(30, 70).latitude_deg, 0.003);
     EXPECT_NEAR(probe->place.longitude_deg, place(30, 70).longitude_deg, 0.003);
-    EXPECT_EQ(probe_text(*probe), "45 dBZ");
-    EXPECT_EQ(probe_text(*at(20, 20)), "no echo");
-    EXPECT_EQ(probe_text(*at(60, 20)), "range folded");
-    EXPECT_EQ(probe_text(*at(95, 20)), "not seen");
+    EXPECT_EQ(probe_text(*probe, {}), "45 dBZ");
+    EXPECT_EQ(probe_text(*at(20, 20), {}), "no echo");
+    EXPECT_EQ(probe_text(*at(60, 20), {}), "range folded");
+    EXPECT_EQ(probe_text(*at(95, 20), {}), "not seen");
     EXPECT_FALSE(at(95, 20)->lowest_seen_m);
 }
 
 TEST_F(ProbeTest, OfEveryProductSaysWhatItShows) {
     scene_.product = Product::cappi;
     scene_.cappi_height_m = 2250;
-    EXPECT_EQ(probe_text(*at(30, 70)), "32.5 dBZ");
+    EXPECT_EQ(probe_text(*at(30, 70), {}), "32.5 dBZ");
     EXPECT_EQ(at(30, 70)->height_m, 2250);
     scene_.product = Product::echo_top;
-    EXPECT_EQ(probe_text(*at(30, 70)), "at least 5 km");
+    EXPECT_EQ(probe_text(*at(30, 70), {}), "at least 5 km");
     scene_.product = Product::lowest_seen;
-    EXPECT_EQ(probe_text(*at(30, 70)), "1 km");
+    EXPECT_EQ(probe_text(*at(30, 70), {}), "1 km");
     scene_.product = Product::volume;
     scene_.camera = {180, 0, 1};
-    EXPECT_EQ(probe_text(*at(30, 70)), "45 dBZ");
+    EXPECT_EQ(probe_text(*at(30, 70), {}), "45 dBZ");
     EXPECT_EQ(at(30, 70)->height_m, 2500);
 }
 

@@ -90,7 +90,7 @@ TEST(Section, BeyondTheGridIsNothing) {
         inside += flag;
     EXPECT_EQ(inside, 20) << "the middle third of 60 km";
     const Image image =
-        draw_section(section, nws_reflectivity(), {0, 0, 60, 4}, 60, 4, {}, nullptr);
+        draw_section(section, nws_reflectivity(), {0, 0, 60, 4}, 60, 4, {}, {}, nullptr);
     EXPECT_EQ(image.at(2, 1), shades::dark.page);
     EXPECT_EQ(image.at(30, 1), *colour_of(nws_reflectivity(), 30));
 }

@@ -34,7 +34,7 @@ TEST(ViewGeometry, EastNorthAndUpGoWhereAForecasterExpects) {
         const Pixel east = view.project(1000, 0, 0);
         const Pixel north = view.project(0, 1000, 0);
         const Pixel up = view.project(0, 0, 1000);
-        SCOPED_TRACE(testing::Message() << c.azimuth_deg << " " << c.tilt_deg);
+        SCOPED_TRACE(::testing::Message() << c.azimuth_deg << " " << c.tilt_deg);
         EXPECT_EQ(sign(east.x - origin.x), c.east_x);
         EXPECT_EQ(sign(east.y - origin.y), c.east_y);
         EXPECT_EQ(sign(north.x - origin.x), c.north_x);

@@ -35,9 +35,9 @@ namespace stormcellar::grid {
 // the elevation, and without that the lowest. Of several sweeps of one angle (SAILS, split cuts) it
 // is the newest that choose_sweeps() finds as good as the others, or the nearest to a time.
 struct SweepWish {
-    std::optional<double> elevation_deg;
-    std::optional<std::size_t> number;  // index in Volume::sweeps
-    std::optional<UtcTime> nearest_to;
+    std::optional<double> elevation_deg{};
+    std::optional<std::size_t> number{};  // index in Volume::sweeps
+    std::optional<UtcTime> nearest_to{};
 };
 
 struct SweepFacts {

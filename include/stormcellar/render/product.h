@@ -15,6 +15,7 @@ namespace stormcellar::render {
 
 struct ColourTable;
 struct Scene;
+struct ShownUnit;
 
 enum class Product {
     volume,
@@ -68,7 +69,9 @@ struct ProductFacts {
 [[nodiscard]] std::string product_title(const Scene& scene);
 // The scene's table, or else the product's, or else the moment's.
 [[nodiscard]] const ColourTable& colours_of(const Scene& scene);
-// Of what the product shows: "dBZ", "km"; empty for a number without one.
+// Of the values of the product: "dBZ", "km"; empty for a number without one.
 [[nodiscard]] std::string unit_shown(const Scene& scene);
+// The unit in which the picture writes these values.
+[[nodiscard]] ShownUnit written_unit(const Scene& scene);
 
 }  // namespace stormcellar::render

@@ -19,6 +19,7 @@
 #include "stormcellar/render/light.h"
 #include "stormcellar/render/product.h"
 #include "stormcellar/render/theme.h"
+#include "stormcellar/render/units.h"
 
 namespace stormcellar::render {
 
@@ -100,6 +101,7 @@ struct Scene {
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // color bar, title, time, map
     Theme theme = Theme::dark;
+    Units units;  // of what is written
 };
 // Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
 // outside every range.

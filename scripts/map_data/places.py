@@ -1,0 +1,65 @@
+"""The places that a user may name, from the Census' gazetteer and from the cities of the map."""
+import csv
+import gzip
+import math
+import re
+
+ENTRY = re.compile(r"\[fips(\d+)\]\ncentroid = \(([-\d.]+), ([-\d.]+)\)\ndescription = (.*), (\w\w)\n")
+PLACE, SUBDIVISION = 7, 10  # digits of a code
+
+# Where towns are subdivisions of counties, and no places of the Census.
+TOWNS = {"CT", "MA", "ME", "NH", "RI", "VT"}
+TOWNSHIPS = {"NJ"}
+
+# The Census says after a name what kind of place it is.
+KINDS = re.compile(
+    r"( metro| unified| consolidated| metropolitan| zona)?"
+    r"( (city|town|village|borough|CDP|municipality|township|corporation|comunidad|urbana|"
+    r"urban county|government))?( \(balance\))?$")
+SAME_KM = 25  # of one name and state: two descriptions of one place
+
+
+def name_of(description):
+    name = KINDS.sub("", description).strip()
+    # "Athens-Clarke County", "Lynchburg, Moore County": the city is the first of the two.
+    if re.search(r"[-/].* County$", name) or name == "Butte-Silver Bow":
+        name = re.split(r"[-/]", name)[0]
+    return name.split(",")[0]
+
+
+def folded(name):
+    return name.casefold()
+
+
+def km_between(a, b):
+    east = math.cos(math.radians(a[0])) * (a[1] - b[1])
+    return 111.2 * math.hypot(a[0] - b[0], east)
+
+
+def of_gazetteer(path):
+    with gzip.open(path, "rt", encoding="utf-8") as file:
+        for code, lat, lon, description, state in ENTRY.findall(file.read()):
+            kind = description.rsplit(" ", 1)[-1]
+            wanted = len(code) == PLACE or (
+                len(code) == SUBDIVISION and (kind == "town" and state in TOWNS
+                                              or kind == "township" and state in TOWNSHIPS))
+            if wanted:
+                yield name_of(description), state, math.degrees(float(lat)), \
+                    math.degrees(float(lon)), 0
+
+
+def of_map(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        for row in csv.reader(line for line in file if not line.startswith("#")):
+            name, region, lat, lon, thousands, _county = row
+            yield name, region, float(lat), float(lon), int(thousands)
+
+
+def read(cities, gazetteer):
+    """(name, region, latitude, longitude, thousands of people or 0), by name; the map's first."""
+    found = {}
+    for place in [*of_map(cities), *of_gazetteer(gazetteer)]:
+        same = found.setdefault((folded(place[0]), place[1]), [])
+        if not any(km_between(place[2:4], other[2:4]) < SAME_KM for other in same):
+            same.append(place)
+    return [place for key in sorted(found) for place in found[key]]

@@ -1,0 +1,175 @@
+#include "render/products/sweep_field.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "render/frame/probe.h"
+#include "render/products/ground.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/render/render.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::render {
+namespace {
+
+using grid::CellStatus;
+using level2::Moment;
+
+class SweepField : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        auto decoded =
+            level2::decode_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
+        ASSERT_TRUE(decoded);
+        const auto volume = std::make_shared<level2::Volume>(std::move(decoded->volume));
+        const auto antenna = level2::antenna_position(*volume);
+        ASSERT_TRUE(antenna);
+        site_ = {volume->station, antenna->latitude_deg, antenna->longitude_deg,
+                 antenna->altitude_m};
+        auto sweep = grid::SweepLookup::find(volume, site_, Moment::ref,
+                                             grid::beam_width_of(site_.icao) / 2, {});
+        ASSERT_TRUE(sweep);
+        sweep_ = std::make_unique<grid::SweepLookup>(std::move(*sweep));
+    }
+
+    [[nodiscard]] grid::GridSpec plane(double latitude_deg, double longitude_deg) const {
+        grid::GridSpec spec = grid::default_spec(latitude_deg, longitude_deg);
+        spec.levels_m = {site_.altitude_m};
+        return spec;
+    }
+    [[nodiscard]] Scene scene() const {
+        Scene scene;
+        scene.product = Product::ppi;
+        scene.width = 300;
+        scene.height = 200;
+        scene.labels = false;
+        return scene;
+    }
+    // Where the middle of a pixel is from the radar, by geodesics.
+    [[nodiscard]] grid::PolarPoint exact(const grid::GridSpec& spec, const ViewGeometry& geometry,
+                                         int x, int y) const {
+        const auto p = geometry.ground({x + 0.5, y + 0.5}).value();
+        const auto geo =
+            grid::GridProjection(spec).to_geo({p.x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
+                                               p.y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1)});
+        return grid::SiteFrame(site_.latitude_deg, site_.longitude_deg).to_polar(geo);
+    }
+    // True if the gate at the place, or at one 0.5 m beside it, has this state and value.
+    [[nodiscard]] bool is_there(grid::PolarPoint place, CellStatus status, float value) const {
+        const grid::PlanePoint at = grid::SiteFrame::to_plane(place);
+        for (const double east : {0.0, -0.5, 0.5}) {
+            for (const double north : {0.0, -0.5, 0.5}) {
+                const auto gate =
+                    sweep_->at(grid::SiteFrame::from_plane(at.x_m + east, at.y_m + north));
+                const bool same_value = status != CellStatus::value || gate.value == value;
+                if (gate.status == status && same_value) return true;
+            }
+        }
+        return false;
+    }
+
+    grid::SitePosition site_;
+    std::unique_ptr<grid::SweepLookup> sweep_;
+};
+
+TEST_F(SweepField, EachPixelShowsItsGate) {
+    // About the radar, about places 300 km off, and on planes of other projections.
+    std::vector<grid::GridSpec> planes = {plane(site_.latitude_deg, site_.longitude_deg),
+                                          plane(35, -99), plane(31.5, -103.5), plane(34, -101),
+                                          plane(34, -101)};
+    planes[3].projection = grid::Projection::lambert_conformal;
+    planes[3].parallels_deg = {33, 45};
+    planes[4].projection = grid::Projection::latitude_longitude;
+    planes[4].spacing_m = 0;
+    planes[4].spacing_deg = 0.01;
+    for (const grid::GridSpec& spec : planes) {
+        ASSERT_TRUE(grid::validate(spec));
+        const ViewGeometry geometry = picture_geometry(spec, scene(), 300, 200);
+        const FlatField field = sweep_in_picture(*sweep_, spec, geometry, 2);
+        int valued = 0;
+        for (int y = 0; y < 200; ++y) {
+            for (int x = 0; x < 300; ++x) {
+                const std::size_t at = field.index(x, y);
+                const auto p = geometry.ground({x + 0.5, y + 0.5}).value();
+                if (column_at(spec, p) < 0) {
+                    ASSERT_EQ(field.status[at], CellStatus::not_seen);
+                    continue;
+                }
+                ASSERT_TRUE(
+                    is_there(exact(spec, geometry, x, y), field.status[at], field.values[at]))
+                    << spec.center_latitude_deg << " " << x << "," << y;
+                valued += field.status[at] == CellStatus::value ? 1 : 0;
+            }
+        }
+        EXPECT_GT(valued, 300);
+        EXPECT_EQ(field.values, sweep_in_picture(*sweep_, spec, geometry, 1).values);
+    }
+}
+
+TEST_F(SweepField, ColumnsShowTheGateAtTheirCenter) {
+    const grid::GridSpec spec = plane(33, -101);
+    const FlatField field = sweep_in_columns(*sweep_, spec, 2);
+    const grid::SiteFrame frame(site_.latitude_deg, site_.longitude_deg);
+    for (int iy = 3; iy < spec.ny; iy += 17) {
+        for (int ix = 3; ix < spec.nx; ix += 17) {
+            const std::size_t at = field.index(ix, iy);
+            ASSERT_TRUE(is_there(frame.to_polar(grid::column_position(spec, ix, iy)),
+                                 field.status[at], field.values[at]));
+        }
+    }
+}
+
+// The picture has the color of the gate that the slow way finds, or a state's shade.
+TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
+    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    grid::BrickView view;
+    view.spec = &spec;
+    view.sweep = sweep_.get();
+    FrameFacts facts{site_.icao, Moment::ref, sweep_->facts().start, {site_}};
+    const auto picture = render_frame(view, facts, scene(), 2);
+    ASSERT_TRUE(picture);
+    const ViewGeometry geometry = picture_geometry(spec, scene(), 300, 200);
+    int valued = 0;
+    int colored = 0;
+    for (int y = 2; y < 198; ++y) {
+        for (int x = 2; x < 298; ++x) {
+            if (column_at(spec, geometry.ground({x + 0.5, y + 0.5}).value()) < 0) continue;
+            const auto gate = sweep_->at(exact(spec, geometry, x, y));
+            const auto color = gate.status == CellStatus::value
+                                   ? colour_of(colours_of(scene()), gate.value)
+                                   : std::nullopt;
+            if (!color) continue;
+            const auto probe = probe_pixel(view, facts, scene(), x, y, 1);
+            ASSERT_TRUE(probe);
+            ASSERT_EQ(probe->value, gate.value);
+            ASSERT_TRUE(probe->gate);
+            ASSERT_TRUE(probe->height_m);
+            ++valued;
+            if (picture->at(x, y) == *color) ++colored;
+        }
+    }
+    EXPECT_GT(valued, 1000);
+    EXPECT_GT(colored, 0.97 * valued) << "the line around the ground covers the others";
+}
+
+TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {
+    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    grid::BrickView view;
+    view.spec = &spec;
+    FrameFacts facts{site_.icao, Moment::ref, {}, {site_}};
+    EXPECT_EQ(check_frame(view, facts, scene()).error().code, ErrorCode::bad_argument);
+    view.sweep = sweep_.get();
+    EXPECT_TRUE(check_frame(view, facts, scene()));
+    Scene composite = scene();
+    composite.product = Product::composite;
+    EXPECT_EQ(check_frame(view, facts, composite).error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(product_title(scene_shown(view, scene())),
+              "Reflectivity at 0.5 degrees elevation (PPI)");
+}
+
+}  // namespace
+}  // namespace stormcellar::render
