@@ -13,8 +13,8 @@
 #include "cli/picture/scene_options.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/moment_option.h"
-#include "render/colour/built_in_tables.h"
 #include "cli/shared/named_place.h"
+#include "render/colour/built_in_tables.h"
 #include "render/colour/colour_file.h"
 #include "stormcellar/render/product.h"
 
