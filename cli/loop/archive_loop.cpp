@@ -160,14 +160,19 @@ Status announce(const ArchiveCall& call, const pipeline::ArchivePlan& plan,
     const auto filling = cache::filling_of(plan.cache);
     if (!filling) return pass_on(filling);
     const std::uint64_t free = filling->capacity_bytes - filling->used_bytes;
-    const std::string about = fmt::format(
-        "{} {} of {}: {} have their grids in {} already, {} must be read ({}){}; the new grids "
-        "take about {} ({} free)",
-        volumes.size(), plural(volumes.size(), "volume"), fmt::join(stations_of(volumes), " "),
-        volumes.size() - missing.size(), plan.cache.native(), missing.size(),
-        format_byte_size(raw_bytes),
-        frames > 0 ? fmt::format(" and {} mosaics must be made", frames) : "",
-        format_byte_size(need), format_byte_size(free));
+    const bool is_done = missing.empty() && frames == 0;
+    const std::string about =
+        fmt::format("{} {} of {}: ", volumes.size(), plural(volumes.size(), "volume"),
+                    fmt::join(stations_of(volumes), " ")) +
+        (is_done ? fmt::format("all grids are in {} already", plan.cache.native())
+                 : fmt::format("{} have their grids in {} already, {} must be read ({}){}; the "
+                               "new grids take about {} ({} free)",
+                               volumes.size() - missing.size(), plan.cache.native(), missing.size(),
+                               format_byte_size(raw_bytes),
+                               frames > 0 ? fmt::format(" and {} {} must be made", frames,
+                                                        plural(frames, "mosaic"))
+                                          : "",
+                               format_byte_size(need), format_byte_size(free)));
     if (need > free) {
         return fail(ErrorCode::no_space,
                     "{}: there is not enough room; use --cache on another disk, a wider "
@@ -317,9 +322,9 @@ Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
     grids.bytes = usage.bytes;
     if (call.keep) {
         if (!call.quiet) {
-            fmt::print(stderr, "the grids stay in {} ({} in {} files)\n",
+            fmt::print(stderr, "the grids stay in {} ({} in {} {})\n",
                        printable(grids.directory.native()), format_byte_size(usage.bytes),
-                       usage.grids);
+                       usage.grids, plural(usage.grids, "file"));
         }
         return {};
     }

@@ -259,11 +259,10 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
 // it is. Else the camera is first where the way begins.
 void take_camera_keys(LoopOptions& options) {
     if (options.camera.empty()) return;
-    for (const PictureOption* row : options.scene.typed) {
-        if (row->key == "orbit_deg" || row->key == "at_km" || row->key == "look_at_km") {
-            options.camera.clear();
-            return;
-        }
+    if (std::ranges::any_of(options.scene.typed,
+                            [](const PictureOption* row) { return moves_camera(*row); })) {
+        options.camera.clear();
+        return;
     }
     render::Camera& camera = options.scene.scene.camera;
     if (options.camera.front().eye) camera.eye = options.camera.front().eye;

@@ -8,9 +8,8 @@
 namespace stormcellar::cli {
 namespace {
 
-bool is_typed(const SceneOptions& options, std::string_view key) {
-    return std::ranges::any_of(options.typed,
-                               [&](const PictureOption* row) { return row->key == key; });
+bool is_typed(const SceneOptions& options, ViewPart part) {
+    return contains(options.typed, option_of(part));
 }
 
 bool file_has_a_view(const SceneOptions& options) {
@@ -37,18 +36,18 @@ bool is_near(const render::FittedView& one, const render::FittedView& other) {
 render::FitParts parts_to_fit(const SceneOptions& options) {
     if (file_has_a_view(options)) return render::FitParts::none();
     render::FitParts parts;
-    const auto is_open = [&](std::string_view key) { return !is_typed(options, key); };
+    const auto is_open = [&](ViewPart part) { return !is_typed(options, part); };
     const render::Camera& camera = options.scene.camera;
     const bool has_place = camera.eye.has_value();
     const bool is_parallel =
-        is_typed(options, "field_of_view_deg") && camera.field_of_view_deg == 0;
-    parts.azimuth = is_open("azimuth_deg") && !has_place;
-    parts.tilt = is_open("tilt_deg") && !has_place;
-    parts.field_of_view = is_open("field_of_view_deg") && !has_place;
-    parts.place = is_open("zoom") && !has_place && !camera.look_at && !is_parallel;
-    parts.exaggeration = is_open("exaggeration") && !has_place;
-    parts.opacity = is_open("opacity");
-    parts.sun = is_open("sun_deg");
+        is_typed(options, ViewPart::field_of_view) && camera.field_of_view_deg == 0;
+    parts.azimuth = is_open(ViewPart::azimuth) && !has_place;
+    parts.tilt = is_open(ViewPart::tilt) && !has_place;
+    parts.field_of_view = is_open(ViewPart::field_of_view) && !has_place;
+    parts.place = is_open(ViewPart::zoom) && !has_place && !camera.look_at && !is_parallel;
+    parts.exaggeration = is_open(ViewPart::exaggeration) && !has_place;
+    parts.opacity = is_open(ViewPart::opacity);
+    parts.sun = is_open(ViewPart::sun);
     return parts;
 }
 
@@ -57,7 +56,7 @@ bool fits_anything(const SceneOptions& options) {
 }
 
 bool chooses_light(const SceneOptions& options) {
-    return !is_typed(options, "kinds") && !file_has_a_view(options);
+    return !is_typed(options, ViewPart::light) && !file_has_a_view(options);
 }
 
 Result<render::FittedView> fit_picture(const render::EchoOutline& outline,

@@ -7,11 +7,14 @@
 #include <fmt/ranges.h>
 
 #include "base/local_time.h"
+#include "base/name_list.h"
+#include "base/nearest_name.h"
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/moment_option.h"
 #include "cli/shared/named_place.h"
+#include "render/colour/built_in_tables.h"
 #include "render/colour/colour_file.h"
 #include "stormcellar/render/product.h"
 
@@ -93,9 +96,15 @@ Status check_time_zone(const std::string& zone) {
 }
 
 Status check_colors(const std::string& name) {
-    if (name == "smooth" || name == "nws") return {};
+    if (render::table_of_family(name, level2::Moment::ref) != nullptr) return {};
     const auto table = render::colours_from(name);
-    return table ? Status{} : pass_on(table);
+    if (table) return {};
+    const std::vector<std::string> families(render::colour_families.begin(),
+                                            render::colour_families.end());
+    if (const std::string meant = did_you_mean(name, families); !meant.empty())
+        return fail(ErrorCode::bad_argument, "there is no color table '{}'{}", printable(name),
+                    meant);
+    return pass_on(table);
 }
 
 std::string known_smoothings() {
@@ -248,7 +257,7 @@ constexpr std::array option_rows{
                   .value = NumbersValue{camera_places, set_camera},
                   .used_by = by_volume,
                   .help = "Position of the camera in km from the grid's middle and above sea "
-                          "level: EAST,NORTH,UP. Default: outside the grid, looking at its middle"},
+                          "level: EAST,NORTH,UP"},
     PictureOption{.option = "--look-at-km",
                   .section = "camera",
                   .key = "look_at_km",
@@ -268,14 +277,13 @@ constexpr std::array option_rows{
                             .get = [](To to) { return render::light_names(to.scene.light); }},
         .used_by = by_volume,
         .help = "Kinds of light, separated by commas: gradient, shadow, scattering, or none for "
-                "exact colors. Light changes neither the hue of echo nor its mean lightness. "
-                "Default: gradient,shadow"},
+                "exact colors. Light changes neither the hue of echo nor its mean lightness"},
     PictureOption{.option = "--sun",
                   .section = "light",
                   .key = "sun_deg",
                   .value = NumbersValue{sun_places, set_sun},
                   .used_by = by_volume,
-                  .help = "Direction of the light: AZIMUTH,ELEVATION in degrees. Default: 225,40"},
+                  .help = "Direction of the light: AZIMUTH,ELEVATION in degrees"},
     PictureOption{.option = "--haze",
                   .section = "volume",
                   .key = "haze",
@@ -403,6 +411,24 @@ const PictureOption& row_of(std::string_view key) {
     return *std::ranges::find(option_rows, key, &PictureOption::key);
 }
 
+constexpr std::string_view as_fits = "as fits the echo";
+
+struct KeyOfView {
+    ViewPart part;
+    std::string_view key;
+    std::string_view usual = as_fits;
+};
+constexpr std::array keys_of_the_view = {KeyOfView{ViewPart::azimuth, "azimuth_deg"},
+                                         KeyOfView{ViewPart::tilt, "tilt_deg"},
+                                         KeyOfView{ViewPart::zoom, "zoom"},
+                                         KeyOfView{ViewPart::field_of_view, "field_of_view_deg"},
+                                         KeyOfView{ViewPart::place, "at_km"},
+                                         KeyOfView{ViewPart::light, "kinds", "gradient,shadow"},
+                                         KeyOfView{ViewPart::sun, "sun_deg"},
+                                         KeyOfView{ViewPart::exaggeration, "exaggeration"},
+                                         KeyOfView{ViewPart::opacity, "opacity"}};
+static_assert(is_in_order(keys_of_the_view, &KeyOfView::part));
+
 // The ends of its range, or what its texts may be.
 struct HelpOf {
     std::string help;
@@ -462,6 +488,19 @@ const PictureOption& width_option() {
 
 const PictureOption& height_option() {
     return row_of("height");
+}
+
+const PictureOption& option_of(ViewPart part) {
+    return row_of(keys_of_the_view[static_cast<std::size_t>(part)].key);
+}
+
+std::string_view default_of_the_view(const PictureOption& option) {
+    const auto* const found = std::ranges::find(keys_of_the_view, option.key, &KeyOfView::key);
+    return found != keys_of_the_view.end() ? found->usual : std::string_view{};
+}
+
+bool moves_camera(const PictureOption& option) {
+    return option.key == "orbit_deg" || option.key == "at_km" || option.key == "look_at_km";
 }
 
 std::string key_of(const PictureOption& option) {

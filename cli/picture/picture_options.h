@@ -126,6 +126,26 @@ struct PictureOption {
 [[nodiscard]] const PictureOption& width_option();
 [[nodiscard]] const PictureOption& height_option();
 
+// The parts of the view of a volume that are fitted to the echo unless an option says them
+// (cli/picture/fitted_view.h).
+enum class ViewPart {
+    azimuth,
+    tilt,
+    zoom,
+    field_of_view,
+    place,
+    light,
+    sun,
+    exaggeration,
+    opacity
+};
+[[nodiscard]] const PictureOption& option_of(ViewPart part);
+// Returns what help calls the default of such an option; empty for any other option.
+[[nodiscard]] std::string_view default_of_the_view(const PictureOption& option);
+// Returns true for an option that says where the camera of a loop is or how it moves, instead of
+// the keys of a scene file.
+[[nodiscard]] bool moves_camera(const PictureOption& option);
+
 // As a message names a key: "[volume] slices".
 [[nodiscard]] std::string key_of(const PictureOption& option);
 [[nodiscard]] std::string help_of(const PictureOption& option);

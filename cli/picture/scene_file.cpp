@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -159,22 +161,35 @@ void read_plan(TomlTable& plan, PicturePlanOptions& options) {
     }
 }
 
-std::optional<render::Eye> read_place(TomlTable& table, std::string_view key) {
-    constexpr double per_km = 1000;
-    const auto km = table.numbers(key);
-    if (!km) return std::nullopt;
-    if (km->size() != 3) {
-        table.complain(key, "must be [east, north, up]");
-        return std::nullopt;
+// Reads the keys that [camera] has too, into `key`. Returns false if one of them is refused.
+bool read_camera(TomlTable& table, const std::filesystem::path& directory, render::CameraKey& key) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    SceneOptions read;
+    render::Camera& camera = read.scene.camera;
+    camera.azimuth_deg = camera.tilt_deg = camera.zoom = camera.field_of_view_deg = none;
+    for (const PictureOption& row : picture_options()) {
+        if (row.section == "camera") read_row(row, table, directory, {read, read.scene, nullptr});
     }
-    return render::Eye{(*km)[0] * per_km, (*km)[1] * per_km, (*km)[2] * per_km};
+    std::size_t taken = 0;
+    const auto take = [&](double number, std::optional<double>& into) {
+        if (std::isnan(number)) return;
+        into = number;
+        ++taken;
+    };
+    take(camera.azimuth_deg, key.azimuth_deg);
+    take(camera.tilt_deg, key.tilt_deg);
+    take(camera.zoom, key.zoom);
+    take(camera.field_of_view_deg, key.field_of_view_deg);
+    key.eye = camera.eye;
+    key.look_at = camera.look_at;
+    taken += (key.eye ? 1U : 0U) + (key.look_at ? 1U : 0U);
+    return taken == read.in_file.size();
 }
 
 // The camera's way, of [[loop.camera]]; what makes no sense together is found by CameraPath.
-void read_camera_keys(TomlTable& loop, const render::Camera& usual,
-                      std::vector<render::CameraKey>& keys) {
-    namespace limits = render::limits;
-    constexpr NumberRange any_azimuth{-3600, 3600}, whole_turns{-100, 100}, day_s{0, 86'400};
+void read_camera_keys(TomlTable& loop, const std::filesystem::path& directory,
+                      const render::Camera& usual, std::vector<render::CameraKey>& keys) {
+    constexpr NumberRange whole_turns{-100, 100}, day_s{0, 86'400};
     if (!loop.has("camera")) return;
     keys.clear();
     bool are_read = true;
@@ -183,18 +198,8 @@ void read_camera_keys(TomlTable& loop, const render::Camera& usual,
         const auto time_s = table.number("time_s", day_s);
         if (!time_s && !table.has("time_s")) table.complain("time_s", "is missing");
         key.time_s = time_s.value_or(0);
-        key.azimuth_deg = table.number("azimuth_deg", any_azimuth);
-        key.tilt_deg = table.number("tilt_deg", limits::tilt_of_eye_deg);
-        key.zoom = table.number("zoom", limits::zoom);
-        key.field_of_view_deg = table.number("field_of_view_deg", limits::field_of_view_deg);
         key.turns = table.whole_number("turns", whole_turns).value_or(0);
-        key.eye = read_place(table, "at_km");
-        key.look_at = read_place(table, "look_at_km");
-        const auto is_read = [&](const char* name, bool there) {
-            return there || !table.has(name);
-        };
-        are_read = are_read && time_s && is_read("at_km", key.eye.has_value()) &&
-                   is_read("look_at_km", key.look_at.has_value());
+        are_read = read_camera(table, directory, key) && time_s && are_read;
         keys.push_back(key);
     }
     if (!are_read) return;
@@ -267,7 +272,7 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     new_scene.file_product = new_scene.product;
     read_plan(tables["plan"], new_plan);
     read_loop(tables["loop"], file.parent_path(), new_loop);
-    read_camera_keys(tables["loop"], new_scene.scene.camera, new_loop.camera);
+    read_camera_keys(tables["loop"], file.parent_path(), new_scene.scene.camera, new_loop.camera);
     if (auto fine = toml->finish(); !fine) return fine;
     scene = std::move(new_scene);
     plan = std::move(new_plan);

@@ -117,6 +117,8 @@ CLI::Option* add_row(CLI::App& app, const PictureOption& row, std::string_view n
                      PictureSettings to) {
     CLI::Option* option =
         std::visit(ValueAdder{app, std::string(name), help_of(row), to}, row.value);
+    if (const std::string_view usual = default_of_the_view(row); !usual.empty())
+        option->default_str(std::string(usual));
     const bool is_old = name != row.option;
     option->each([&options = to.options, &row, is_old](const std::string& /*text*/) {
         if (!contains(options.typed, row)) {
@@ -239,10 +241,8 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     const bool has_own_colours = render::facts_of(scene.product).colours != nullptr;
     if (options.colours.empty() && options.file_product.empty() && !has_own_colours) {
         scene.colours = render::smooth_colour_table(scene.moment);
-    } else if (options.colours == "smooth") {
-        scene.colours = render::smooth_colour_table(scene.moment);
-    } else if (options.colours == "nws") {
-        scene.colours = render::default_colour_table(scene.moment);
+    } else if (const auto* table = render::table_of_family(options.colours, scene.moment)) {
+        scene.colours = *table;
     } else if (!options.colours.empty()) {
         auto colours = render::colours_from(options.colours);
         if (!colours) return pass_on(colours);

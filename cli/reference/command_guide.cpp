@@ -63,7 +63,7 @@ const std::vector<CommandGuide>& command_guides() {
         {"fetch",
          {{"stormcellar fetch --stations KTLX --from 1999-05-03T23:00:00Z --to "
            "1999-05-03T23:59:00Z -o files",
-           "The volumes of half an hour of one radar."}}},
+           "The volumes of an hour of one radar."}}},
         {"frame",
          {{"stormcellar frame KTLX19990503_235621.gz -o storm.png",
            "A file, as a volume; the view fits the storms."},

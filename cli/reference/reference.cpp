@@ -79,7 +79,12 @@ OptionReference option_of(const CLI::Option& from, const std::string& group,
         option.names.push_back("-" + name);
     for (const std::string& name : from.get_lnames())
         option.names.push_back("--" + name);
-    if (from.get_positional()) option.place = from.get_name(true);
+    if (from.get_positional()) {
+        option.place = from.get_name(true);
+        option.usage = from.get_option_text();
+        if (option.usage.empty())
+            option.usage = option.place + (from.get_expected_max() > 1 ? "..." : "");
+    }
     if (from.get_expected_max() > 0) {
         take_type(from.get_type_name(), option);
         take_words(command, option);

@@ -26,6 +26,7 @@ namespace stormcellar::cli {
 struct OptionReference {
     std::vector<std::string> names;    // "-o", "--output"; none: given only by position
     std::string place;                 // "DOMAIN"; empty: given only by name
+    std::string usage;                 // how the place stands in a command line: "FILE...|DOMAIN"
     std::string value;                 // "FILE" (value_words.h); empty: a flag
     std::vector<std::string> choices;  // the allowed values; none: any
     std::vector<std::string> offers;   // values that are usual, where others are allowed too

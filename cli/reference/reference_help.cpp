@@ -75,7 +75,7 @@ std::string usage_of(const CommandReference& command) {
     if (!command.inner.empty()) return line + " COMMAND";
     for (const OptionReference& option : command.options) {
         if (option.place.empty()) continue;
-        line += fmt::format(fmt::runtime(option.is_required ? " {}" : " [{}]"), option.place);
+        line += fmt::format(fmt::runtime(option.is_required ? " {}" : " [{}]"), option.usage);
     }
     for (const OptionReference& option : command.options) {
         if (!option.is_required || !option.place.empty()) continue;

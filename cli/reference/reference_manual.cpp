@@ -57,7 +57,7 @@ void write_command(const CommandReference& command, std::string& out) {
         out += fmt::format(".SS \"stormcellar {}", roff(command.name));
         for (const OptionReference& option : command.options) {
             if (option.place.empty()) continue;
-            const std::string place = roff(option.place);
+            const std::string place = roff(option.usage);
             out += option.is_required ? fmt::format(" {}", place) : fmt::format(" [{}]", place);
         }
         out += fmt::format(" [OPTIONS]\"\n{}\n", roff(ended(command.description)));

@@ -368,6 +368,11 @@ const ColourTable& smooth_colour_table(Moment moment) {
     return tables[tables.size() - 1 - level2::all_moments.size() +
                   static_cast<std::size_t>(moment)];
 }
+const ColourTable* table_of_family(std::string_view family, Moment moment) {
+    if (family == colour_families[0]) return &smooth_colour_table(moment);
+    if (family == colour_families[1]) return &default_colour_table(moment);
+    return nullptr;
+}
 const ColourTable& clear_air_colours() {
     return built_in_tables().back();
 }

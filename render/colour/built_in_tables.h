@@ -55,6 +55,11 @@ inline constexpr double least_safe_sides = 15;
 [[nodiscard]] const ColourTable& height_colours();
 [[nodiscard]] const ColourTable& vil_density_colours();
 
+// Families have a table for each moment: one without classes, and the default one with classes.
+inline constexpr std::array<std::string_view, 2> colour_families{"smooth", "nws"};
+// Returns a moment's own table of a family; null for any other name.
+[[nodiscard]] const ColourTable* table_of_family(std::string_view family, level2::Moment moment);
+
 // What a picture says of a moment, and its default colours: render's layer over
 // stormcellar/level2/moment.h.
 struct MomentLook {

@@ -29,7 +29,15 @@ std::string direction_name(double azimuth_deg) {
     return names[static_cast<std::size_t>(std::lround(turn / 22.5)) % names.size()];
 }
 
+// Returns true if the domain is only called by its sites, as in "KBGM+KCCX", and these are many.
+bool is_long_list_of_sites(const FrameFacts& facts) {
+    constexpr std::size_t most_named = 3;
+    const auto between = static_cast<std::size_t>(std::ranges::count(facts.domain, '+'));
+    return facts.sites.size() > most_named && between + 1 == facts.sites.size();
+}
+
 std::string title_of(const FrameFacts& facts) {
+    if (is_long_list_of_sites(facts)) return fmt::format("Mosaic of {} sites", facts.sites.size());
     if (facts.sites.size() != 1) {
         return facts.sites.empty()
                    ? facts.domain
@@ -49,6 +57,14 @@ std::string title_of(const FrameFacts& facts) {
     return title;
 }
 
+// "gradient, shadow"
+std::string light_text(const Light& light) {
+    std::string text;
+    for (const char letter : light_names(light))
+        text += letter == ',' ? std::string(", ") : std::string(1, letter);
+    return text;
+}
+
 std::string view_text(const Scene& scene) {
     const Camera camera = aimed(scene.camera, scene.vertical_exaggeration, scene.curved_earth);
     const double tilt = std::round(camera.tilt_deg);
@@ -56,7 +72,7 @@ std::string view_text(const Scene& scene) {
                                  : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
                                                direction_name(camera.azimuth_deg), tilt);
     text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
-    if (scene.light.any()) text += fmt::format("  \u00B7  lit ({})", light_names(scene.light));
+    if (scene.light.any()) text += fmt::format("  \u00B7  lit ({})", light_text(scene.light));
     return text;
 }
 

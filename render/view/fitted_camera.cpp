@@ -13,6 +13,7 @@ namespace {
 
 constexpr int column_step = 2;         // of the columns that are read, in both directions
 constexpr double least_area_km2 = 60;  // below this, a threshold is reached by specks only
+constexpr double clear_air_km2 = 150;  // of 20 dBZ
 constexpr double range_share = 0.02;   // of the columns beyond each end of the region
 constexpr double wider_share = 0.12, wider_m = 5e3;
 constexpr double least_half_m = 15e3;  // of the region, in each direction
@@ -61,14 +62,19 @@ void for_each_tile(const EchoOutline& outline, Each each) {
     }
 }
 
-// Returns the highest threshold that enough columns reach; all columns if there is none; none if
-// there is no value at all.
-std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
+std::array<double, all_columns + 1> columns_that_reach(const EchoOutline& outline) {
     std::array<double, all_columns + 1> columns{};
     for_each_tile(outline, [&](int, int, const EchoOutline::Tile& tile) {
         for (std::size_t k = 0; k < columns.size(); ++k)
             columns[k] += tile.columns[k];
     });
+    return columns;
+}
+
+// Returns the highest threshold that enough columns reach; all columns if there is none; none if
+// there is no value at all.
+std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
+    const auto columns = columns_that_reach(outline);
     for (std::size_t k = 0; k < all_columns; ++k) {
         if (k == 1) continue;  // 35 dBZ only adds columns to those of 40
         if (columns[k] * outline.column_km2() >= least_area_km2) return k;
@@ -391,8 +397,13 @@ void EchoOutline::add(const grid::BrickView& view, level2::Moment moment) {
 
 bool is_clear_air(const EchoOutline& outline) {
     if (outline.empty()) return false;
-    const auto shown = threshold_shown(outline);
-    return shown && EchoOutline::thresholds_dbz.size() - *shown <= 1;
+    const auto columns = columns_that_reach(outline);
+    const auto km2 = [&](std::size_t k) { return columns[k] * outline.column_km2(); };
+    constexpr std::size_t of_30_dbz = 2, of_20_dbz = 3;
+    static_assert(EchoOutline::thresholds_dbz[of_30_dbz] == 30 &&
+                  EchoOutline::thresholds_dbz[of_20_dbz] == 20);
+    return columns[all_columns] > 0 && km2(of_20_dbz) < clear_air_km2 &&
+           km2(of_30_dbz) < least_area_km2;
 }
 
 double EchoOutline::column_km2() const {

@@ -67,7 +67,8 @@ class EchoOutline {
     std::vector<Tile> tiles_;
 };
 
-// Returns true if there is echo, but 20 dBZ covers less than 60 km2: insects, birds, dust.
+// Returns true if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less than 60 km2:
+// insects, birds, dust, the ground about the radar, light snow.
 [[nodiscard]] bool is_clear_air(const EchoOutline& outline);
 
 // What fit_view() chooses; all else stays as the scene has it.

@@ -1,7 +1,13 @@
 #include "stormcellar/render/light.h"
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "base/nearest_name.h"
 
 namespace stormcellar::render {
 namespace {
@@ -13,6 +19,17 @@ struct Named {
 constexpr std::array<Named, 3> kinds = {{{"gradient", &Light::gradient},
                                          {"shadow", &Light::shadow},
                                          {"scattering", &Light::scattering}}};
+
+Status unknown_light(std::string_view name) {
+    std::vector<std::string> known{"none"};
+    for (const Named& kind : kinds)
+        known.emplace_back(kind.name);
+    const std::string meant = did_you_mean(name, known);
+    if (!meant.empty())
+        return fail(ErrorCode::bad_argument, "there is no light '{}'{}", name, meant);
+    return fail(ErrorCode::bad_argument, "there is no light '{}'; the known kinds are {}", name,
+                fmt::join(known, ", "));
+}
 
 }  // namespace
 
@@ -33,12 +50,7 @@ Status set_light(const std::string& names, Light& light) {
             return fail(ErrorCode::bad_argument,
                         "none cannot be combined with other kinds of light, as in '{}'", names);
         }
-        if (!known) {
-            return fail(
-                ErrorCode::bad_argument,
-                "there is no light '{}'; the known kinds are none, gradient, shadow, scattering",
-                name);
-        }
+        if (!known) return unknown_light(name);
         if (name.size() == rest.size()) break;
         rest.remove_prefix(name.size() + 1);
     }

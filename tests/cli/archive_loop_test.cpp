@@ -72,7 +72,7 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
     EXPECT_EQ(found["grids_made"], 0);
     EXPECT_EQ(found["grids_found"], 5);
     EXPECT_EQ(*read_file(out()), bytes);
-    EXPECT_THAT(second.err, HasSubstr("5 have their grids in"));
+    EXPECT_THAT(second.err, HasSubstr("5 volumes of KBGM: all grids are in"));
     EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
 }
 

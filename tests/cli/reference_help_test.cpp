@@ -174,6 +174,18 @@ TEST(Help, IsAskedForInThreeWays) {
     EXPECT_THAT(run({"frame", "--help-all"}).out, HasSubstr("--curved-earth"));
 }
 
+// The usage of `frame` had one FILE, and its help the defaults of a camera that is fitted to the
+// echo instead (2026-11-26).
+TEST(Help, SaysWhatFrameTakesAndWhichViewItChooses) {
+    for (const char* command : {"frame", "loop"}) {
+        const std::string help = run({command, "--help-all"}).out;
+        EXPECT_THAT(help,
+                    HasSubstr(fmt::format("Usage: stormcellar {} [FILE...|DOMAIN] ", command)));
+        EXPECT_THAT(help, HasSubstr("as fits the echo"));
+        EXPECT_THAT(help, Not(HasSubstr("Default: 55.")));
+    }
+}
+
 TEST(Help, IsOfferedWithOneClearLine) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
         {{"fram"}, "there is no command 'fram'; did you mean 'frame'?"},
@@ -192,6 +204,8 @@ TEST(Help, IsOfferedWithOneClearLine) {
         {{"frame", "K", "--cache", "c", "--moment", "rfe", "-o", "x.png"}, "did you mean 'REF'?"},
         {{"frame", "K", "--cache", "c", "--colors", "nws-zdrr", "-o", "x.png"},
          "did you mean 'nws-zdr'?"},
+        {{"frame", "K", "--cache", "c", "--colors", "smoth", "-o", "x.png"},
+         "did you mean 'smooth'?"},
     };
     for (const auto& [words, said] : mistakes) {
         const auto told = run(words);

@@ -304,7 +304,7 @@ TEST_F(SceneFileTest, KeysOfTheCameraThatMakeNoSenseAreRefused) {
     EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nzom = 3\n[[loop.camera]]\ntime_s = 1\n"),
                 HasSubstr("zom"));
     EXPECT_THAT(complaint("[[loop.camera]]\ntime_s = 0\nat_km = [1, 2]\n"),
-                HasSubstr("must be [east, north, up]"));
+                HasSubstr("[loop.camera] at_km: must be [east, north, up]"));
 }
 
 TEST_F(SceneFileTest, TheShippedFlightDraws) {

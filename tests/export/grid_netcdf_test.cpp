@@ -51,12 +51,11 @@ class GridNetcdf : public ::testing::Test {
     const std::filesystem::path path_ = directory_.path() / "out.nc";
 };
 
-TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
-    const Grid grid = small_grid();
-    ASSERT_TRUE(write_grid(real_file_system(), path_, grid));
-    Reader reader(path_);
-    const auto field = reader.values("REF", grid.spec.cell_count());
-    const auto status = reader.values("status", grid.spec.cell_count());
+// Compares a field and its states, as they are read, with the grid, cell by cell.
+void expect_cells(Reader& reader, const Grid& grid, const std::string& field_name,
+                  const std::string& status_name) {
+    const auto field = reader.values(field_name.c_str(), grid.spec.cell_count());
+    const auto status = reader.values(status_name.c_str(), grid.spec.cell_count());
     std::size_t at = 0;
     for (int iz = 0; iz < 3; ++iz) {
         for (int iy = 0; iy < 4; ++iy) {
@@ -69,6 +68,13 @@ TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
             }
         }
     }
+}
+
+TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
+    const Grid grid = small_grid();
+    ASSERT_TRUE(write_grid(real_file_system(), path_, grid));
+    Reader reader(path_);
+    expect_cells(reader, grid, "REF", "status");
     EXPECT_EQ(reader.values("z", 3), grid.spec.levels_m);
     EXPECT_EQ(reader.values("x", 5), (std::vector<double>{-2000, -1000, 0, 1000, 2000}));
     EXPECT_EQ(reader.values("y", 4), (std::vector<double>{-1500, -500, 500, 1500}));
@@ -226,20 +232,7 @@ TEST_F(GridNetcdf, SeveralMomentsAreOneFileWithAFieldEach) {
     Reader reader(path_);
     for (const Grid& grid : grids) {
         const std::string name{level2::moment_name(grid.moment)};
-        const auto field = reader.values(name.c_str(), grid.spec.cell_count());
-        const auto status = reader.values((name + "_status").c_str(), grid.spec.cell_count());
-        std::size_t at = 0;
-        for (int iz = 0; iz < 3; ++iz) {
-            for (int iy = 0; iy < 4; ++iy) {
-                for (int ix = 0; ix < 5; ++ix, ++at) {
-                    const std::size_t cell = grid.spec.index(ix, iy, iz);
-                    ASSERT_EQ(status[at], static_cast<double>(grid.status[cell]));
-                    const bool value = grid.status[cell] == CellStatus::value;
-                    ASSERT_EQ(field[at],
-                              static_cast<double>(value ? grid.values[cell] : NC_FILL_FLOAT));
-                }
-            }
-        }
+        expect_cells(reader, grid, name, name + "_status");
         EXPECT_EQ(reader.text(name.c_str(), "ancillary_variables"), name + "_status");
         EXPECT_EQ(reader.text(name.c_str(), "method"), grid.provenance.method);
     }

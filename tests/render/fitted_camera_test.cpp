@@ -211,5 +211,22 @@ TEST(ClearAir, IsEchoWithoutAnythingStronger) {
     EXPECT_FALSE(is_clear_air({}));
 }
 
+// What the ground about KDMX sends back on a clear day, 90 km2 of 20 dBZ, was drawn with the colors
+// of rain, almost black (2026-11-26).
+TEST(ClearAir, MayHaveSpecksOfStrongerEcho) {
+    const grid::GridSpec spec = small_spec(64, 20);
+    const auto clear = [&](double dbz, int side) {
+        const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) {
+            if (iz >= 4) return Cell{};
+            return valued(ix < side && iy < side ? dbz : -5);
+        }));
+        return is_clear_air(EchoOutline(bricks.view(), Moment::ref));
+    };
+    EXPECT_TRUE(clear(25, 10));
+    EXPECT_FALSE(clear(25, 14));
+    EXPECT_TRUE(clear(35, 6));
+    EXPECT_FALSE(clear(35, 8)) << "a small shower";
+}
+
 }  // namespace
 }  // namespace stormcellar::render

@@ -226,6 +226,21 @@ TEST(Labels, WhatOneSiteSeesOfADomainIsTheSitesPicture) {
                 ::testing::Contains("moore  (KTLX  Oklahoma City, OK)"));
 }
 
+// The title of a picture of seven files was "KBGM+KCCX+KDIX+KDOX+KENX+KOKX+KTYX" (2026-11-26).
+TEST(Labels, ManySitesAreCountedInTheTitle) {
+    using ::testing::Contains;
+    EXPECT_THAT(texts_of(Scene{}, facts_for("KBGM+KCCX+KDIX+KDOX", 4, false)),
+                Contains("Mosaic of 4 sites"));
+    EXPECT_THAT(texts_of(Scene{}, facts_for("KBGM+KCCX", 2, false)),
+                Contains("KBGM+KCCX  (2 sites)"));
+    EXPECT_THAT(texts_of(Scene{}, facts_for("northeast", 4, false)),
+                Contains("northeast  (4 sites)"));
+    Scene lit;
+    ASSERT_TRUE(set_light("gradient,shadow", lit.light));
+    EXPECT_THAT(texts_of(lit, facts_for("KTLX", 1, false)),
+                Contains(::testing::HasSubstr("lit (gradient, shadow)")));
+}
+
 TEST(Labels, WholeVolumesAreNotCalledPartialAndMapsSayNoExaggeration) {
     Scene scene;
     scene.product = Product::composite;

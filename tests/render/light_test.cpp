@@ -19,7 +19,10 @@ TEST(Light, IsNamedByItsKinds) {
     ASSERT_TRUE(set_light("shadow,gradient", light));
     EXPECT_TRUE(light.gradient && light.shadow && !light.scattering);
     EXPECT_EQ(light_names(light), "gradient,shadow");
-    EXPECT_FALSE(set_light("shadow,gloom", light));
+    EXPECT_EQ(set_light("shadow,gloom", light).error().message,
+              "there is no light 'gloom'; the known kinds are none, gradient, shadow, scattering");
+    EXPECT_EQ(set_light("shadow,gradent", light).error().message,
+              "there is no light 'gradent'; did you mean 'gradient'?");
     EXPECT_FALSE(set_light("", light));
     for (const char* mixed : {"none,gradient", "shadow,none", "none,none"}) {
         const Status status = set_light(mixed, light);

@@ -102,6 +102,8 @@ TEST(Theme, NamesAreReadBack) {
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().message,
               "there is no theme 'sepia'; the known themes are dark or light");
+    EXPECT_EQ(theme_from_name("ligth").error().message,
+              "there is no theme 'ligth'; did you mean 'light'?");
 }
 
 TEST(Mixed, GoesFromOneToTheOther) {

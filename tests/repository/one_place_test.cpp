@@ -88,16 +88,10 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
     const auto keys = names_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
     ASSERT_GE(keys.size(), 28U);
     // These are words that the metadata and the JSON of a picture have as well.
-    const std::set<std::string> also_facts{"product", "moment", "width",  "height",
-                                           "frames",  "sweep",  "smooth", "elevation"};
-    // A key of [[loop.camera]] has these too; what is fitted to the echo asks whether they were
-    // given.
-    const std::set<std::string> of_the_view{
-        "azimuth_deg", "tilt_deg",   "zoom",         "field_of_view_deg",
-        "at_km",       "look_at_km", "exaggeration", "opacity",
-        "sun_deg",     "kinds",      "orbit_deg",    "elevation_deg"};
+    const std::set<std::string> also_facts{"product", "moment",      "width",        "height",
+                                           "frames",  "azimuth_deg", "elevation_deg"};
     for (const std::string& key : keys) {
-        if (also_facts.contains(key) || of_the_view.contains(key)) continue;
+        if (also_facts.contains(key)) continue;
         EXPECT_EQ(sources_with(quoted(key), {"cli/picture", "cli/loop"}), option_table) << key;
     }
 }
