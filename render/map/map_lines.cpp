@@ -105,8 +105,12 @@ double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m) {
     double spacing = asked_m;
     if (asked_m == Scene::usual_rings) {
         spacing = 50e3;
-        while (std::min(width, height) / 2 / spacing > 6.5)
+        const double side = std::min(width, height) / 2;
+        while (side / spacing > 6.5)
             spacing *= 2;
+        for (const double smaller : {25e3, 10e3, 5e3, 2e3, 1e3}) {
+            if (side < spacing) spacing = smaller;
+        }
     }
     const double reach = std::hypot(width, height) / 2;
     while (reach / spacing > 20)

@@ -34,7 +34,8 @@ struct MapLines {
 };
 
 // Returns the spacing that is asked for, doubled until there are at most 20 rings; if none is asked
-// for (Scene::usual_rings), 50 km, doubled until at most six reach the nearest side of the grid.
+// for (Scene::usual_rings), 50 km, doubled until at most six reach the nearest side of the grid,
+// and less where the grid is too small for one.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m);
 
 // Draws a thin line around the ground.
