@@ -29,6 +29,8 @@
 namespace stormcellar::cli {
 namespace {
 
+constexpr double elevations_reach_m = 230e3;
+
 // One volume, and how it is read.
 struct RawSource {
     std::filesystem::path path;
@@ -145,14 +147,28 @@ Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t nu
     return &*drawing.volume;
 }
 
+// High sweeps reach few kilometers, so the plane of a loop through the elevations is no larger than
+// a station's usual grid, unless the options say how large.
+void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
+    if (volume.request.extent_given) return;
+    const auto limited = [](int cells, double width_m) {
+        return std::min(cells, static_cast<int>(2 * elevations_reach_m / width_m));
+    };
+    plane.nx = limited(plane.nx, plane.cell_width_m());
+    plane.ny = limited(plane.ny, plane.cell_height_m());
+}
+
 // Returns the sweep on the plane of the first.
 Result<PictureGrid> sweep_of(const SweptVolume& volume, double elevation_deg,
                              SweepDrawing& drawing) {
     drawing.scene.elevation_deg = elevation_deg;
-    auto sweep =
-        PictureGrid::of_sweep(volume, drawing.scene, drawing.plane ? &*drawing.plane : nullptr);
-    if (sweep && !drawing.plane) drawing.plane = sweep->description().spec;
-    return sweep;
+    if (!drawing.plane) {
+        const auto first = PictureGrid::of_sweep(volume, drawing.scene);
+        if (!first) return pass_on(first);
+        drawing.plane = first->description().spec;
+        if (drawing.all_elevations) limit_plane(volume, *drawing.plane);
+    }
+    return PictureGrid::of_sweep(volume, drawing.scene, &*drawing.plane);
 }
 
 // Finds the frames of each volume; what cannot be read is left out and named.

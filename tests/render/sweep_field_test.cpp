@@ -1,10 +1,13 @@
 #include "render/products/sweep_field.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "render/frame/probe.h"
+#include "render/frame/sweep_text.h"
 #include "render/products/ground.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/projection.h"
@@ -26,6 +29,7 @@ class SweepField : public ::testing::Test {
             level2::decode_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
         ASSERT_TRUE(decoded);
         const auto volume = std::make_shared<level2::Volume>(std::move(decoded->volume));
+        volume_ = volume;
         const auto antenna = level2::antenna_position(*volume);
         ASSERT_TRUE(antenna);
         site_ = {volume->station, antenna->latitude_deg, antenna->longitude_deg,
@@ -73,6 +77,7 @@ class SweepField : public ::testing::Test {
     }
 
     grid::SitePosition site_;
+    std::shared_ptr<const level2::Volume> volume_;
     std::unique_ptr<grid::SweepLookup> sweep_;
 };
 
@@ -154,6 +159,32 @@ TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
     }
     EXPECT_GT(valued, 1000);
     EXPECT_GT(colored, 0.97 * valued) << "the line around the ground covers the others";
+}
+
+// The footer says how much of the circle there is, and whether the view shows the whole range.
+TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
+    const auto text_of = [&](const grid::GridSpec& spec, double zoom) {
+        Scene zoomed = scene();
+        zoomed.camera.zoom = zoom;
+        return sweep_text(*sweep_, spec, picture_geometry(spec, zoomed, 300, 200));
+    };
+    grid::GridSpec whole = plane(site_.latitude_deg, site_.longitude_deg);
+    whole.nx = whole.ny = 920;
+    EXPECT_EQ(text_of(whole, 1), "Cut 1: 720 radials, gates of 0.25 km up to 460 km");
+    EXPECT_THAT(text_of(whole, 2), ::testing::EndsWith("view cut: the sweep reaches 460 km"));
+    EXPECT_THAT(text_of(plane(site_.latitude_deg, site_.longitude_deg), 1),
+                ::testing::EndsWith("view cut: the sweep reaches 460 km"));
+    EXPECT_THAT(text_of(plane(35, -99), 1), ::testing::HasSubstr("view cut"));
+
+    auto volume = std::make_shared<level2::Volume>(*volume_);
+    for (level2::SweepMoment& kind : volume->sweeps[0].moments)
+        std::fill(kind.gate_counts.begin() + 240, kind.gate_counts.end(), 0);
+    grid::SweepWish first;
+    first.number = 0;
+    const auto begun = grid::SweepLookup::find(volume, site_, Moment::ref, 0.475, first);
+    ASSERT_TRUE(begun);
+    EXPECT_EQ(sweep_text(*begun, whole, picture_geometry(whole, scene(), 300, 200)),
+              "Cut 1: 240 radials, 33 % of the circle, gates of 0.25 km up to 460 km");
 }
 
 TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {
