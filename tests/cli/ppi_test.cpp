@@ -99,6 +99,18 @@ TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
     EXPECT_THAT(high.err, HasSubstr("elevations of 0.5, 1.5 degrees"));
 }
 
+TEST_F(Ppi, PanelsShowTheSweepOfEachMoment) {
+    const std::string file = volume("KLBB20160601_150025_V06");
+    const auto drawn = run({"frame", file, "--product", "ppi", "--panels", "REF,VEL,RHO,ZDR",
+                            "--extent-km", "300,300", "-o", out("a.png")});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_TRUE(fs::exists(out("a.png")));
+    const auto planned =
+        run({"frame", file, "--panels", "REF,VEL", "--tolerance", "dE 2", "-o", out("b.png")});
+    EXPECT_EQ(planned.status, 2);
+    EXPECT_THAT(planned.err, HasSubstr("not for --panels"));
+}
+
 TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
     const std::string file = volume("KTLX20170101_030027_V06");
     ingest(file);

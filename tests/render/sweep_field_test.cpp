@@ -12,6 +12,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/projection.h"
 #include "stormcellar/level2/decode.h"
+#include "stormcellar/render/panels.h"
 #include "stormcellar/render/render.h"
 #include "tests/testing/data.h"
 
@@ -185,6 +186,26 @@ TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
     ASSERT_TRUE(begun);
     EXPECT_EQ(sweep_text(*begun, whole, picture_geometry(whole, scene(), 300, 200)),
               "Cut 1: 240 radials, 33 % of the circle, gates of 0.25 km up to 460 km");
+}
+
+// Panels say the angle of the sweep, as single pictures do, whatever the scene asked for.
+TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
+    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    grid::BrickView view;
+    view.spec = &spec;
+    view.sweep = sweep_.get();
+    const FrameFacts facts{site_.icao, Moment::ref, sweep_->facts().start, {site_}};
+    Scene asked = scene();
+    asked.width = 800;
+    asked.height = 600;
+    asked.labels = true;
+    const Panel lowest{view, facts, asked};
+    const Panel by_angle{view, facts, scene_shown(view, asked)};
+    const auto pair = render_panels(std::vector<Panel>{lowest, lowest}, 2);
+    ASSERT_TRUE(pair) << pair.error().message;
+    const auto shown = render_panels(std::vector<Panel>{by_angle, by_angle}, 2);
+    ASSERT_TRUE(shown);
+    EXPECT_TRUE(pair->rgba == shown->rgba);
 }
 
 TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {
