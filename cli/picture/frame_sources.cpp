@@ -164,6 +164,10 @@ Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
     if (Status taken = take_sources(options); !taken) return pass_on(taken);
     if (options.grid.files.empty()) {
         if (Status none = refuse_grid_options(options); !none) return pass_on(none);
+        if (render::facts_of(panels.front().scene.product).is_of_sweep) {
+            return fail(ErrorCode::bad_argument,
+                        "panels of sweeps are drawn of a Level II file; name it");
+        }
         const auto store = open_store(options);
         if (!store) return pass_on(store);
         const auto until = until_of(options);

@@ -94,8 +94,8 @@ Result<std::vector<PictureGrid>> PictureGrid::make_each(GridOptions options) {
 }
 
 Result<PictureGrid> PictureGrid::of_sweep(SweptVolume volume, const render::Scene& scene,
-                                          double reach_m) {
-    auto placed = place_sweep(volume, scene, reach_m);
+                                          const grid::GridSpec* plane) {
+    auto placed = place_sweep(volume, scene, plane);
     if (!placed) return pass_on(placed);
     std::string name = volume.source().site.icao;
     return PictureGrid(

@@ -39,7 +39,7 @@ class PictureGrid {
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
                                                       const render::Scene& scene,
-                                                      double reach_m = 0);
+                                                      const grid::GridSpec* plane = nullptr);
     PictureGrid(PictureGrid&&) noexcept;
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();

@@ -398,6 +398,12 @@ constexpr std::array option_rows{
         .used_by = by_volume,
         .help =
             "Degrees that the camera moves around the grid during the loop; 360 is one full turn"},
+    PictureOption{.option = "--all-elevations",
+                  .section = "loop",
+                  .key = "all_elevations",
+                  .value = FlagValue{.field = [](To to) { return &to.loop->all_elevations; }},
+                  .used_by = by_ppi,
+                  .help = "Show each elevation of each volume, from the lowest up"},
     PictureOption{.option = "--ping-pong",
                   .section = "loop",
                   .key = "ping_pong",

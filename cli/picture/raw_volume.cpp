@@ -1,6 +1,7 @@
 #include "cli/picture/raw_volume.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -12,17 +13,36 @@ namespace stormcellar::cli {
 namespace {
 
 // Of several files of one volume the one that made the grid comes first, then those that are there.
-const catalog::CatalogEntry* best_of(const std::vector<catalog::CatalogEntry>& entries,
-                                     const grid::Provenance& provenance) {
+const catalog::CatalogEntry* best_of(
+    const std::vector<catalog::CatalogEntry>& entries,
+    const std::function<bool(const catalog::CatalogEntry&)>& made_it) {
     const auto rank = [&](const catalog::CatalogEntry& entry) {
-        const bool is_gone = entry.state == catalog::FileState::gone;
-        const std::string name = entry.path.filename().string();
-        const bool made_it =
-            std::ranges::find(provenance.source_files, name) != provenance.source_files.end();
-        return std::pair{is_gone, !made_it};
+        return std::pair{entry.state == catalog::FileState::gone, !made_it(entry)};
     };
     const auto best = std::ranges::min_element(entries, {}, rank);
     return best == entries.end() ? nullptr : &*best;
+}
+
+Result<RawVolume> read_volume(const catalog::CatalogReader& catalog, const std::string& station,
+                              UtcTime start,
+                              const std::function<bool(const catalog::CatalogEntry&)>& made_it) {
+    const std::string when = format_utc(start);
+    const auto entries = catalog.list(station, {start, start});
+    if (!entries) return pass_on(entries);
+    const catalog::CatalogEntry* const entry = best_of(*entries, made_it);
+    if (entry == nullptr) {
+        return fail(ErrorCode::not_found,
+                    "{}: the catalog has no volume of {} that starts at {}; a ppi is drawn from "
+                    "the raw file, which may be named itself",
+                    catalog.directory().native(), station, when);
+    }
+    auto volume = pipeline::read_cataloged_volume(catalog, *entry);
+    if (volume) return RawVolume{entry->path.native(), std::move(volume->bytes), volume->notes};
+    if (volume.error().code != ErrorCode::not_found) return pass_on(volume);
+    return fail(ErrorCode::not_found,
+                "{}: the raw file of {} {} is gone, and a ppi cannot be drawn from the grid that "
+                "was made of it",
+                entry->path.native(), station, when);
 }
 
 }  // namespace
@@ -52,24 +72,17 @@ Result<RawVolume> raw_volume_of(const catalog::CatalogReader& catalog, const std
                     "stations, or the Level II file",
                     domain, grid.sites.size());
     }
-    const std::string& station = grid.sites.front().icao;
-    const std::string when = format_utc(grid.time);
-    const auto entries = catalog.list(station, {grid.time, grid.time});
-    if (!entries) return pass_on(entries);
-    const catalog::CatalogEntry* const entry = best_of(*entries, grid.provenance);
-    if (entry == nullptr) {
-        return fail(ErrorCode::not_found,
-                    "{}: the catalog has no volume of {} that starts at {}; a ppi is drawn from "
-                    "the raw file, which may be named itself",
-                    catalog.directory().native(), station, when);
-    }
-    auto volume = pipeline::read_cataloged_volume(catalog, *entry);
-    if (volume) return RawVolume{entry->path.native(), std::move(volume->bytes), volume->notes};
-    if (volume.error().code != ErrorCode::not_found) return pass_on(volume);
-    return fail(ErrorCode::not_found,
-                "{}: the raw file of {} {} is gone, and a ppi cannot be drawn from the grid that "
-                "was made of it",
-                entry->path.native(), station, when);
+    return read_volume(
+        catalog, grid.sites.front().icao, grid.time, [&](const catalog::CatalogEntry& entry) {
+            const auto& files = grid.provenance.source_files;
+            return std::ranges::find(files, entry.path.filename().string()) != files.end();
+        });
+}
+
+Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog, const std::string& station,
+                                UtcTime start, const std::filesystem::path& file) {
+    return read_volume(catalog, station, start,
+                       [&](const catalog::CatalogEntry& entry) { return entry.path == file; });
 }
 
 }  // namespace stormcellar::cli

@@ -38,4 +38,10 @@ struct RawVolume {
                                               const std::string& domain,
                                               const cache::GridDescription& grid);
 
+// Reads the volume of a station that starts at a time, from this file if there are several. Errors:
+// as above.
+[[nodiscard]] Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog,
+                                              const std::string& station, UtcTime start,
+                                              const std::filesystem::path& file);
+
 }  // namespace stormcellar::cli

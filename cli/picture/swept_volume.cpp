@@ -49,8 +49,7 @@ std::vector<int> cuts_of(const level2::Volume& volume, const grid::SweepWish& wi
 
 // Returns the plane on which the sweep is drawn. Its cells, which only formats of maps show, are as
 // wide as gates.
-Result<grid::GridSpec> plane_of(const SweptVolume& volume, const grid::SweepLookup& sweep,
-                                double reach_m) {
+Result<grid::GridSpec> plane_of(const SweptVolume& volume, const grid::SweepLookup& sweep) {
     const grid::SweepFacts& facts = sweep.facts();
     GridRequest request = volume.request;
     if (!volume.spacing_given) {
@@ -58,8 +57,7 @@ Result<grid::GridSpec> plane_of(const SweptVolume& volume, const grid::SweepLook
         request.spacing_unit = SizeUnit::km;
     }
     if (!request.extent_given) {
-        const double farthest_m = std::max(facts.greatest_arc_m, reach_m);
-        const double cells = std::ceil(farthest_m / facts.gate_spacing_m);
+        const double cells = std::ceil(facts.greatest_arc_m / facts.gate_spacing_m);
         const double km = 2 * cells * facts.gate_spacing_m / 1000;
         request.extent = {km, km};
         request.extent_unit = SizeUnit::km;
@@ -139,15 +137,15 @@ Result<SweptVolume> decode_sweeps(std::span<const std::byte> bytes, const std::s
 }
 
 Result<PlacedSweep> place_sweep(const SweptVolume& volume, const render::Scene& scene,
-                                double reach_m) {
+                                const grid::GridSpec* plane) {
     const SourceVolume& source = volume.source();
     auto sweep = grid::SweepLookup::find(
         {volume.volumes, &source.volume}, source.site, volume.request.moment,
         grid::beam_width_of(source.site.icao) / 2, wish_of(scene, volume.request.frame_time));
     if (!sweep) return fail(sweep.error().code, "{}: {}", volume.file, sweep.error().message);
-    auto plane = plane_of(volume, *sweep, reach_m);
-    if (!plane) return pass_on(plane);
-    auto description = describe_sweep(*sweep, std::move(*plane), volume);
+    auto own = plane != nullptr ? Result<grid::GridSpec>{*plane} : plane_of(volume, *sweep);
+    if (!own) return pass_on(own);
+    auto description = describe_sweep(*sweep, std::move(*own), volume);
     return PlacedSweep{std::move(description), std::move(*sweep)};
 }
 

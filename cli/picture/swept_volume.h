@@ -46,10 +46,10 @@ struct PlacedSweep {
                                                 const render::Scene* shown);
 
 // Finds the sweep that the scene names. Its plane, about the site or about the center that the
-// options name, reaches to the last gate or `reach_m` along the earth, whichever is more, unless
-// the options say how far. Errors: those of grid::SweepLookup::find().
+// options name, reaches to the last gate unless the options say how far; or it is `plane`, that of
+// another frame. Errors: those of grid::SweepLookup::find().
 [[nodiscard]] Result<PlacedSweep> place_sweep(const SweptVolume& volume, const render::Scene& scene,
-                                              double reach_m = 0);
+                                              const grid::GridSpec* plane = nullptr);
 
 // Returns the elevations of the sweeps that hold the moment, each once, rising.
 [[nodiscard]] std::vector<double> elevations_of(const SweptVolume& volume);

@@ -106,8 +106,12 @@ double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene) {
     double asked_m = scene.range_ring_spacing_m;
     if (asked_m == Scene::usual_rings) {
         asked_m = 50e3;
-        while (std::min(width, height) / 2 / asked_m > 6.5)
+        const double side = std::min(width, height) / 2;
+        while (side / asked_m > 6.5)
             asked_m *= 2;
+        for (const double smaller : {25e3, 10e3, 5e3, 2e3, 1e3}) {
+            if (side < asked_m) asked_m = smaller;
+        }
     }
     double spacing = round_distance(asked_m, scene.units);
     const double reach = std::hypot(width, height) / 2;
