@@ -31,8 +31,7 @@ PictureFacts facts_of_whole(std::span<const Panel> panels,
                             const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();
     const grid::SweepLookup* const sweep = first.view.sweep;
-    PictureFacts facts{legend_of(first.scene),
-                       drawn_ring_spacing(*first.view.spec, first.scene),
+    PictureFacts facts{legend_of(first.scene), drawn_ring_spacing(*first.view.spec, first.scene),
                        std::nullopt};
     if (sweep == nullptr) facts.coverage = coverage_of(columns, *first.view.spec);
     facts.legend.product.clear();
