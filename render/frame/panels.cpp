@@ -58,9 +58,13 @@ Result<Image> render_panels(std::span<const Panel> panels, int threads, FrameCac
     const Scene& scene = panels.front().scene;
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    std::vector<Legend> legends;
+    // Legends point at the colors of their scenes.
+    std::vector<Scene> shown;
     for (const Panel& panel : panels)
-        legends.push_back(legend_of(scene_shown(panel.view, panel.scene)));
+        shown.push_back(scene_shown(panel.view, panel.scene));
+    std::vector<Legend> legends;
+    for (const Scene& one : shown)
+        legends.push_back(legend_of(one));
     auto columns = columns_of(panels.front().view, threads);
     const auto layout = lay_out_panels(*fonts, scene, panels.front().facts,
                                        facts_of_whole(panels, columns), legends);

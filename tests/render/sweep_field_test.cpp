@@ -199,6 +199,7 @@ TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
     asked.width = 800;
     asked.height = 600;
     asked.labels = true;
+    asked.colours = colours_of(asked);  // a table of the scene's own
     const Panel lowest{view, facts, asked};
     const Panel by_angle{view, facts, scene_shown(view, asked)};
     const auto pair = render_panels(std::vector<Panel>{lowest, lowest}, 2);
