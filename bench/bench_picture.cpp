@@ -30,6 +30,7 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -41,15 +42,17 @@ struct Drawn {
     std::vector<std::string> options;
 };
 
-// Each differs from the one before by one thing.
+// Each volume and each map differs from the one before by one thing. The map is that of the column
+// maximum.
 const std::vector<Drawn>& pictures() {
+    static const std::string map{render::product_name(render::Product::composite)};
     static const std::vector<Drawn> all = {
         {"volume, nws, unlit", {"--colors", "nws", "--light", "none"}},
         {"volume, smooth, unlit", {"--light", "none"}},
         {"volume, gradient", {"--light", "gradient"}},
         {"volume, default", {}},
-        {"composite, cells", {"--product", "composite", "--smooth", "none"}},
-        {"composite, default", {"--product", "composite"}},
+        {"map, cells", {"--product", map, "--smooth", "none"}},
+        {"map, default", {"--product", map}},
     };
     return all;
 }
