@@ -30,6 +30,7 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -41,15 +42,17 @@ struct Drawn {
     std::vector<std::string> options;
 };
 
-// Each differs from the one before by one thing.
+// Each volume and each map differs from the one before by one thing. The map is that of the column
+// maximum.
 const std::vector<Drawn>& pictures() {
+    static const std::string map{render::product_name(render::Product::composite)};
     static const std::vector<Drawn> all = {
         {"volume, nws, unlit", {"--colors", "nws", "--light", "none"}},
         {"volume, smooth, unlit", {"--light", "none"}},
         {"volume, gradient", {"--light", "gradient"}},
         {"volume, default", {}},
-        {"composite, cells", {"--product", "composite", "--smooth", "none"}},
-        {"composite, default", {"--product", "composite"}},
+        {"map, cells", {"--product", map, "--smooth", "none"}},
+        {"map, default", {"--product", map}},
     };
     return all;
 }
@@ -82,8 +85,9 @@ void measure(const fs::path& file, const Request& request, Table& table) {
         std::vector<Stages> least(pictures().size());
         for (int run = 0; run < request.runs; ++run) {
             for (std::size_t i = 0; i < pictures().size(); ++i) {
-                std::vector<std::string> words = {"frame", file.string(), "-o", output.string(),
-                                                  "--json", "--threads", std::to_string(threads)};
+                std::vector<std::string> words = {
+                    "frame",     file.string(),          "-o", output.string(), "--json",
+                    "--threads", std::to_string(threads)};
                 const auto& own = pictures()[i].options;
                 words.insert(words.end(), own.begin(), own.end());
                 const auto made = run_stormcellar(std::move(words));

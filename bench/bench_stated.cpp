@@ -6,7 +6,8 @@
 //   cells      that have a value in the chosen grid and in the exact one
 //   stated_db  99th percentile that the plan states
 //   true_db    99th percentile over all these cells
-//   held       1 if the true one is at most the stated one, else 0; "-" where a budget cannot be met
+//   held       1 if the true one is at most the stated one, else 0; "-" where a budget cannot be
+//   met
 // Budgets that leave nothing off are not shown, since both grids are the same.
 #include <algorithm>
 #include <array>
@@ -38,16 +39,16 @@ struct Domain {
     double spacing_m;
     double off_km;  // of its center, to the east of the site
 };
-constexpr std::array domains = {
-    Domain{"460 km", 460e3, 1000, 0}, Domain{"300 km", 300e3, 1000, 0},
-    Domain{"300 km coarse", 300e3, 2000, 0}, Domain{"80 km fine", 80e3, 500, 60}};
+constexpr std::array domains = {Domain{"460 km", 460e3, 1000, 0}, Domain{"300 km", 300e3, 1000, 0},
+                                Domain{"300 km coarse", 300e3, 2000, 0},
+                                Domain{"80 km fine", 80e3, 500, 60}};
 constexpr std::array budgets = {"250 m, 1 dB", "1 km, 3 dB", "1 km, 5 dB", "2 km, 6 dB",
                                 "3 km, 10 dB"};
 
 grid::GridSpec spec_of(const grid::SitePosition& site, const Domain& domain) {
     const double degrees_a_km = 1 / (111.2 * std::cos(site.latitude_deg * 0.017453292519943295));
-    grid::GridSpec spec = grid::default_spec(
-        site.latitude_deg, site.longitude_deg + domain.off_km * degrees_a_km);
+    grid::GridSpec spec =
+        grid::default_spec(site.latitude_deg, site.longitude_deg + domain.off_km * degrees_a_km);
     spec.spacing_m = domain.spacing_m;
     spec.nx = spec.ny = static_cast<int>(domain.side_m / domain.spacing_m);
     spec.levels_m.clear();

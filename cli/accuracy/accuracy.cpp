@@ -2,6 +2,8 @@
 // simulated scene.
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -269,7 +271,11 @@ Status check_options(AccuracyOptions& options) {
 int report_over_time(const AccuracyOptions& options, const GridRequest& request,
                      const Result<std::vector<grid::TimedVolume>>& sequence) {
     if (!sequence) return report_error(sequence.error());
-    const auto rows = score_sequence(*sequence, request);
+    std::optional<Progress> progress(std::in_place, "measuring", 0, !options.grid.json);
+    const auto rows = score_sequence(*sequence, request, [&](std::size_t done, std::size_t total) {
+        progress->show(done, total);
+    });
+    progress.reset();
     if (!rows) return report_error(rows.error());
     if (options.grid.json) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
@@ -331,7 +337,11 @@ int run_files(const AccuracyOptions& options, const GridRequest& request) {
     const auto effects =
         parse_effects(options.effects, request.moment, grid::default_overlap(request.moment));
     if (!effects) return report_error(effects.error());
-    auto rows = ladder_of_mosaic(*sources, request, *effects, options.rounds);
+    std::optional<Progress> progress(std::in_place, "measuring", 0, !options.grid.json);
+    auto rows =
+        ladder_of_mosaic(*sources, request, *effects, options.rounds,
+                         [&](std::size_t done, std::size_t total) { progress->show(done, total); });
+    progress.reset();
     if (!rows) return report_error(rows.error());
     const std::string subject =
         fmt::format("{} and {} more", options.grid.files.front(), options.grid.files.size() - 1);

@@ -61,8 +61,9 @@ Result<std::vector<grid::TimedVolume>> observe_sequence(const synth::Scene& scen
     return sequence;
 }
 
-Result<std::vector<grid::HeldOutRow>> score_sequence(const std::vector<grid::TimedVolume>& sequence,
-                                                     const GridRequest& request) {
+Result<std::vector<grid::HeldOutRow>> score_sequence(
+    const std::vector<grid::TimedVolume>& sequence, const GridRequest& request,
+    const std::function<void(std::size_t done, std::size_t total)>& progress) {
     if (request.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument,
                     "grids for an instant can only be scored by REF, not by {}",
@@ -80,7 +81,7 @@ Result<std::vector<grid::HeldOutRow>> score_sequence(const std::vector<grid::Tim
     options.method = grid::scene_choice(
                          chain, grid::default_choice(chain, *spec, grid::beam_width_of(site.icao)))
                          .method;
-    return grid::score_sequence(sequence, *spec, options);
+    return grid::score_sequence(sequence, *spec, options, progress);
 }
 
 std::string format_held_out(const std::vector<grid::HeldOutRow>& rows, bool markdown) {

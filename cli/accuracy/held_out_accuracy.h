@@ -3,7 +3,9 @@
 // (grid/judge/held_out_sequence.h).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,8 @@ namespace stormcellar::cli {
 
 // One row for each volume that has neighbours.
 [[nodiscard]] Result<std::vector<grid::HeldOutRow>> score_sequence(
-    const std::vector<grid::TimedVolume>& sequence, const GridRequest& request);
+    const std::vector<grid::TimedVolume>& sequence, const GridRequest& request,
+    const std::function<void(std::size_t done, std::size_t total)>& progress);
 
 [[nodiscard]] std::string format_held_out(const std::vector<grid::HeldOutRow>& rows, bool markdown);
 [[nodiscard]] nlohmann::ordered_json held_out_json(const std::vector<grid::HeldOutRow>& rows);

@@ -3,6 +3,8 @@
 // (pipeline/plan/mosaic_ladder.h).
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "cli/grid/grid_mosaic.h"
@@ -15,6 +17,6 @@ namespace stormcellar::cli {
 // The volumes overlap by the default rule of the moment. Errors name the file.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(
     const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
-    int rounds);
+    int rounds, const std::function<void(std::size_t done, std::size_t total)>& progress);
 
 }  // namespace stormcellar::cli

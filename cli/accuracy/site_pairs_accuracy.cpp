@@ -6,6 +6,7 @@
 
 #include "cli/grid/grid_mosaic.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/progress.h"
 #include "pipeline/mosaic/pair_comparison.h"
 
 namespace stormcellar::cli {
@@ -38,7 +39,8 @@ void add_lines(const std::vector<std::string>& lines, bool markdown, std::string
 }  // namespace
 
 Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
-                                     const GridRequest& request, const EffectRequest& effects) {
+                                     const GridRequest& request, const EffectRequest& effects,
+                                     bool shows_progress) {
     if (request.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "sites can only be compared by REF, not by {}",
                     level2::moment_name(request.moment));
@@ -57,9 +59,12 @@ Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
     if (looks.size() < 2) {
         return fail(ErrorCode::bad_argument, "--compare-sites needs files of two or more sites");
     }
+    Progress progress("pairs", looks.size() * (looks.size() - 1) / 2, shows_progress);
+    std::size_t done = 0;
     for (std::size_t a = 0; a < looks.size(); ++a) {
         compared.stations.push_back(looks[a].site().icao);
         for (std::size_t b = a + 1; b < looks.size(); ++b) {
+            progress.show(done++);
             if (!pipeline::may_overlap(looks[a].site(), looks[b].site())) continue;
             auto found = pipeline::compare_looks(looks[a], looks[b], compared.instant);
             if (!found) return pass_on(found);
@@ -121,7 +126,7 @@ nlohmann::ordered_json site_pairs_json(const SitePairs& compared) {
 
 int run_site_pairs(const GridOptions& options, const GridRequest& request,
                    const EffectRequest& effects, bool markdown) {
-    const auto compared = compare_site_files(options.files, request, effects);
+    const auto compared = compare_site_files(options.files, request, effects, !options.json);
     if (!compared) return report_error(compared.error());
     if (options.json) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;

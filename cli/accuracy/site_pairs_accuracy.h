@@ -22,10 +22,11 @@ struct SitePairs {
 
 // Compares files of two sites or more. If a site has two volumes, the motion of the weather is
 // known, so that clocks can be compared. Errors: bad_argument for another moment than REF or files
-// of one site; those of load_mosaic() and grid_sources().
+// of one site; those of load_mosaic() and grid_sources(). A bar shows the pairs where it is wanted.
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
-                                                   const EffectRequest& effects);
+                                                   const EffectRequest& effects,
+                                                   bool shows_progress);
 
 // Returns a table, followed by the faults and what could not be determined.
 [[nodiscard]] std::string format_site_pairs(const SitePairs& compared, bool markdown);

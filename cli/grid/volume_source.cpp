@@ -39,14 +39,31 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     return std::move(*decoded);
 }
 
+level2::DecodeOptions options_of(const GridRequest& request, const std::string& file_name) {
+    level2::DecodeOptions options;
+    options.threads = request.threads;
+    options.selection.moments = request.moments();
+    options.fallback_station = station_in_name(file_name);
+    return options;
+}
+
+Result<level2::Decoded> decode_bytes(std::span<const std::byte> bytes, const std::string& file,
+                                     const level2::DecodeOptions& options,
+                                     const GridRequest& request, const ChooseCuts& choose_cuts) {
+    if (choose_cuts) {
+        auto few = decode_cuts(bytes, options, request.moments(), choose_cuts);
+        if (few) return std::move(*few);
+    }
+    auto decoded = level2::decode(bytes, options);
+    if (!decoded) return fail(decoded.error().code, "{}: {}", file, decoded.error().message);
+    return decoded;
+}
+
 Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& file,
                                         const GridRequest& request, const ChooseCuts& choose_cuts,
                                         SourceVolume& source) {
     Stopwatch watch;
-    level2::DecodeOptions options;
-    options.threads = request.threads;
-    options.selection.moments = request.moments();
-    options.fallback_station = station_in_name(file.file_name());
+    const level2::DecodeOptions options = options_of(request, file.file_name());
     std::error_code ignored;
     if (file.member.empty() && std::filesystem::is_directory(file.path, ignored)) {
         auto joined = level2::decode_path(file.path, options);
@@ -56,16 +73,8 @@ Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& fil
     const auto bytes = inputs.read(file);
     source.read_s = watch.lap_s();
     if (!bytes) return pass_on(bytes);
-    if (choose_cuts) {
-        auto few = decode_cuts(*bytes, options, request.moments(), choose_cuts);
-        source.decode_s = watch.lap_s();
-        if (few) return std::move(*few);
-    }
-    auto decoded = level2::decode(*bytes, options);
+    auto decoded = decode_bytes(*bytes, file.label, options, request, choose_cuts);
     source.decode_s = watch.lap_s();
-    if (!decoded) {
-        return fail(decoded.error().code, "{}: {}", file.label, decoded.error().message);
-    }
     return decoded;
 }
 
@@ -87,29 +96,14 @@ level2::Volume take_volume(level2::Decoded decoded, const std::vector<level2::Mo
     return std::move(volumes[index]);
 }
 
-}  // namespace
-
-Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
-                                 const ChooseCuts& choose_cuts) {
-    std::shared_ptr<InputFiles> inputs = request.inputs;
-    if (!inputs) {
-        auto found = InputFiles::find({file});
-        if (!found) return pass_on(found);
-        inputs = std::make_shared<InputFiles>(std::move(*found));
-    }
-    const auto& files = inputs->files();
-    const auto named = std::ranges::find(files, file, &InputFile::label);
-    if (named == files.end()) {
-        return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
-    }
-    SourceVolume source;
-    auto decoded = read_and_decode(*inputs, *named, request, choose_cuts, source);
-    if (!decoded) return pass_on(decoded);
-    source.partial = !decoded->report.complete;
+// Takes what a picture or a grid needs of a decoded file.
+Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
+                                 const GridRequest& request, SourceVolume source) {
+    source.partial = !decoded.report.complete;
     std::vector<std::string> troubles;
-    if (decoded->report.rda_status) troubles = level2::rda_troubles(*decoded->report.rda_status);
-    source.notes = notes_of(decoded->report);
-    source.volume = take_volume(std::move(*decoded), request.moments(), source);
+    if (decoded.report.rda_status) troubles = level2::rda_troubles(*decoded.report.rda_status);
+    source.notes = notes_of(decoded.report);
+    source.volume = take_volume(std::move(decoded), request.moments(), source);
     if (Status applied = apply_site(request.site, source.volume); !applied) {
         return fail(applied.error().code, "{}: {}", file, applied.error().message);
     }
@@ -129,6 +123,35 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     source.site = {source.volume.station, antenna->latitude_deg, antenna->longitude_deg,
                    antenna->altitude_m};
     return source;
+}
+
+}  // namespace
+
+Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
+                                 const ChooseCuts& choose_cuts) {
+    std::shared_ptr<InputFiles> inputs = request.inputs;
+    if (!inputs) {
+        auto found = InputFiles::find({file});
+        if (!found) return pass_on(found);
+        inputs = std::make_shared<InputFiles>(std::move(*found));
+    }
+    const auto& files = inputs->files();
+    const auto named = std::ranges::find(files, file, &InputFile::label);
+    if (named == files.end()) {
+        return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
+    }
+    SourceVolume source;
+    auto decoded = read_and_decode(*inputs, *named, request, choose_cuts, source);
+    if (!decoded) return pass_on(decoded);
+    return take_source(std::move(*decoded), file, request, std::move(source));
+}
+
+Result<SourceVolume> decode_volume(std::span<const std::byte> bytes, const std::string& file,
+                                   const GridRequest& request, const ChooseCuts& choose_cuts) {
+    const std::string name = std::filesystem::path{file}.filename().string();
+    auto decoded = decode_bytes(bytes, file, options_of(request, name), request, choose_cuts);
+    if (!decoded) return pass_on(decoded);
+    return take_source(std::move(*decoded), file, request, {});
 }
 
 }  // namespace stormcellar::cli

@@ -1,7 +1,9 @@
 // cli/grid/volume_source.h -- loads a Level II file for the commands that grid it.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,5 +33,10 @@ using ChooseCuts = std::function<std::vector<int>(const level2::Volume&)>;
 // and all sweeps where that gives none with a moment.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
                                                const ChooseCuts& choose_cuts = {});
+// The same for the bytes of a file that is in memory; `file` is its name.
+[[nodiscard]] Result<SourceVolume> decode_volume(std::span<const std::byte> bytes,
+                                                 const std::string& file,
+                                                 const GridRequest& request,
+                                                 const ChooseCuts& choose_cuts = {});
 
 }  // namespace stormcellar::cli

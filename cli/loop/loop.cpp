@@ -16,6 +16,7 @@
 #include "cli/loop/loop_grids.h"
 #include "cli/loop/loop_options.h"
 #include "cli/loop/loop_report.h"
+#include "cli/loop/sweep_loop.h"
 #include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_metadata.h"
@@ -269,6 +270,22 @@ void take_camera_keys(LoopOptions& options) {
     if (options.camera.front().look_at) camera.look_at = options.camera.front().look_at;
 }
 
+// What a loop of sweeps cannot do.
+Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
+    if (!render::facts_of(scene.product).is_of_sweep) return {};
+    if (options.follow.wanted) {
+        return fail(ErrorCode::bad_argument,
+                    "--follow waits for grids, and a ppi is drawn from raw files; leave it out");
+    }
+    const bool names_one = scene.sweep_number != render::Scene::no_number ||
+                           scene.elevation_deg != render::Scene::lowest_sweep;
+    if (options.all_elevations && names_one) {
+        return fail(ErrorCode::bad_argument,
+                    "--all-elevations shows all sweeps; leave out --elevation and --sweep");
+    }
+    return {};
+}
+
 // Makes all checks that need no grid, and resolves options that depend on each other.
 Result<render::Scene> check(LoopOptions& options) {
     if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
@@ -287,6 +304,7 @@ Result<render::Scene> check(LoopOptions& options) {
     }
     if (auto taken = take_sources(options); !taken) return pass_on(taken);
     if (auto fine = check_sources(options); !fine) return pass_on(fine);
+    if (auto fine = check_sweeps(options, *scene); !fine) return pass_on(fine);
     return scene;
 }
 
@@ -321,6 +339,13 @@ Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     return std::optional{std::move(*file)};
 }
 
+// Hands a loop that was made to standard output, if that is where it goes.
+int finish_piped(int status, std::optional<OutputFile>& piped) {
+    if (status != exit_done || !piped) return status;
+    const Status written = piped->finish();
+    return written ? exit_done : report_error(written.error());
+}
+
 int run_loop(LoopOptions options) {
     const auto start = steady_now();
     auto piped = take_stdout(options);
@@ -334,16 +359,16 @@ int run_loop(LoopOptions options) {
     }
     Interrupt interrupt;
     if (options.follow.wanted) return follow_loop(options, *scene, interrupt);
+    if (render::facts_of(scene->product).is_of_sweep) {
+        return finish_piped(run_sweep_loop(options, *scene, interrupt, start), *piped);
+    }
     if (!options.files.empty()) {
         if (auto made = catalog_files(options, interrupt); !made) return report_error(made.error());
     }
     auto grids = find_grids(options, *scene, interrupt);
     if (!grids) return report_error(grids.error());
     if (grids->frames.empty()) return exit_nothing_matched;
-    const int status = draw_loop(std::move(*grids), options, *scene, interrupt, start);
-    if (status != exit_done || !*piped) return status;
-    const Status written = (*piped)->finish();
-    return written ? exit_done : report_error(written.error());
+    return finish_piped(draw_loop(std::move(*grids), options, *scene, interrupt, start), *piped);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "cli/picture/frame_probe.h"
 #include "cli/picture/frame_report.h"
 #include "cli/picture/frame_sources.h"
+#include "cli/picture/look_costs.h"
 #include "cli/picture/picture_grid.h"
 #include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
@@ -41,8 +42,9 @@ Result<std::vector<std::byte>> encode_frame(const render::StillFormat& format,
     return format.encode_picture(*picture, options);
 }
 
+// `fit_s` is the time within that of reading that the view took.
 Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene& scene,
-                               const PictureGrid& file, SteadyTime start) {
+                               const PictureGrid& file, SteadyTime start, double fit_s) {
     FrameTiming timing;
     timing.read_s = seconds_since(start);
     timing.decode_s = decode_s(file);
@@ -52,6 +54,10 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
     const auto done =
         plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
     if (!done) return pass_on(done);
+    if (options.plan.explain) {
+        fmt::print(options.json ? stderr : stdout, "{}",
+                   look_costs(file.view(), planned, fit_s, threads));
+    }
     const PictureFacts told{
         options.domain, file.description().time, file.description().time, std::nullopt, {}, *done};
     render::Scene written = planned;
@@ -102,8 +108,10 @@ int run_frame(FrameOptions options) {
     const auto grid = grid_of_frame(options, *scene);
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
+    const auto before_fit = steady_now();
     if (const Status fitted = fit_scene(options, **grid, *scene); !fitted)
         return report_error(fitted.error());
+    const double fit_s = fits_anything(options.scene) ? seconds_since(before_fit) : 0;
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
@@ -111,7 +119,7 @@ int run_frame(FrameOptions options) {
                        .decode_s = decode_s(**grid),
                        .total_s = seconds_since(start)};
     if (!options.output.empty()) {
-        const auto drawn = make_frame(options, *scene, **grid, start);
+        const auto drawn = make_frame(options, *scene, **grid, start, fit_s);
         if (!drawn) return report_error(drawn.error());
         timing = *drawn;
     }
@@ -135,6 +143,9 @@ Run set_up_frame(CLI::App& frame) {
                      "Domain of the cache; a station's own domain is its ICAO identifier. Default: "
                      "the only one");
     add_place(frame, options->cache);
+    frame.add_option("--catalog", options->catalog.directory,
+                     "Directory of the catalog (state/catalog), which says where the raw file of a "
+                     "ppi of a domain is. Default: that of the service");
     frame.add_option("--time", options->time,
                      "Of a domain, draw the newest grid at or before this time, in UTC or relative "
                      "as -1h. Default: the latest grid. Of files, the time of the grid, as for "

@@ -19,9 +19,10 @@ struct FrameOptions {
     std::vector<std::string> sources;  // files, or a domain
     std::string domain;
     PlaceOption cache;
-    GridOptions grid;      // of files
-    std::string time;      // empty: the latest
-    std::string output;    // empty: nothing is drawn, only probed
+    PlaceOption catalog{Directory::catalog, {}, {}};  // of a ppi of a domain
+    GridOptions grid;                                 // of files
+    std::string time;                                 // empty: the latest
+    std::string output;                               // empty: nothing is drawn, only probed
     std::string panels;    // moments of a picture with several; empty: one
     std::string probe;     // "X,Y"
     std::string probe_at;  // a place

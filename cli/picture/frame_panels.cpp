@@ -40,6 +40,11 @@ int run_panels(FrameOptions& options, SteadyTime start) {
                              "--probe and --probe-at are for a picture of one moment, not for "
                              "--panels"});
     }
+    if (options.plan.asked()) {
+        return report_error({ErrorCode::bad_argument,
+                             "--tolerance, --effect and --explain plan a picture of one volume; "
+                             "they are not for --panels"});
+    }
     const auto panels = panel_scenes(options.panels, options.scene_file, options.scene);
     if (!panels) return report_error(panels.error());
     if (const Status fine = check_frame_output(options, panels->front().scene.product); !fine)

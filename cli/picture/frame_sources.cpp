@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "cli/picture/picture.h"
+#include "cli/picture/raw_volume.h"
 #include "cli/shared/cache_domain.h"
+#include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
 #include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
 #include "stormcellar/render/product.h"
 
 namespace stormcellar::cli {
@@ -20,13 +25,15 @@ Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
     return std::optional{*time};
 }
 
-// Returns the newest grid of the domain at or before the time; none if there is none.
+// Returns the newest grid of the domain at or before the time, of this moment or of any; none if
+// there is none.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
-                                                   level2::Moment moment) {
+                                                   std::optional<level2::Moment> moment) {
     const auto until = until_of(options);
     if (!until) return pass_on(until);
-    auto entries = store.list(options.domain, moment, std::nullopt, *until);
+    auto entries = moment ? store.list(options.domain, *moment, std::nullopt, *until)
+                          : grids_of_any_moment(store, options.domain, std::nullopt, *until);
     if (!entries) return pass_on(entries);
     if (!*until) cache::leave_out_future(*entries, now_utc());
     if (entries->empty()) return std::optional<cache::StoreEntry>{};
@@ -41,13 +48,15 @@ int report_nothing(const cache::StoreReader& store, const FrameOptions& options,
         options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
 }
 
+Status refuse_grid_options(const FrameOptions& options) {
+    if (!has_picture_grid_options(options.grid)) return {};
+    return fail(ErrorCode::bad_argument,
+                "options of the grid, such as --center, are for files; the grids of the cache are "
+                "made already");
+}
+
 // Opens the cache and says which domain is meant.
 Result<cache::StoreReader> open_store(FrameOptions& options) {
-    if (has_picture_grid_options(options.grid)) {
-        return fail(ErrorCode::bad_argument,
-                    "options of the grid, such as --center, are for files; the grids of the cache "
-                    "are made already");
-    }
     if (Status found = options.cache.find(); !found) {
         if (options.sources.empty()) return pass_on(found);
         return fail(ErrorCode::bad_argument,
@@ -63,13 +72,8 @@ Result<cache::StoreReader> open_store(FrameOptions& options) {
 }
 
 // Returns none, after it was reported, if no grid matched.
-Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, const render::Scene& scene) {
-    const level2::Moment moment = scene.moment;
-    if (render::facts_of(scene.product).is_of_sweep) {
-        return fail(ErrorCode::bad_argument,
-                    "{} shows a sweep, and the cache holds grids; name the Level II file to draw",
-                    render::product_name(scene.product));
-    }
+Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+    if (Status none = refuse_grid_options(options); !none) return pass_on(none);
     const auto store = open_store(options);
     if (!store) return pass_on(store);
     const auto entry = find_grid(*store, options, moment);
@@ -83,14 +87,49 @@ Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, const rend
     return std::optional{std::move(*grid)};
 }
 
+// Draws from the raw volume of the newest grid, of whichever moment. Returns none, after it was
+// reported, if there is no grid.
+Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const render::Scene& scene) {
+    const auto store = open_store(options);
+    if (!store) return pass_on(store);
+    const auto entry = find_grid(*store, options, std::nullopt);
+    if (!entry) return pass_on(entry);
+    if (!*entry) {
+        report_nothing(*store, options, scene.moment);
+        return std::optional<PictureGrid>{};
+    }
+    const auto grid = cache::GridFile::open((*entry)->path);
+    if (!grid) return pass_on(grid);
+    options.catalog.config = options.cache.config;
+    if (Status found = options.catalog.find(); !found) return pass_on(found);
+    const auto catalog = catalog::CatalogReader::open(options.catalog.directory);
+    if (!catalog) return pass_on(catalog);
+    const auto raw = raw_volume_of(*catalog, options.domain, grid->description());
+    if (!raw) return pass_on(raw);
+    for (const std::string& note : raw->notes)
+        print_note(printable(note));
+    options.grid.moment = options.scene.moment;
+    options.grid.threads = thread_count(options.scene);
+    auto volume = decode_sweeps(raw->bytes, raw->file, options.grid, &scene);
+    if (!volume) return pass_on(volume);
+    auto sweep = PictureGrid::of_sweep(std::move(*volume), scene);
+    if (!sweep) return pass_on(sweep);
+    return std::optional{std::move(*sweep)};
+}
+
+Result<PictureGrid> sweep_of_file(const GridOptions& options, const render::Scene& scene) {
+    auto volume = read_sweeps(options, &scene);
+    if (!volume) return pass_on(volume);
+    return PictureGrid::of_sweep(std::move(*volume), scene);
+}
+
 Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
                                                  const render::Scene& scene) {
     options.grid.moment = options.scene.moment;
     options.grid.threads = thread_count(options.scene);
     options.grid.time = options.time;
-    auto grid = render::facts_of(scene.product).is_of_sweep
-                    ? PictureGrid::make_sweep(options.grid, scene)
-                    : PictureGrid::make(options.grid);
+    auto grid = render::facts_of(scene.product).is_of_sweep ? sweep_of_file(options.grid, scene)
+                                                            : PictureGrid::make(options.grid);
     if (!grid) return pass_on(grid);
     options.domain = grid->name();
     return std::optional{std::move(*grid)};
@@ -110,13 +149,25 @@ Status take_sources(FrameOptions& options) {
 Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
                                                  const render::Scene& scene) {
     if (Status taken = take_sources(options); !taken) return pass_on(taken);
-    return options.grid.files.empty() ? stored_grid(options, scene) : grid_of_files(options, scene);
+    const bool is_of_sweep = render::facts_of(scene.product).is_of_sweep;
+    if (!options.catalog.directory.empty() && (!is_of_sweep || !options.grid.files.empty())) {
+        return fail(ErrorCode::bad_argument,
+                    "--catalog says where the raw file of a ppi of a domain is; nothing else needs "
+                    "it");
+    }
+    if (!options.grid.files.empty()) return grid_of_files(options, scene);
+    return is_of_sweep ? stored_sweep(options, scene) : stored_grid(options, scene.moment);
 }
 
 Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
                                                  const std::vector<PanelScene>& panels) {
     if (Status taken = take_sources(options); !taken) return pass_on(taken);
     if (options.grid.files.empty()) {
+        if (Status none = refuse_grid_options(options); !none) return pass_on(none);
+        if (render::facts_of(panels.front().scene.product).is_of_sweep) {
+            return fail(ErrorCode::bad_argument,
+                        "panels of sweeps are drawn of a Level II file; name it");
+        }
         const auto store = open_store(options);
         if (!store) return pass_on(store);
         const auto until = until_of(options);

@@ -12,6 +12,7 @@
 
 #include "cli/grid/grid_request.h"
 #include "cli/grid/volume_source.h"
+#include "cli/picture/swept_volume.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/brick_view.h"
@@ -35,12 +36,10 @@ class PictureGrid {
     // The same for several moments, "REF,VEL", of one decoding: a grid each, in the order of their
     // names. The volumes belong to the first.
     [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
-    // Takes one sweep of one file, for a ppi; only the cuts and the moment that it needs are
-    // decoded where the pattern of the volume says which those are. The plane about the site, or
-    // about the center that the options name, reaches to the last gate unless they say how far.
-    // Errors name the file or the option.
-    [[nodiscard]] static Result<PictureGrid> make_sweep(GridOptions options,
-                                                        const render::Scene& scene);
+    // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
+    [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
+                                                      const render::Scene& scene,
+                                                      const grid::GridSpec* plane = nullptr);
     PictureGrid(PictureGrid&&) noexcept;
     PictureGrid& operator=(PictureGrid&&) noexcept;
     ~PictureGrid();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "render/colour/built_in_tables.h"
 #include "render/plan/volume_plan.h"
+#include "render/view/fitted_camera.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
@@ -23,11 +25,16 @@ Result<grid::BrickGrid> bricks_for(const SourceVolume& source, const GridRequest
     return grid::BrickGrid::from(*grid, grid::default_quantization(request.moment));
 }
 
-// Runs the ladder without light, and with all kinds of light for the steps of the light.
+// Runs the ladder without light, and with all kinds of light for the steps of the light. The
+// picture has the colors and the view that `frame` gives it.
 Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
                                                   const GridRequest& request) {
     render::Scene scene;
     scene.moment = request.moment;
+    const render::EchoOutline outline(view, request.moment);
+    scene.colours = render::is_clear_air(outline) ? render::clear_air_colours()
+                                                  : render::smooth_colour_table(request.moment);
+    render::apply(render::fit_view(outline, scene, scene.width, scene.height), scene);
     render::VolumeScene drawn(view, render::colours_of(scene), scene, scene.width, scene.height,
                               request.threads);
     auto rows = render::run_ladder(drawn, render::volume_chain());

@@ -326,7 +326,8 @@ constexpr std::array option_rows{
                              .range = limits::ring_spacing_m.in(per_km),
                              .unit = per_km},
         .used_by = by_all_but_section,
-        .help = "Distance from one range ring to the next in km, {} to {}"},
+        .help = "Distance from one range ring to the next in km, {} to {}. Default: 50, or more "
+                "where the map is large"},
     PictureOption{
         .option = "--units",
         .section = "labels",
@@ -397,6 +398,12 @@ constexpr std::array option_rows{
         .used_by = by_volume,
         .help =
             "Degrees that the camera moves around the grid during the loop; 360 is one full turn"},
+    PictureOption{.option = "--all-elevations",
+                  .section = "loop",
+                  .key = "all_elevations",
+                  .value = FlagValue{.field = [](To to) { return &to.loop->all_elevations; }},
+                  .used_by = by_ppi,
+                  .help = "Show each elevation of each volume, from the lowest up"},
     PictureOption{.option = "--ping-pong",
                   .section = "loop",
                   .key = "ping_pong",

@@ -35,6 +35,23 @@ std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const 
     return {};
 }
 
+// The sweep of each moment, on the plane of the first.
+Result<std::vector<PictureGrid>> swept_panels(GridOptions options,
+                                              const std::vector<PanelScene>& panels) {
+    std::vector<PictureGrid> sweeps;
+    for (const PanelScene& panel : panels) {
+        options.moment = level2::moment_name(panel.moment);
+        auto volume = read_sweeps(options, &panel.scene);
+        if (!volume) return pass_on(volume);
+        const grid::GridSpec* const plane =
+            sweeps.empty() ? nullptr : &sweeps.front().description().spec;
+        auto sweep = PictureGrid::of_sweep(std::move(*volume), panel.scene, plane);
+        if (!sweep) return pass_on(sweep);
+        sweeps.push_back(std::move(*sweep));
+    }
+    return sweeps;
+}
+
 }  // namespace
 
 Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const SceneFile& file,
@@ -108,6 +125,8 @@ Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
 
 Result<std::vector<PictureGrid>> gridded_panels(GridOptions options,
                                                 const std::vector<PanelScene>& panels) {
+    if (render::facts_of(panels.front().scene.product).is_of_sweep)
+        return swept_panels(std::move(options), panels);
     std::vector<std::string_view> names;
     for (const PanelScene& panel : panels)
         names.push_back(level2::moment_name(panel.moment));

@@ -42,7 +42,8 @@ struct PanelScene {
                                                              const std::vector<PanelScene>& panels,
                                                              std::optional<UtcTime> until);
 
-// Grids the moments of the panels from one decoding of the files, in the order of the panels.
+// Grids the moments of the panels from one decoding of the files, in the order of the panels; of a
+// ppi takes the sweep of each moment.
 [[nodiscard]] Result<std::vector<PictureGrid>> gridded_panels(
     GridOptions options, const std::vector<PanelScene>& panels);
 

@@ -35,6 +35,7 @@ struct LoopSettings {
     double orbit_deg = 0;  // how far the camera moves around the grid during the loop
     std::vector<render::CameraKey> camera;  // places on its way; empty: it has none
     bool ping_pong = false;
+    bool all_elevations = false;  // of a ppi, a frame for each elevation of each volume
     std::vector<std::string> outputs;
     render::AnimationOptions animation;
 };

@@ -8,6 +8,7 @@
 
 #include "cli/query/cache_change.h"
 #include "cli/shared/commands.h"
+#include "cli/shared/progress.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"
 #include "stormcellar/cache/store.h"
@@ -174,13 +175,17 @@ int run_stat(const CacheOptions& options, const std::vector<StoreEntry>& entries
 
 int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entries) {
     nlohmann::json bad = nlohmann::json::array();
-    for (const StoreEntry& entry : entries) {
-        const auto file = cache::GridFile::open(entry.path);
+    Progress progress("grids", entries.size(), !options.json);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        progress.show(i);
+        const auto file = cache::GridFile::open(entries[i].path);
         const Status whole = file ? file->verify() : Status(pass_on(file));
         if (whole) continue;
-        bad.push_back({{"path", entry.path.string()}, {"message", whole.error().message}});
+        progress.clear();
+        bad.push_back({{"path", entries[i].path.string()}, {"message", whole.error().message}});
         if (!options.json) report_error(whole.error());
     }
+    progress.clear();
     if (options.json) {
         print_json({{"checked", entries.size()}, {"bad", bad}});
     } else {

@@ -74,6 +74,9 @@ const std::vector<CommandGuide>& command_guides() {
           {"stormcellar frame KTLX --cache CACHE --product section "
            "--section 35.2,-98.2,35.5,-97 -o cut.png",
            "A vertical cut between two places."},
+          {"stormcellar frame KTLX19990503_235621.gz --product ppi --moment VEL --elevation 0.5 "
+           "-o tilt.png",
+           "The velocity of the lowest sweep, gate by gate."},
           {"stormcellar frame KTLX --cache CACHE --probe-at 35.33,-97.5", "The value at a place."}},
          {"--output", "--cache", "--time", "--product", "--moment", "--colors", "--scene",
           "--azimuth", "--tilt", "--zoom"}},
@@ -99,7 +102,9 @@ const std::vector<CommandGuide>& command_guides() {
            "The last twelve grids, as a map."},
           {"stormcellar loop KTLX --catalog STATE/catalog --from 1999-05-03T23:00:00Z --to "
            "1999-05-03T23:59:00Z -o tornado.webp",
-           "An hour of an archive, gridded on the way."}},
+           "An hour of an archive, gridded on the way."},
+          {"stormcellar loop KTLX19990503_235621.gz --product ppi --all-elevations -o up.webp",
+           "All sweeps of a volume, from the lowest up."}},
          {"--output", "--cache", "--from", "--to", "--last", "--product", "--moment", "--orbit",
           "--fps", "--follow"}},
         {"replay",

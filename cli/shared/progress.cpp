@@ -47,7 +47,7 @@ std::string progress_line(const std::string& what, std::size_t done, std::size_t
 
 Progress::Progress(std::string what, std::size_t total, bool wanted)
     : what_(std::move(what)), total_(total), shown_(wanted && ::isatty(STDERR_FILENO) == 1) {
-    show(0);
+    if (total_ > 0) show(0);
 }
 
 Progress::~Progress() {

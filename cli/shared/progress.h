@@ -11,6 +11,7 @@ namespace stormcellar::cli {
 
 class Progress {
   public:
+    // With a total of 0 nothing is shown until show() says one.
     Progress(std::string what, std::size_t total, bool wanted);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

@@ -63,9 +63,14 @@ Result<std::vector<TimedVolume>> repeats_of(const level2::Volume& volume, const 
     return sequence;
 }
 
-Result<std::vector<HeldOutRow>> score_sequence(const std::vector<TimedVolume>& sequence,
-                                               const GridSpec& spec,
-                                               const GridderOptions& options) {
+Result<std::vector<HeldOutRow>> score_sequence(
+    const std::vector<TimedVolume>& sequence, const GridSpec& spec, const GridderOptions& options,
+    const std::function<void(std::size_t done, std::size_t total)>& progress) {
+    const std::size_t total = 2 * sequence.size() - 2;
+    std::size_t done = 0;
+    const auto one_done = [&] {
+        if (progress) progress(++done, total);
+    };
     const auto geometry = make_column_geometry(sequence.front().site, spec);
     if (!geometry) return pass_on(geometry);
     std::vector<Gridded> grids;
@@ -73,6 +78,7 @@ Result<std::vector<HeldOutRow>> score_sequence(const std::vector<TimedVolume>& s
         auto made = grid_one(timed, **geometry, options);
         if (!made) return pass_on(made);
         grids.push_back(std::move(*made));
+        one_done();
     }
     std::vector<HeldOutRow> rows;
     for (std::size_t at = 1; at + 1 < grids.size(); ++at) {
@@ -87,6 +93,7 @@ Result<std::vector<HeldOutRow>> score_sequence(const std::vector<TimedVolume>& s
         rows.push_back({sequence[at].name, seconds_between(grids[at - 1].middle, grids[at].middle),
                         seconds_between(grids[at].middle, grids[at + 1].middle),
                         std::move(*scored)});
+        one_done();
     }
     return rows;
 }

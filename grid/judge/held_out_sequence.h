@@ -4,6 +4,8 @@
 // Thread contract: each call works alone; it starts up to `threads` threads of its own.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,11 @@ struct HeldOutRow {
 };
 
 // One row for each volume that has two neighbors. All volumes are of one site, in order of time.
-// Errors name the volume: those of make_grid() and score_held_out().
+// `progress`, if there is one, is called from the calling thread after each piece of work: a grid
+// of each volume, then a score of each held-out one. Errors name the volume: those of make_grid()
+// and score_held_out().
 [[nodiscard]] Result<std::vector<HeldOutRow>> score_sequence(
-    const std::vector<TimedVolume>& sequence, const GridSpec& spec, const GridderOptions& options);
+    const std::vector<TimedVolume>& sequence, const GridSpec& spec, const GridderOptions& options,
+    const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
 }  // namespace stormcellar::grid

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/ranges.h>
 
@@ -29,17 +31,31 @@ Result<ChosenSweep> wanted_sweep(const level2::Volume& volume, level2::Moment mo
     if (wish.number) {
         auto chosen = sweep_by_number(volume, *wish.number, moment, half_beam_deg);
         if (chosen) return std::move(*chosen);
-        return fail(ErrorCode::not_found, "sweep {} holds no {}; the sweeps that do are {}",
-                    *wish.number, level2::moment_name(moment), numbers_of_sweeps(volume, moment));
+        const std::string missing =
+            *wish.number < volume.sweeps.size()
+                ? fmt::format("sweep {} holds no {}", *wish.number, level2::moment_name(moment))
+                : fmt::format("there is no sweep {}", *wish.number);
+        return fail(ErrorCode::not_found, "{}; the sweeps with {} are {}", missing,
+                    level2::moment_name(moment), numbers_of_sweeps(volume, moment));
     }
     auto sweeps = choose_sweeps(volume, moment, half_beam_deg, wish.nearest_to);
     if (sweeps.empty()) {
         return fail(ErrorCode::not_found, "no sweep holds {}", level2::moment_name(moment));
     }
     if (!wish.elevation_deg) return std::move(sweeps.front());
-    return std::move(*std::ranges::min_element(sweeps, {}, [&](const ChosenSweep& sweep) {
+    const auto off_deg = [&](const ChosenSweep& sweep) {
         return std::abs(sweep.fixed_angle_deg - *wish.elevation_deg);
-    }));
+    };
+    const auto nearest = std::ranges::min_element(sweeps, {}, off_deg);
+    if (off_deg(*nearest) <= SweepWish::farthest_deg) return std::move(*nearest);
+    std::vector<std::string> angles;
+    for (const ChosenSweep& sweep : sweeps)
+        angles.push_back(fmt::format("{:.1f}", sweep.fixed_angle_deg));
+    return fail(ErrorCode::not_found,
+                "no sweep with {} is within {:g} degree of {:g} degrees; those that there are have "
+                "elevations of {} degrees",
+                level2::moment_name(moment), SweepWish::farthest_deg, *wish.elevation_deg,
+                fmt::join(angles, ", "));
 }
 
 // Notes the times of the radials, where they have any.

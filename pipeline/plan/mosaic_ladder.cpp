@@ -73,16 +73,18 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
     return rungs;
 }
 
-// Times all rungs in rounds, one after the other.
-Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
+// Times all rungs in rounds, one after the other. Calls `one_done` after each.
+Status time_all(MosaicScene& scene, int rounds, const std::function<void()>& one_done,
+                std::vector<Rung>& rungs) {
     Status status;
     std::vector<std::function<void()>> works;
     works.reserve(rungs.size());
     for (const Rung& rung : rungs) {
-        works.emplace_back([&scene, &rung, &status] {
+        works.emplace_back([&scene, &rung, &status, &one_done] {
             if (!status) return;
             if (rung.grids) scene.forget(rung.with_times);
             if (auto made = scene.frame(rung.with_times); !made) status = pass_on(made);
+            one_done();
         });
     }
     const auto timings =
@@ -100,11 +102,17 @@ Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
 
 }  // namespace
 
-Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
-                                                    const accuracy::Chain& chain, int rounds) {
+Result<std::vector<accuracy::LadderRow>> run_ladder(
+    MosaicScene& scene, const accuracy::Chain& chain, int rounds,
+    const std::function<void(std::size_t done, std::size_t total)>& progress) {
     std::vector<Rung> rungs = rungs_of_steps(scene, chain);
     for (Rung& rung : rungs_of_chains(scene, chain))
         rungs.push_back(std::move(rung));
+    const std::size_t total = rungs.size() * (1 + static_cast<std::size_t>(std::max(1, rounds)));
+    std::size_t done = 0;
+    const auto one_done = [&] {
+        if (progress) progress(++done, total);
+    };
     const auto exact = scene.frame(mosaic_choice(chain, grid::reference_choice(chain)));
     if (!exact) return pass_on(exact);
     for (Rung& rung : rungs) {
@@ -115,14 +123,15 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
         if (!found) return pass_on(found);
         rung.row.value = found->summary();
         rung.row.status = found->status;
+        one_done();
     }
     // Single steps come first, so that the partials that they share are kept.
     const auto chains = std::stable_partition(rungs.begin(), rungs.end(),
                                               [](const Rung& rung) { return !rung.grids; });
     std::vector<Rung> whole(std::make_move_iterator(chains), std::make_move_iterator(rungs.end()));
     rungs.erase(chains, rungs.end());
-    if (auto timed = time_all(scene, rounds, rungs); !timed) return pass_on(timed);
-    if (auto timed = time_all(scene, rounds, whole); !timed) return pass_on(timed);
+    if (auto timed = time_all(scene, rounds, one_done, rungs); !timed) return pass_on(timed);
+    if (auto timed = time_all(scene, rounds, one_done, whole); !timed) return pass_on(timed);
     std::vector<accuracy::LadderRow> rows;
     for (const std::vector<Rung>* part : {&rungs, &whole}) {
         for (const Rung& rung : *part)

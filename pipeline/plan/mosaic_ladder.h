@@ -14,6 +14,8 @@
 // Threads   Those of the scene.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "pipeline/mosaic/mosaic_scene.h"
@@ -22,10 +24,11 @@
 
 namespace stormcellar::pipeline {
 
-// `chain` must come from mosaic_effects_of(). The least of `rounds` timings counts. Errors: those
-// of the scene.
-[[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
-                                                                  const accuracy::Chain& chain,
-                                                                  int rounds);
+// `chain` must come from mosaic_effects_of(). The least of `rounds` timings counts. `progress`, if
+// there is one, is called from the calling thread after each frame that was made. Errors: those of
+// the scene.
+[[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(
+    MosaicScene& scene, const accuracy::Chain& chain, int rounds,
+    const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 
 }  // namespace stormcellar::pipeline

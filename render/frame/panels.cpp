@@ -1,8 +1,11 @@
 #include "stormcellar/render/panels.h"
 
+#include <fmt/format.h>
+
 #include "render/frame/view_picture.h"
 #include "render/map/map_lines.h"
 #include "render/map/panel_layout.h"
+#include "stormcellar/grid/sweep_lookup.h"
 #include "stormcellar/render/product.h"
 #include "stormcellar/render/render.h"
 
@@ -27,14 +30,25 @@ Status check_panels(std::span<const Panel> panels) {
 PictureFacts facts_of_whole(std::span<const Panel> panels,
                             const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();
+    const grid::SweepLookup* const sweep = first.view.sweep;
     PictureFacts facts{legend_of(first.scene), drawn_ring_spacing(*first.view.spec, first.scene),
-                       coverage_of(columns, *first.view.spec)};
+                       std::nullopt};
+    if (sweep == nullptr) facts.coverage = coverage_of(columns, *first.view.spec);
     facts.legend.product.clear();
     for (const Panel& panel : panels) {
         if (!facts.legend.product.empty()) facts.legend.product += ", ";
         facts.legend.product += level2::moment_name(panel.scene.moment);
     }
+    if (sweep != nullptr) {
+        facts.legend.product +=
+            fmt::format(" at {:.1f} degrees elevation (PPI)", sweep->facts().fixed_angle_deg);
+    }
     return facts;
+}
+
+// Sweeps have no columns.
+std::vector<ColumnSummary> columns_of(const grid::BrickView& view, int threads) {
+    return view.sweep != nullptr ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
 }
 
 }  // namespace
@@ -44,10 +58,14 @@ Result<Image> render_panels(std::span<const Panel> panels, int threads, FrameCac
     const Scene& scene = panels.front().scene;
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    std::vector<Legend> legends;
+    // Legends point at the colors of their scenes.
+    std::vector<Scene> shown;
     for (const Panel& panel : panels)
-        legends.push_back(legend_of(panel.scene));
-    auto columns = summarize_columns(panels.front().view, threads);
+        shown.push_back(scene_shown(panel.view, panel.scene));
+    std::vector<Legend> legends;
+    for (const Scene& one : shown)
+        legends.push_back(legend_of(one));
+    auto columns = columns_of(panels.front().view, threads);
     const auto layout = lay_out_panels(*fonts, scene, panels.front().facts,
                                        facts_of_whole(panels, columns), legends);
     if (!layout) return pass_on(layout);
@@ -56,7 +74,7 @@ Result<Image> render_panels(std::span<const Panel> panels, int threads, FrameCac
     FrameCache& cache = kept != nullptr ? *kept : own;
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const Panel& panel = panels[i];
-        if (i > 0) columns = summarize_columns(panel.view, threads);
+        if (i > 0) columns = columns_of(panel.view, threads);
         const Rect& place = layout->pictures[i];
         const PictureSize size{static_cast<int>(place.width), static_cast<int>(place.height),
                                layout->scale};

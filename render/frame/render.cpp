@@ -1,5 +1,6 @@
 #include "stormcellar/render/render.h"
 
+#include "render/frame/sweep_text.h"
 #include "render/frame/view_picture.h"
 #include "render/image/shades.h"
 #include "render/map/labels.h"
@@ -58,10 +59,16 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     }
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    const auto layout =
-        lay_out_labels(*fonts, scene, facts,
-                       {legend_of(scene), drawn_ring_spacing(*view.spec, scene),
-                        of_sweep ? std::nullopt : std::optional(coverage_of(columns, *view.spec))});
+    PictureFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
+    if (of_sweep) {
+        const auto place = lay_out_labels(*fonts, scene, facts, texts);
+        if (!place) return pass_on(place);
+        texts.sweep = sweep_text(*view.sweep, *view.spec,
+                                 picture_geometry(*view.spec, scene, place->width, place->height));
+    } else {
+        texts.coverage = coverage_of(columns, *view.spec);
+    }
+    const auto layout = lay_out_labels(*fonts, scene, facts, texts);
     if (!layout) return pass_on(layout);
     const auto picture =
         draw_view(drawn, {layout->width, layout->height, layout->scale}, &*fonts, threads, cache);

@@ -206,10 +206,11 @@ void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
     put_product(builder, texts, left, second, right - local - gap - left, 11);
 }
 
-FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, double ring_spacing_m,
-                      const std::optional<Coverage>& coverage) {
+FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, const PictureFacts& picture) {
     FooterTexts texts;
-    texts.view = view_line(scene, facts, ring_spacing_m);
+    texts.view = view_line(scene, facts, picture.ring_spacing_m);
+    texts.seen = picture.sweep;
+    const auto& coverage = picture.coverage;
     if (facts.antenna_to_picture) {
         texts.age = duration_text(*facts.antenna_to_picture) + " from antenna to picture";
     }
@@ -257,8 +258,7 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     if (view_of(scene.product) == View::section)
         make_room_for_inset(space, builder, layout, colours);
     lay_out_header(builder, space.shape, scene.width, header_of(facts, picture.legend.product));
-    lay_out_footer(builder, scene.width, scene.height,
-                   footer_of(scene, facts, picture.ring_spacing_m, picture.coverage));
+    lay_out_footer(builder, scene.width, scene.height, footer_of(scene, facts, picture));
     if (space.band > 0) {
         lay_out_band(builder, picture.legend, colours);
     } else {

@@ -39,6 +39,7 @@ struct PictureFacts {
     Legend legend;
     double ring_spacing_m = 50e3;  // as drawn
     std::optional<Coverage> coverage;
+    std::string sweep = {};  // of a ppi, what it shows of the sweep
 };
 
 // Lays out the labels. Errors: bad_argument if the picture of the scene is too small for labels.
@@ -60,7 +61,7 @@ struct FooterTexts {
     std::string view, age, seen, credit;
 };
 [[nodiscard]] FooterTexts footer_of(const Scene& scene, const FrameFacts& facts,
-                                    double ring_spacing_m, const std::optional<Coverage>& coverage);
+                                    const PictureFacts& picture);
 void lay_out_footer(LabelBuilder& builder, double width, double height, const FooterTexts& texts);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);

@@ -101,9 +101,20 @@ std::vector<Point> picture_outline(const MapLines& lines) {
 }  // namespace
 
 double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene) {
-    const double reach =
-        std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m()) / 2;
-    double spacing = round_distance(scene.range_ring_spacing_m, scene.units);
+    const double width = spec.nx * spec.cell_width_m();
+    const double height = spec.ny * spec.cell_height_m();
+    double asked_m = scene.range_ring_spacing_m;
+    if (asked_m == Scene::usual_rings) {
+        asked_m = 50e3;
+        const double side = std::min(width, height) / 2;
+        while (side / asked_m > 6.5)
+            asked_m *= 2;
+        for (const double smaller : {25e3, 10e3, 5e3, 2e3, 1e3}) {
+            if (side < asked_m) asked_m = smaller;
+        }
+    }
+    double spacing = round_distance(asked_m, scene.units);
+    const double reach = std::hypot(width, height) / 2;
     while (reach / spacing > 20)
         spacing *= 2;
     return spacing;

@@ -36,7 +36,9 @@ struct MapLines {
 };
 
 // Returns the spacing that is asked for, or the nearest that is round in the unit of distances,
-// doubled until there are at most 20 rings.
+// doubled until there are at most 20 rings; if none is asked for (Scene::usual_rings), 50 km,
+// doubled before until at most six reach the nearest side of the grid, and less where the grid is
+// too small for one.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene);
 
 // Draws a thin line around the ground.

@@ -83,8 +83,7 @@ Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene, const
     layout.labels.shades = &shades_of(scene.theme);
     LabelBuilder whole(fonts, *layout.labels.shades, space.scale, layout.labels);
     lay_out_header(whole, space.shape, scene.width, header_of(facts, picture.legend.product));
-    lay_out_footer(whole, scene.width, scene.height,
-                   footer_of(scene, facts, picture.ring_spacing_m, picture.coverage));
+    lay_out_footer(whole, scene.width, scene.height, footer_of(scene, facts, picture));
     LabelBuilder part(fonts, *layout.labels.shades, layout.scale, layout.labels);
     const double title = std::round(part.scaled(title_height));
     const double legend = std::round(part.scaled(legend_height));

@@ -66,8 +66,9 @@ accuracy::Chain volume_chain(const Light& asked) {
     chain.steps.push_back(
         {"surface",
          "as bright whatever way it faces",
-         {light("gradient_light", "Steep surfaces turned away from the sun are darker.",
-                "darker turned away from the sun", effort_of_gradient, asked.gradient)}});
+         {light(
+             "gradient_light", "Steep surfaces are lighter toward the sun and darker away from it.",
+             "lighter toward the sun, darker away from it", effort_of_gradient, asked.gradient)}});
     chain.steps.push_back(
         {"light",
          "everywhere the same",

@@ -5,8 +5,8 @@
 //                step_attenuation: in their order, the near ones hiding the far ones
 //   pixels       interpolated between rays where the picture is nearly straight; every_pixel: a ray
 //                for each pixel
-//   surface      equally bright whatever way it faces; gradient_light: darker where it is turned
-//                away from the sun
+//   surface      equally bright whatever way it faces; gradient_light: lighter toward the sun and
+//                darker away from it
 //   light        the same everywhere; shadow_light: the light of sun and sky that gets through;
 //                scattering_light: the same, scattered once toward the camera
 // The scene does not ask for kinds of light that it does not have (stormcellar/render/light.h), so

@@ -112,7 +112,10 @@ Status validate(const Scene& scene) {
         check_range("the sun's elevation", scene.light.sun_elevation_deg,
                     limits::sun_elevation_deg),
         check_range("opacity", scene.opacity, limits::opacity),
-        check_range("range ring spacing (m)", scene.range_ring_spacing_m, limits::ring_spacing_m),
+        scene.range_ring_spacing_m == Scene::usual_rings
+            ? Status{}
+            : check_range("range ring spacing (m)", scene.range_ring_spacing_m,
+                          limits::ring_spacing_m),
         check_range("the height of a CAPPI (m)", scene.cappi_height_m, limits::cappi_height_m),
         check_range("the threshold of echo tops (dBZ)", scene.echo_top_dbz, limits::echo_top_dbz),
         scene.elevation_deg == Scene::lowest_sweep

@@ -15,7 +15,6 @@ constexpr float edge_share = 0.25F;    // how much lighter an edge is, seen alon
 constexpr float half_steep = 1.5e-3F;  // dB per meter of drawn space
 constexpr float highest_value = 60, value_of_others = 30;
 constexpr std::size_t state_block_bytes = grid::brick_cells / 4;
-constexpr float least_value = 1;  // dB; below it nothing is drawn and no cell beside it is
 constexpr int smoothing_reach = 2;
 constexpr std::array<float, 5> smoothing = {1 / 16.0F, 4 / 16.0F, 6 / 16.0F, 4 / 16.0F, 1 / 16.0F};
 
@@ -201,7 +200,8 @@ class ShadeField::Baker {
         });
     }
 
-    // The last pass: the factor of each coarse cell with any echo near it; 1 elsewhere.
+    // The last pass: the factor of each coarse cell with any echo within reach of the smoothing; 1
+    // elsewhere. To leave out cells below 1 dB too was 2 % faster, and up to 3 L* off in weak snow.
     void shade(int x) {
         const Vec3 sun_drawn = sun_direction(light_);
         const std::array<float, 3> sun = {static_cast<float>(sun_drawn[0]),
@@ -216,7 +216,7 @@ class ShadeField::Baker {
             for (int z = 0; z < sizes_[2]; ++z) {
                 const std::size_t at = as_index(z);
                 float factor = 1;
-                if (values_[here + at] > least_value) {
+                if (values_[here + at] > 0) {
                     const std::size_t below = as_index(std::max(z - 1, 0));
                     const std::size_t above = as_index(std::min(z + 1, sizes_[2] - 1));
                     const std::array<float, 3> fall = {

@@ -233,6 +233,12 @@ TEST_F(Frame, ProbesAPlaceOrAPixel) {
     EXPECT_THAT(facts_, ::testing::HasSubstr("value  33 dBZ at 0.5 km"));
     EXPECT_THAT(facts_, ::testing::HasSubstr("seen   0.5 to 16 km"));
     EXPECT_THAT(facts_, ::testing::HasSubstr("place  42.200\u00B0N 75.980\u00B0W"));
+    const std::string in_feet = "--domain KBGM --product composite --units kft --probe-at ";
+    EXPECT_EQ(run(in_feet + "42.2,-75.98"), exit_done);
+    EXPECT_THAT(facts_, ::testing::HasSubstr("value  33 dBZ at 1.64 kft"));
+    EXPECT_THAT(facts_, ::testing::HasSubstr("seen   1.64 to 52.49 kft"));
+    EXPECT_EQ(run(in_feet + "42.2,-75.98 --json"), exit_done);
+    EXPECT_EQ(nlohmann::json::parse(facts_)["probe"]["height_m"], 500) << "JSON stays in meters";
     EXPECT_EQ(run("--domain KBGM --product cappi --moment VEL --height-km 12 --probe 336,277 "
                   "--json -o " +
                   out("a.png")),

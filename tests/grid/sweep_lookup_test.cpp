@@ -274,13 +274,24 @@ TEST(SweepLookup, FindsSweepsByNumberAngleAndTime) {
     EXPECT_EQ(number_of(Moment::vel, {}), 1);
     EXPECT_EQ(number_of(Moment::ref, {.number = 1}), 1);
     EXPECT_EQ(number_of(Moment::ref, {.elevation_deg = 3}), 5);
-    EXPECT_EQ(number_of(Moment::ref, {.elevation_deg = 90}), 10);
+    EXPECT_EQ(number_of(Moment::ref, {.elevation_deg = 19}), 10);
+    const auto far = SweepLookup::find(real.volume, real.site, Moment::vel, half_beam_deg,
+                                       {.elevation_deg = 45});
+    ASSERT_FALSE(far);
+    EXPECT_EQ(far.error().code, ErrorCode::not_found);
+    EXPECT_EQ(far.error().message,
+              "no sweep with VEL is within 1 degree of 45 degrees; those that there are have "
+              "elevations of 0.5, 1.5, 2.4, 3.4, 4.3, 6.0, 9.9, 14.6, 19.5 degrees");
     const auto none =
         SweepLookup::find(real.volume, real.site, Moment::vel, half_beam_deg, {.number = 0});
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().code, ErrorCode::not_found);
     EXPECT_THAT(none.error().message, ::testing::HasSubstr("1, 3, 4, 5"));
-    EXPECT_EQ(number_of(Moment::ref, {.number = 11}), -1);
+    const auto beyond =
+        SweepLookup::find(real.volume, real.site, Moment::zdr, half_beam_deg, {.number = 11});
+    ASSERT_FALSE(beyond);
+    EXPECT_THAT(beyond.error().message, ::testing::StartsWith("there is no sweep 11; the sweeps "
+                                                              "with ZDR are 0, 2, 4"));
     EXPECT_THAT(elevations_deg(*real.volume, Moment::vel, half_beam_deg), ::testing::SizeIs(9));
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -127,7 +129,7 @@ TEST(LitLayer, IsInterpolatedWhereThePictureIsStraight) {
     EXPECT_LT(worst, 0.12);
 }
 
-grid::BrickGrid real_bricks(const std::string& file) {
+grid::Grid real_grid(const std::string& file) {
     level2::DecodeOptions options;
     options.fallback_station = file.substr(0, 4);
     options.selection.moments = {level2::Moment::ref};
@@ -141,8 +143,20 @@ grid::BrickGrid real_bricks(const std::string& file) {
     spec.spacing_m = 2000;
     spec.nx = spec.ny = 230;
     const auto columns = grid::make_column_geometry(site, spec);
-    const auto grid = grid::make_grid(decoded->volume, site, **columns, {});
-    return grid::BrickGrid::from(*grid, grid::default_quantization(level2::Moment::ref));
+    return *grid::make_grid(decoded->volume, site, **columns, {});
+}
+
+grid::BrickGrid bricks_of_real(const grid::Grid& grid) {
+    return grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+}
+
+// Returns the lightness (L*) of the echo at a pixel, without what is behind it.
+double lightness_at(const Layer& layer, std::size_t i) {
+    const auto level = [&](std::size_t c) {
+        const float whole = layer.rgba[i + c] / layer.rgba[i + 3];
+        return static_cast<std::uint8_t>(std::lround(std::clamp(255 * whole, 0.0F, 255.0F)));
+    };
+    return lab_of({level(0), level(1), level(2), 255}).lightness;
 }
 
 struct Lightness {
@@ -160,14 +174,8 @@ Lightness lightness_of(const Layer& lit, const Layer& plain, double& mean_plain)
         const auto colour = [&](const Layer& layer) {
             return Rgb{layer.rgba[i] / alpha, layer.rgba[i + 1] / alpha, layer.rgba[i + 2] / alpha};
         };
-        const auto bytes = [](const Rgb& c) {
-            const auto level = [](float x) {
-                return static_cast<std::uint8_t>(std::lround(std::clamp(255 * x, 0.0F, 255.0F)));
-            };
-            return Rgba8{level(c[0]), level(c[1]), level(c[2]), 255};
-        };
-        const double l = lab_of(bytes(colour(lit))).lightness;
-        const double l_plain = lab_of(bytes(colour(plain))).lightness;
+        const double l = lightness_at(lit, i);
+        const double l_plain = lightness_at(plain, i);
         sum += static_cast<double>(alpha) * l;
         sum_plain += static_cast<double>(alpha) * l_plain;
         weight += static_cast<double>(alpha);
@@ -189,7 +197,7 @@ class LitVolume : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LitVolume, KeepsItsLightnessAndItsHues) {
     STORMCELLAR_NEED_DATA();
-    const auto bricks = real_bricks(GetParam());
+    const auto bricks = bricks_of_real(real_grid(GetParam()));
     const EchoOutline outline(bricks.view(), level2::Moment::ref);
     Scene scene;
     apply(fit_view(outline, scene, 400, 300), scene);
@@ -214,6 +222,45 @@ TEST_P(LitVolume, KeepsItsLightnessAndItsHues) {
             EXPECT_GT(lit.darker, 0.1 * lit.lighter) << "shaded sides are darker";
         }
     }
+}
+
+// Each frame has an exposure of its own, which must not show in a loop: where half of all echo goes
+// from one frame to the next, the rest stays as light as it was.
+TEST_P(LitVolume, IsAsLightWhenOtherEchoGoes) {
+    STORMCELLAR_NEED_DATA();
+    const grid::Grid whole = real_grid(GetParam());
+    grid::Grid half = whole;
+    for (std::size_t cell = 0; cell < half.status.size(); ++cell) {
+        const auto column = cell / half.spec.levels_m.size();
+        const bool goes = column % static_cast<std::size_t>(half.spec.nx) > 115;
+        if (goes && half.status[cell] == grid::CellStatus::value)
+            half.status[cell] = grid::CellStatus::no_echo;
+    }
+    const auto before = bricks_of_real(whole);
+    const auto after = bricks_of_real(half);
+    Scene scene;
+    apply(fit_view(EchoOutline(before.view(), level2::Moment::ref), scene, 400, 300), scene);
+    const ViewGeometry view(*before.view().spec, scene.camera, scene.vertical_exaggeration, 400,
+                            300);
+    const auto draw = [&](const grid::BrickGrid& bricks, const char* names) {
+        VolumeOptions options = options_of(names, 128);
+        options.opacity = scene.opacity;
+        options.light.sun_azimuth_deg = scene.light.sun_azimuth_deg;
+        return VolumeSlicer(smooth_colour_table(level2::Moment::ref), bricks.view().quantization,
+                            view, options)
+            .draw(bricks.view(), 2);
+    };
+    const Layer plain = draw(before, "none"), plain_after = draw(after, "none");
+    const Layer lit = draw(before, "gradient,shadow"), lit_after = draw(after, "gradient,shadow");
+    double change = 0;
+    int pixels = 0;
+    for (std::size_t i = 0; i < plain.rgba.size(); i += 4) {
+        if (plain.rgba[i + 3] < 0.1F || plain.rgba[i + 3] != plain_after.rgba[i + 3]) continue;
+        change += lightness_at(lit_after, i) - lightness_at(lit, i);
+        ++pixels;
+    }
+    ASSERT_GT(pixels, 1000);
+    EXPECT_NEAR(change / pixels, 0, 1.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Real, LitVolume,

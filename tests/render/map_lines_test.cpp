@@ -126,5 +126,19 @@ TEST(MapLines, ASiteIsMarkedInItsColumn) {
     }
 }
 
+TEST(RangeRings, AreFewWhateverTheSizeOfTheGrid) {
+    grid::GridSpec spec = grid::default_spec(35, -97);
+    const auto usual = [&](int cells, double spacing_m) {
+        spec.nx = spec.ny = cells;
+        spec.spacing_m = spacing_m;
+        return drawn_ring_spacing(spec, Scene::usual_rings);
+    };
+    EXPECT_EQ(usual(460, 1000), 50e3);
+    EXPECT_EQ(usual(920, 1000), 100e3) << "the whole range of a sweep";
+    EXPECT_EQ(usual(1000, 4000), 400e3);
+    EXPECT_EQ(usual(160, 250), 10e3);
+    EXPECT_EQ(drawn_ring_spacing(spec, 5e3), 5e3) << "as asked for";
+}
+
 }  // namespace
 }  // namespace stormcellar::render

@@ -1,14 +1,18 @@
 #include "render/products/sweep_field.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "render/frame/probe.h"
+#include "render/frame/sweep_text.h"
 #include "render/products/ground.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/projection.h"
 #include "stormcellar/level2/decode.h"
+#include "stormcellar/render/panels.h"
 #include "stormcellar/render/render.h"
 #include "tests/testing/data.h"
 
@@ -26,6 +30,7 @@ class SweepField : public ::testing::Test {
             level2::decode_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
         ASSERT_TRUE(decoded);
         const auto volume = std::make_shared<level2::Volume>(std::move(decoded->volume));
+        volume_ = volume;
         const auto antenna = level2::antenna_position(*volume);
         ASSERT_TRUE(antenna);
         site_ = {volume->station, antenna->latitude_deg, antenna->longitude_deg,
@@ -73,6 +78,7 @@ class SweepField : public ::testing::Test {
     }
 
     grid::SitePosition site_;
+    std::shared_ptr<const level2::Volume> volume_;
     std::unique_ptr<grid::SweepLookup> sweep_;
 };
 
@@ -154,6 +160,53 @@ TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
     }
     EXPECT_GT(valued, 1000);
     EXPECT_GT(colored, 0.97 * valued) << "the line around the ground covers the others";
+}
+
+// The footer says how much of the circle there is, and whether the view shows the whole range.
+TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
+    const auto text_of = [&](const grid::GridSpec& spec, double zoom) {
+        Scene zoomed = scene();
+        zoomed.camera.zoom = zoom;
+        return sweep_text(*sweep_, spec, picture_geometry(spec, zoomed, 300, 200));
+    };
+    grid::GridSpec whole = plane(site_.latitude_deg, site_.longitude_deg);
+    whole.nx = whole.ny = 920;
+    EXPECT_EQ(text_of(whole, 1), "Cut 1: 720 radials, gates of 0.25 km up to 460 km");
+    EXPECT_THAT(text_of(whole, 2), ::testing::EndsWith("view cut: the sweep reaches 460 km"));
+    EXPECT_THAT(text_of(plane(site_.latitude_deg, site_.longitude_deg), 1),
+                ::testing::EndsWith("view cut: the sweep reaches 460 km"));
+    EXPECT_THAT(text_of(plane(35, -99), 1), ::testing::HasSubstr("view cut"));
+
+    auto volume = std::make_shared<level2::Volume>(*volume_);
+    for (level2::SweepMoment& kind : volume->sweeps[0].moments)
+        std::fill(kind.gate_counts.begin() + 240, kind.gate_counts.end(), 0);
+    grid::SweepWish first;
+    first.number = 0;
+    const auto begun = grid::SweepLookup::find(volume, site_, Moment::ref, 0.475, first);
+    ASSERT_TRUE(begun);
+    EXPECT_EQ(sweep_text(*begun, whole, picture_geometry(whole, scene(), 300, 200)),
+              "Cut 1: 240 radials, 33 % of the circle, gates of 0.25 km up to 460 km");
+}
+
+// Panels say the angle of the sweep, as single pictures do, whatever the scene asked for.
+TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
+    const grid::GridSpec spec = plane(site_.latitude_deg, site_.longitude_deg);
+    grid::BrickView view;
+    view.spec = &spec;
+    view.sweep = sweep_.get();
+    const FrameFacts facts{site_.icao, Moment::ref, sweep_->facts().start, {site_}};
+    Scene asked = scene();
+    asked.width = 800;
+    asked.height = 600;
+    asked.labels = true;
+    asked.colours = colours_of(asked);  // a table of the scene's own
+    const Panel lowest{view, facts, asked};
+    const Panel by_angle{view, facts, scene_shown(view, asked)};
+    const auto pair = render_panels(std::vector<Panel>{lowest, lowest}, 2);
+    ASSERT_TRUE(pair) << pair.error().message;
+    const auto shown = render_panels(std::vector<Panel>{by_angle, by_angle}, 2);
+    ASSERT_TRUE(shown);
+    EXPECT_TRUE(pair->rgba == shown->rgba);
 }
 
 TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {

@@ -32,9 +32,11 @@
 namespace stormcellar::grid {
 
 // Which sweep of a volume is meant. Without a number it is the one whose fixed angle is nearest to
-// the elevation, and without that the lowest. Of several sweeps of one angle (SAILS, split cuts) it
-// is the newest that choose_sweeps() finds as good as the others, or the nearest to a time.
+// the elevation, but at most `farthest_deg` from it, and without that the lowest. Of several sweeps
+// of one angle (SAILS, split cuts) it is the newest that choose_sweeps() finds as good as the
+// others, or the nearest to a time.
 struct SweepWish {
+    static constexpr double farthest_deg = 1;
     std::optional<double> elevation_deg{};
     std::optional<std::size_t> number{};  // index in Volume::sweeps
     std::optional<UtcTime> nearest_to{};
@@ -74,8 +76,8 @@ struct GatePosition {
 class SweepLookup {
   public:
     // Finds the sweep and prepares it. The volume is shared, because the sweep is read from it.
-    // Errors: not_found if no sweep, or not the one of that number, holds the moment; the message
-    // says which do.
+    // Errors: not_found if no sweep, not the one of that number, or none near that elevation holds
+    // the moment; the message says which do.
     [[nodiscard]] static Result<SweepLookup> find(std::shared_ptr<const level2::Volume> volume,
                                                   const SitePosition& site, level2::Moment moment,
                                                   double half_beam_deg, const SweepWish& wish);

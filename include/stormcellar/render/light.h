@@ -1,10 +1,12 @@
 // stormcellar/render/light.h -- how echo is lit, if a scene asks for it.
 //
-// Light darkens colors and never changes their hue: the color of a sample is multiplied by one
-// factor of 0 to 1. With the light off, echo has exactly the colors of the table.
-//   gradient    Surfaces turned away from the sun are darker. The effect follows the gradient of
-//               the values, as far as it is steep; a cell without a value counts as one without
-//               echo.
+// Light makes colors lighter or darker and keeps their hue: each pixel has one factor, which is
+// applied once. The echo of a picture keeps the mean lightness that it has without light. With the
+// light off, echo has exactly the colors of the table.
+//   gradient    Surfaces are lighter where they face the sun and darker where they face away. The
+//               effect follows the gradient of the values, as far as it is steep; a cell without
+//               echo counts as 0 dBZ, and one that was not seen as the nearest seen cell of its
+//               column.
 //   shadow      Whatever lies between a place and the sun takes light from it, and whatever
 //               surrounds the place takes light from the sky (ambient occlusion).
 //   scattering  As shadow, but brightest toward the sun through echo: single scattering by the

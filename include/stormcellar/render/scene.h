@@ -93,13 +93,15 @@ struct Scene {
     bool curved_earth = false;         // volumes: the ground falls away from the grid's middle
     // How exactly a volume is drawn (render/volume/slicer.h).
     Integration integration = Integration::second_order;
-    double pixel_tolerance = 0;          // 0..0.1
-    Light light;                         // off unless asked for
-    bool haze = false;                   // volumes: air that was not seen veils what is behind it
-    bool smooth = false;                 // maps: values go smoothly from cell to cell
-    double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
-    double range_ring_spacing_m = 50e3;  // 1..1000 km
-    bool labels = true;                  // color bar, title, time, map
+    double pixel_tolerance = 0;  // 0..0.1
+    Light light;                 // off unless asked for
+    bool haze = false;           // volumes: air that was not seen veils what is behind it
+    bool smooth = false;         // maps: values go smoothly from cell to cell
+    double opacity = 1;          // scales the transfer function's opacity; 0.001..1000
+    // 1..1000 km, or 50 km and more by the size of the grid.
+    static constexpr double usual_rings = 0;
+    double range_ring_spacing_m = usual_rings;
+    bool labels = true;  // color bar, title, time, map
     Theme theme = Theme::dark;
     Units units;  // of what is written
 };

@@ -1,0 +1,315 @@
+#include "cli/loop/sweep_loop.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/loop/files_loop.h"
+#include "cli/loop/loop_encoding.h"
+#include "cli/loop/loop_report.h"
+#include "cli/picture/picture.h"
+#include "cli/picture/picture_grid.h"
+#include "cli/picture/picture_metadata.h"
+#include "cli/picture/picture_plan.h"
+#include "cli/picture/raw_volume.h"
+#include "cli/picture/swept_volume.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/progress.h"
+#include "pipeline/drop/archive_volumes.h"
+#include "render/frame/frame_cache.h"
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::cli {
+namespace {
+
+constexpr double elevations_reach_m = 230e3;
+
+// One volume, and how it is read.
+struct RawSource {
+    std::filesystem::path path;
+    std::function<Result<RawVolume>(const catalog::CatalogReader&)> read;
+};
+
+struct SweepSources {
+    std::optional<catalog::CatalogReader> catalog;  // which the others read
+    std::vector<RawSource> volumes;                 // rising in time
+};
+
+// One frame: a sweep of a volume.
+struct SweepFrame {
+    std::size_t volume = 0;
+    double elevation_deg = render::Scene::lowest_sweep;
+    UtcTime time;
+};
+
+// What the frames share, and the volume that was decoded last.
+struct SweepDrawing {
+    GridOptions grid;
+    render::Scene scene;
+    bool all_elevations = false;
+    std::optional<std::size_t> decoded;
+    std::optional<SweptVolume> volume;
+    std::optional<grid::GridSpec> plane;  // of the first frame
+    render::FrameCache cache;
+};
+
+Status check_sweep_loop(const LoopOptions& options) {
+    if (!options.interval.empty()) {
+        return fail(ErrorCode::bad_argument,
+                    "--interval puts frames between grids; a ppi shows sweeps as they are");
+    }
+    if (options.frames > 0) {
+        return fail(ErrorCode::bad_argument,
+                    "--frames is for a camera that moves; a loop of a ppi has a frame for each "
+                    "sweep");
+    }
+    return {};
+}
+
+// The volumes of an archive's catalog, or of files that were cataloged.
+Result<SweepSources> sources_of_archive(const LoopOptions& options) {
+    const auto request = parse_archive(options.archive);
+    if (!request) return pass_on(request);
+    const auto range = parse_time_range(options.range);
+    if (!range) return pass_on(range);
+    if (!range->from || !range->to) {
+        return fail(ErrorCode::bad_argument, "--catalog needs --from and --to");
+    }
+    if (request->stations.size() != 1) {
+        return fail(ErrorCode::bad_argument,
+                    "a ppi shows sweeps of one radar{}; name it with --stations",
+                    request->stations.empty()
+                        ? std::string{}
+                        : fmt::format(", and there are {}", request->stations.size()));
+    }
+    SweepSources sources;
+    auto catalog = catalog::CatalogReader::open(options.archive.catalog);
+    if (!catalog) return pass_on(catalog);
+    sources.catalog.emplace(std::move(*catalog));
+    const auto volumes =
+        pipeline::archive_volumes(*sources.catalog, request->stations,
+                                  {*range->from, *range->to, false, options.archive_files});
+    if (!volumes) return pass_on(volumes);
+    for (const pipeline::ArchiveVolume& volume : *volumes) {
+        sources.volumes.push_back({volume.path, [volume](const catalog::CatalogReader& reader) {
+                                       return raw_volume_at(reader, volume.station, volume.start,
+                                                            volume.path);
+                                   }});
+    }
+    return sources;
+}
+
+// The volumes of which the grids of a domain were made.
+Result<SweepSources> sources_of_domain(const LoopOptions& options) {
+    const auto range = parse_time_range(options.range);
+    if (!range) return pass_on(range);
+    const auto store = cache::StoreReader::open(options.cache);
+    if (!store) return pass_on(store);
+    auto grids = grids_of_any_moment(*store, options.domain, range->from, range->to);
+    if (!grids) return pass_on(grids);
+    if (!range->to) cache::leave_out_future(*grids, now_utc());
+    PlaceOption place{Directory::catalog, {}, options.cache_place.config};
+    if (Status found = place.find(); !found) return pass_on(found);
+    SweepSources sources;
+    auto catalog = catalog::CatalogReader::open(place.directory);
+    if (!catalog) return pass_on(catalog);
+    sources.catalog.emplace(std::move(*catalog));
+    for (const cache::StoreEntry& entry : *grids) {
+        sources.volumes.push_back(
+            {entry.path, [entry](const catalog::CatalogReader& reader) -> Result<RawVolume> {
+                 const auto grid = cache::GridFile::open(entry.path);
+                 if (!grid) return pass_on(grid);
+                 return raw_volume_of(reader, entry.domain, grid->description());
+             }});
+    }
+    return sources;
+}
+
+// Decodes the volume, unless it is the last one that was decoded.
+Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t number,
+                                     SweepDrawing& drawing) {
+    if (drawing.decoded == number) return &*drawing.volume;
+    drawing.decoded.reset();
+    const auto raw = sources.volumes[number].read(*sources.catalog);
+    if (!raw) return pass_on(raw);
+    auto volume = decode_sweeps(raw->bytes, raw->file, drawing.grid,
+                                drawing.all_elevations ? nullptr : &drawing.scene);
+    if (!volume) return pass_on(volume);
+    drawing.volume.emplace(std::move(*volume));
+    drawing.decoded = number;
+    return &*drawing.volume;
+}
+
+// High sweeps reach few kilometers, so the plane of a loop through the elevations is no larger than
+// a station's usual grid, unless the options say how large.
+void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
+    if (volume.request.extent_given) return;
+    const auto limited = [](int cells, double width_m) {
+        return std::min(cells, static_cast<int>(2 * elevations_reach_m / width_m));
+    };
+    plane.nx = limited(plane.nx, plane.cell_width_m());
+    plane.ny = limited(plane.ny, plane.cell_height_m());
+}
+
+// Returns the sweep on the plane of the first.
+Result<PictureGrid> sweep_of(const SweptVolume& volume, double elevation_deg,
+                             SweepDrawing& drawing) {
+    drawing.scene.elevation_deg = elevation_deg;
+    if (!drawing.plane) {
+        const auto first = PictureGrid::of_sweep(volume, drawing.scene);
+        if (!first) return pass_on(first);
+        drawing.plane = first->description().spec;
+        if (drawing.all_elevations) limit_plane(volume, *drawing.plane);
+    }
+    return PictureGrid::of_sweep(volume, drawing.scene, &*drawing.plane);
+}
+
+// Finds the frames of each volume; what cannot be read is left out and named.
+std::vector<SweepFrame> frames_of(const SweepSources& sources, const std::atomic<bool>& stop,
+                                  SweepDrawing& drawing, LoopReport& report) {
+    std::vector<SweepFrame> frames;
+    const auto leave_out = [&](std::size_t number, const Error& error) {
+        report.skipped.push_back({sources.volumes[number].path, error.message});
+        warn_skipped(report.skipped.back());
+    };
+    const double asked_deg = drawing.scene.elevation_deg;
+    for (std::size_t i = 0; i < sources.volumes.size() && !stop; ++i) {
+        const auto volume = volume_of(sources, i, drawing);
+        if (!volume) {
+            leave_out(i, volume.error());
+            continue;
+        }
+        const std::vector<double> elevations =
+            drawing.all_elevations ? elevations_of(**volume) : std::vector{asked_deg};
+        for (const double elevation_deg : elevations) {
+            const auto sweep = sweep_of(**volume, elevation_deg, drawing);
+            if (sweep) {
+                frames.push_back({i, elevation_deg, sweep->description().time});
+            } else {
+                leave_out(i, sweep.error());
+            }
+        }
+    }
+    return frames;
+}
+
+Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const LoopOptions& options,
+                  SweepDrawing& drawing, Encoding& encoding, LoopReport& report) {
+    const auto start = steady_now();
+    const auto volume = volume_of(sources, frame.volume, drawing);
+    if (!volume) return pass_on(volume);
+    const auto sweep = sweep_of(**volume, frame.elevation_deg, drawing);
+    if (!sweep) return pass_on(sweep);
+    report.read_s += seconds_since(start);
+    const auto read = steady_now();
+    const auto facts = facts_of(options.domain, sweep->description(), options.scene.time_zone);
+    auto picture = render::render_frame(sweep->view(), facts, drawing.scene,
+                                        thread_count(options.scene), &drawing.cache);
+    if (!picture) return pass_on(picture);
+    report.render_s += seconds_since(read);
+    if (report.frames == 0) report.from = report.to = frame.time;
+    report.to = std::max(report.to, frame.time);
+    ++report.frames;
+    return encoding.add(std::move(*picture));
+}
+
+// Writes what the file says of itself. The first frame stands for all of them.
+Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>& frames,
+                     SweepDrawing& drawing, LoopOptions& options) {
+    const auto volume = volume_of(sources, frames.front().volume, drawing);
+    if (!volume) return pass_on(volume);
+    const auto sweep = sweep_of(**volume, frames.front().elevation_deg, drawing);
+    if (!sweep) return pass_on(sweep);
+    if (options.domain.empty()) options.domain = sweep->name();
+    const auto facts = facts_of(options.domain, sweep->description(), options.scene.time_zone);
+    const auto error = plan_picture(sweep->view(), facts, options.plan, options.json,
+                                    thread_count(options.scene), drawing.scene);
+    if (!error) return pass_on(error);
+    const auto [from, to] = std::ranges::minmax(frames, {}, &SweepFrame::time);
+    options.animation.metadata =
+        metadata_of({options.domain, from.time, to.time, frames.size(), "", *error},
+                    sweep->description(), render::scene_shown(sweep->view(), drawing.scene));
+    return {};
+}
+
+Status write_loop(const SweepSources& sources, const std::vector<SweepFrame>& frames,
+                  const LoopOptions& options, const std::atomic<bool>& stop, SweepDrawing& drawing,
+                  LoopReport& report) {
+    auto writers = make_writers(options.outputs, options.animation);
+    if (!writers) return pass_on(writers);
+    Encoding encoding(std::move(*writers));
+    Progress progress("frames", frames.size(), !options.quiet);
+    for (std::size_t i = 0; i < frames.size() && !stop; ++i) {
+        if (auto drawn = draw_frame(sources, frames[i], options, drawing, encoding, report); !drawn)
+            return drawn;
+        progress.show(i + 1);
+    }
+    report.interrupted = stop;
+    if (stop) return {};
+    if (auto finished = encoding.finish(stop); !finished) return finished;
+    report.encode_s = encoding.encode_s();
+    return {};
+}
+
+Result<SweepSources> find_sources(LoopOptions& options, Interrupt& interrupt) {
+    if (auto fine = check_sweep_loop(options); !fine) return pass_on(fine);
+    if (!options.files.empty()) {
+        if (auto made = catalog_files(options, interrupt); !made) return pass_on(made);
+    }
+    auto sources =
+        options.archive.asked() ? sources_of_archive(options) : sources_of_domain(options);
+    if (sources && options.last > 0 && std::cmp_greater(sources->volumes.size(), options.last)) {
+        sources->volumes.erase(sources->volumes.begin(), sources->volumes.end() - options.last);
+    }
+    return sources;
+}
+
+int end_interrupted(Interrupt& interrupt) {
+    fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
+    interrupt.end_by_signal();
+    return exit_failed;
+}
+
+}  // namespace
+
+int run_sweep_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt,
+                   SteadyTime start) {
+    const auto sources = find_sources(options, interrupt);
+    if (!sources) return report_error(sources.error());
+    SweepDrawing drawing;
+    drawing.grid = options.archive.place;
+    drawing.grid.moment = options.scene.moment;
+    drawing.grid.threads = thread_count(options.scene);
+    drawing.scene = scene;
+    drawing.all_elevations = options.all_elevations;
+    LoopReport report;
+    auto frames = frames_of(*sources, interrupt.flag(), drawing, report);
+    if (interrupt.flag()) return end_interrupted(interrupt);
+    if (frames.empty()) {
+        fmt::print(stderr, "stormcellar: no volume{} gives a frame\n",
+                   options.domain.empty() ? "" : " of " + printable(options.domain));
+        return exit_nothing_matched;
+    }
+    if (options.ping_pong) {
+        for (std::size_t i = frames.size(); i > 2; --i)
+            frames.push_back(SweepFrame{frames[i - 2]});
+    }
+    if (auto described = describe_loop(*sources, frames, drawing, options); !described)
+        return report_error(described.error());
+    if (auto made = write_loop(*sources, frames, options, interrupt.flag(), drawing, report); !made)
+        return report_error(made.error());
+    if (report.interrupted) return end_interrupted(interrupt);
+    if (auto left = leave_files(options); !left) return report_error(left.error());
+    report.total_s = seconds_since(start);
+    print_report(options, scene, report);
+    return exit_done;
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,203 @@
+// Sweeps as the radar saw them: of a file, of a file that is cut short, of a domain by the catalog,
+// and loops of them.
+#include <csignal>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_stormcellar.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class Ppi : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        data_ = *testing::data_directory();
+        std::ofstream(directory_ / "config.toml")
+            << "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n";
+    }
+
+    [[nodiscard]] std::string volume(const char* name) const {
+        return (data_ / "volumes" / name).native();
+    }
+    [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).native(); }
+
+    // The first bytes of a volume, as of one that the radar is still making.
+    [[nodiscard]] std::string cut_volume(const char* name, std::size_t bytes) const {
+        std::ifstream whole(volume(name), std::ios::binary);
+        std::string begin(bytes, '\0');
+        whole.read(begin.data(), static_cast<std::streamsize>(bytes));
+        std::ofstream(directory_ / name, std::ios::binary) << begin;
+        return out(name);
+    }
+
+    // What is at a place of the sweep that the words name.
+    [[nodiscard]] nlohmann::json probe(std::vector<std::string> words) const {
+        words.insert(words.begin(), {"frame", "--product", "ppi", "--json"});
+        const auto ran = run(words);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.status == 0 ? nlohmann::json::parse(ran.out) : nlohmann::json{};
+    }
+
+    // As the daemon does: the raw file to catalog and cache.
+    void ingest(const std::string& file) {
+        fs::create_directories(directory_ / "drop");
+        fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());
+        testing::RunningProgram daemon(STORMCELLARD, {"--config", out("config.toml")});
+        ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
+            return fs::is_directory(directory_ / "cache") &&
+                   run({"cache", "list", "--cache", out("cache")}).status == 0;
+        })) << daemon.err();
+        EXPECT_EQ(daemon.end(SIGTERM), 0);
+    }
+
+    testing::TemporaryDirectory directory_;
+    fs::path data_;
+};
+
+TEST_F(Ppi, SaysWhichSweepsThereAre) {
+    const auto far = run({"frame", volume("KLBB20160601_150025_V06"), "--product", "ppi",
+                          "--elevation", "45", "-o", out("a.png")});
+    EXPECT_NE(far.status, 0);
+    EXPECT_THAT(far.err, HasSubstr("0.5, 1.5, 2.4, 3.4, 4.3, 6.0, 9.9, 14.6, 19.5 degrees"));
+    const auto none = run({"frame", volume("KLBB20160601_150025_V06"), "--product", "ppi",
+                           "--moment", "VEL", "--sweep", "0", "-o", out("a.png")});
+    EXPECT_NE(none.status, 0);
+    EXPECT_THAT(none.err, HasSubstr("the sweeps with VEL are 1, 3, 4"));
+    EXPECT_FALSE(fs::exists(out("a.png")));
+}
+
+// Of a file that is cut short the sweeps and the radials that are there are drawn.
+TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
+    // A third of the first sweep: the radials from the west to the northeast.
+    const std::string begun = cut_volume("KLBB20160601_150025_V06", 400'000);
+    const auto north = probe({begun, "--probe-at", "34.5,-101.8"});
+    EXPECT_TRUE(north["partial"].get<bool>());
+    EXPECT_NE(north["probe"]["status"], "not_seen");
+    EXPECT_EQ(probe({begun, "--probe-at", "33.0,-101.8"})["probe"]["status"], "not_seen");
+    const auto drawn = run({"frame", begun, "--product", "ppi", "-o", out("a.png")});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+
+    // Two elevations are whole; the newest whole low sweep is shown, and no other elevation.
+    const std::string low = cut_volume("KLBB20160601_150025_V06", 1'500'000);
+    const auto lowest = probe({low, "--probe-at", "34.0,-102.2"});
+    EXPECT_TRUE(lowest["partial"].get<bool>());
+    EXPECT_EQ(lowest["probe"],
+              probe({volume("KLBB20160601_150025_V06"), "--probe-at", "34.0,-102.2"})["probe"]);
+    const auto high =
+        run({"frame", low, "--product", "ppi", "--elevation", "19.5", "-o", out("b.png")});
+    EXPECT_NE(high.status, 0);
+    EXPECT_THAT(high.err, HasSubstr("elevations of 0.5, 1.5 degrees"));
+}
+
+TEST_F(Ppi, PanelsShowTheSweepOfEachMoment) {
+    const std::string file = volume("KLBB20160601_150025_V06");
+    const auto drawn = run({"frame", file, "--product", "ppi", "--panels", "REF,VEL,RHO,ZDR",
+                            "--extent-km", "300,300", "-o", out("a.png")});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_TRUE(fs::exists(out("a.png")));
+    const auto planned =
+        run({"frame", file, "--panels", "REF,VEL", "--tolerance", "dE 2", "-o", out("b.png")});
+    EXPECT_EQ(planned.status, 2);
+    EXPECT_THAT(planned.err, HasSubstr("not for --panels"));
+}
+
+TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
+    const std::string file = volume("KTLX20170101_030027_V06");
+    ingest(file);
+    const std::vector<std::string> what = {"--elevation", "1.5",        "--moment",
+                                           "VEL",         "--probe-at", "35.5,-97.5"};
+    const auto with = [&](std::vector<std::string> words) {
+        words.insert(words.end(), what.begin(), what.end());
+        return probe(words);
+    };
+    // The cache has reflectivity alone; the raw file has all moments.
+    const auto of_domain = with({"KTLX", "--config", out("config.toml")});
+    const auto of_file = with({file});
+    EXPECT_EQ(of_domain["probe"], of_file["probe"]);
+    EXPECT_EQ(of_domain["time"], of_file["time"]);
+    EXPECT_EQ(of_domain["domain"], "KTLX");
+    EXPECT_EQ(with({"KTLX", "--cache", out("cache"), "--catalog", out("state/catalog")})["probe"],
+              of_file["probe"]);
+    // The plane may be chosen, as for a file.
+    const auto placed = run({"frame", "KTLX", "--config", out("config.toml"), "--product", "ppi",
+                             "--extent-km", "60,60", "-o", out("a.png")});
+    EXPECT_EQ(placed.status, 0) << placed.err;
+
+    fs::remove(directory_ / "drop/KTLX20170101_030027_V06");
+    const auto gone = run(
+        {"frame", "KTLX", "--config", out("config.toml"), "--product", "ppi", "-o", out("b.png")});
+    EXPECT_NE(gone.status, 0);
+    EXPECT_THAT(gone.err, HasSubstr("the raw file of KTLX 2017-01-01T03:00:27Z is gone"));
+    EXPECT_EQ(run({"frame", "KTLX", "--config", out("config.toml"), "--product", "composite",
+                   "--catalog", out("state/catalog"), "-o", out("b.png")})
+                  .status,
+              2);
+}
+
+// Each elevation is a frame, from the lowest up, and a split cut is one elevation.
+TEST_F(Ppi, ALoopGoesThroughTheElevations) {
+    const std::string file = volume("KTLX20170101_030027_V06");
+    const auto made = run({"loop", file, "--product", "ppi", "--all-elevations", "--cache",
+                           out("own"), "--json", "--quiet", "-o", out("up/")});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const auto json = nlohmann::json::parse(made.out);
+    EXPECT_EQ(json["frames"], 5) << "7 sweeps, of which two are split cuts";
+    EXPECT_EQ(json["from"], "2017-01-01T03:00:27.187Z");
+    EXPECT_EQ(json["domain"], "KTLX");
+    EXPECT_TRUE(fs::exists(directory_ / "up/frame_0004.png"));
+    EXPECT_FALSE(fs::exists(directory_ / "up/frame_0005.png"));
+
+    // A scene file says the same, and there and back is eight frames.
+    std::ofstream(directory_ / "up.toml")
+        << "[picture]\nproduct = \"ppi\"\n[loop]\nall_elevations = true\nping_pong = true\n";
+    const auto by_scene = run({"loop", "--scene", out("up.toml"), file, "--cache", out("own"),
+                               "--json", "--quiet", "-o", out("b.webp")});
+    ASSERT_EQ(by_scene.status, 0) << by_scene.err;
+    EXPECT_EQ(nlohmann::json::parse(by_scene.out)["frames"], 8);
+}
+
+TEST_F(Ppi, ALoopGoesThroughTheVolumesOfFilesAndOfADomain) {
+    const auto made =
+        run({"loop", (data_ / "sequence-kbgm").native(), "--product", "ppi", "--cache", out("own"),
+             "--last", "2", "--json", "--quiet", "-o", out("a/")});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const auto json = nlohmann::json::parse(made.out);
+    EXPECT_EQ(json["frames"], 2);
+    EXPECT_THAT(json["from"].get<std::string>(), HasSubstr("2005-08-22T03:02:39"));
+
+    ingest(volume("KTLX20170101_030027_V06"));
+    const auto of_domain =
+        run({"loop", "KTLX", "--config", out("config.toml"), "--product", "ppi", "--moment", "RHO",
+             "--all-elevations", "--json", "--quiet", "-o", out("b/")});
+    ASSERT_EQ(of_domain.status, 0) << of_domain.err;
+    EXPECT_EQ(nlohmann::json::parse(of_domain.out)["frames"], 5);
+}
+
+TEST_F(Ppi, ALoopRefusesWhatMakesNoSense) {
+    const std::string file = volume("KTLX20170101_030027_V06");
+    const auto refused = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"loop", file, "--cache", out("own"), "-o", out("a.webp")});
+        const auto ran = run(words);
+        EXPECT_EQ(ran.status, 2) << ran.err;
+        return ran.err;
+    };
+    EXPECT_THAT(refused({"--product", "composite", "--all-elevations"}),
+                HasSubstr("--all-elevations is for ppi"));
+    EXPECT_THAT(refused({"--product", "ppi", "--all-elevations", "--elevation", "1"}),
+                HasSubstr("leave out --elevation"));
+    EXPECT_THAT(refused({"--product", "ppi", "--interval", "60"}), HasSubstr("--interval"));
+    EXPECT_THAT(refused({"--product", "ppi", "--frames", "50"}), HasSubstr("--frames"));
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
