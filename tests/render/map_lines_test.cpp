@@ -131,13 +131,17 @@ TEST(RangeRings, AreFewWhateverTheSizeOfTheGrid) {
     const auto usual = [&](int cells, double spacing_m) {
         spec.nx = spec.ny = cells;
         spec.spacing_m = spacing_m;
-        return drawn_ring_spacing(spec, Scene::usual_rings);
+        Scene scene;
+        scene.range_ring_spacing_m = Scene::usual_rings;
+        return drawn_ring_spacing(spec, scene);
     };
     EXPECT_EQ(usual(460, 1000), 50e3);
     EXPECT_EQ(usual(920, 1000), 100e3) << "the whole range of a sweep";
     EXPECT_EQ(usual(1000, 4000), 400e3);
     EXPECT_EQ(usual(160, 250), 10e3);
-    EXPECT_EQ(drawn_ring_spacing(spec, 5e3), 5e3) << "as asked for";
+    Scene asked;
+    asked.range_ring_spacing_m = 5e3;
+    EXPECT_EQ(drawn_ring_spacing(spec, asked), 5e3) << "as asked for";
 }
 
 }  // namespace
