@@ -66,9 +66,10 @@ Status check_sweep_loop(const LoopOptions& options) {
                     "--interval puts frames between grids; a ppi shows sweeps as they are");
     }
     if (options.frames > 0) {
-        return fail(ErrorCode::bad_argument,
-                    "--frames is for a camera that moves; a loop of a ppi has a frame for each "
-                    "sweep");
+        return fail(
+            ErrorCode::bad_argument,
+            "--frames is for a camera that moves; a loop of a ppi has a frame of each of its "
+            "sweeps");
     }
     return {};
 }
