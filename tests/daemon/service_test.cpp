@@ -105,8 +105,13 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
 }
 
 TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
-    for (int i = 0; i < 20'000; ++i)
-        write_file(config_.fixed.paths.drop / std::to_string(i), "1");
+    // A file that was written a moment ago waits for more to come, so these are older.
+    const auto before = fs::file_time_type::clock::now() - std::chrono::hours{1};
+    for (int i = 0; i < 20'000; ++i) {
+        const fs::path file = config_.fixed.paths.drop / std::to_string(i);
+        write_file(file, "1");
+        fs::last_write_time(file, before);
+    }
     std::atomic<bool> began_before_the_end = false;
     start([&](const auto&, bool) {
         if (!has_message("READY=1")) began_before_the_end = true;
