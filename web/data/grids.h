@@ -1,0 +1,74 @@
+// web/data/grids.h -- the grids of the cache, listed and opened.
+//
+// The names in the cache are listed once, and again when the cache changes (web/data/cache_watch.h), so that a
+// request reads no directory. Opened grids are kept, at most `most_open`, the least recently used
+// give way. A grid that its owner evicted while it is open stays readable to the one who holds it.
+//
+// Threads   Many threads may use it.
+// Errors    not_found if there is and was no such grid; see each function.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::web {
+
+struct GridsOptions {
+    std::filesystem::path cache;
+    std::size_t most_open = 64;
+};
+
+// A grid that is open. `id` changes when the grid of this name is made again.
+struct OpenGrid {
+    cache::GridFile file;
+    std::string domain;
+    level2::Moment moment;
+    UtcTime time;
+    std::string id;  // of its bytes: letters and digits, for ETags and keys
+};
+
+class Grids {
+  public:
+    // A cache that does not exist (yet) has no grids; that is no error.
+    static Result<std::shared_ptr<Grids>> open(GridsOptions options);
+    ~Grids();
+
+    [[nodiscard]] std::vector<std::string> domains() const;  // sorted
+    [[nodiscard]] std::vector<level2::Moment> moments(std::string_view domain) const;
+    // Ascending; `from` and `to` are inclusive.
+    [[nodiscard]] std::vector<UtcTime> times(std::string_view domain, level2::Moment moment,
+                                             std::optional<UtcTime> from = {},
+                                             std::optional<UtcTime> to = {}) const;
+    [[nodiscard]] std::optional<UtcTime> newest(std::string_view domain,
+                                                level2::Moment moment) const;
+    // Returns the grid. Errors: not_found; those of GridFile::open().
+    [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find(std::string_view domain,
+                                                               level2::Moment moment,
+                                                               UtcTime time);
+    // Returns true if a grid of this name was listed earlier and is gone: the answer is then 410, not 404.
+    // The newest 65,536 of them are remembered.
+    [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
+                                   UtcTime time) const;
+    // Counts changes: grids that came, changed or went.
+    [[nodiscard]] std::uint64_t changes() const;
+    // Reads the cache, or a domain of it, again.
+    void refresh();
+    void refresh(std::string_view domain);
+
+  private:
+    struct Impl;
+    explicit Grids(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stormcellar::web

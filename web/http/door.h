@@ -1,0 +1,41 @@
+// web/http/door.h -- what answers below one path, and how a request finds it.
+//
+// Threads   The server calls a door from many threads at once.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "web/http/answer.h"
+#include "web/http/request.h"
+
+namespace stormcellar::web {
+
+class Door {
+  public:
+    virtual ~Door() = default;
+    // Returns the answer if that takes well under a millisecond: it is kept in memory, or a file is
+    // opened. The thread that serves all connections calls it. None: a worker calls answer().
+    virtual std::optional<Answer> answer_at_once(const Request& /*request*/) {
+        return std::nullopt;
+    }
+    // Makes the answer, however long that takes. Must not throw.
+    virtual Answer answer(const Request& request) = 0;
+};
+
+// A door finds itself by the longest prefix of whole segments: "/s3" answers "/s3", "/s3/" and
+// "/s3/a", not "/s3a". "/" answers what no other door does.
+class Doors {
+  public:
+    void add(std::string prefix, std::shared_ptr<Door> door);
+    // Never null once "/" was added.
+    [[nodiscard]] std::shared_ptr<Door> find(std::string_view path) const;
+
+  private:
+    std::vector<std::pair<std::string, std::shared_ptr<Door>>> doors_;
+};
+
+}  // namespace stormcellar::web
