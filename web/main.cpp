@@ -123,15 +123,15 @@ void reload(WebService& service, const std::filesystem::path& file) {
     notify(reloading_state());
     const auto fresh = load_web_setup(file);
     if (!fresh) {
-        log(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
+        say(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
     } else {
         for (const std::string& sentence : needs_restart(*fresh, service.setup()))
-            log(LogLevel::warning, "{}", sentence);
+            say(LogLevel::warning, "{}", sentence);
         set_log_level(fresh->log_level);
         const Status taken = service.reload(*fresh);
-        if (taken) log(LogLevel::info, "reloaded {}", file.native());
+        if (taken) say(LogLevel::info, "reloaded {}", file.native());
         if (!taken)
-            log(LogLevel::error, "the configuration stays as it was: {}", taken.error().message);
+            say(LogLevel::error, "the configuration stays as it was: {}", taken.error().message);
     }
     notify("READY=1");
 }
@@ -145,10 +145,10 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     const WebSignals signals;
     auto service = WebService::open(setup);
     if (!service) return complain(service.error());
-    log(LogLevel::info, "stormcellar-web {}: listening on {}", software_version,
+    say(LogLevel::info, "stormcellar-web {}: listening on {}", software_version,
         fmt::join((*service)->addresses(), " "));
     if (!(*service)->has_catalog())
-        log(LogLevel::warning, "there is no catalog {} yet", setup.catalog().native());
+        say(LogLevel::warning, "there is no catalog {} yet", setup.catalog.native());
     notify("READY=1");
     Watchdog watchdog;
     for (;;) {
@@ -159,8 +159,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
         } else if (*number == SIGHUP) {
             reload(**service, file);
         } else {
-            log(LogLevel::info, "stopping: received {}",
-                *number == SIGTERM ? "SIGTERM" : "SIGINT");
+            say(LogLevel::info, "stopping: received {}", *number == SIGTERM ? "SIGTERM" : "SIGINT");
             break;
         }
     }

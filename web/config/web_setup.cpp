@@ -46,6 +46,7 @@ Result<WebSetup> load_web_setup(const std::filesystem::path& file) {
     read_directory(paths, "drop", file, setup.drop);
     read_directory(paths, "state", file, setup.state);
     read_directory(paths, "cache", file, setup.cache);
+    setup.catalog = setup.state / "catalog";
     setup.added_stations = read_added_stations(root);
     read_log_level(root.section("log"), setup.log_level);
     setup.web = read_web_config(root);

@@ -17,12 +17,11 @@ namespace stormcellar::web {
 struct WebSetup {
     std::filesystem::path drop;  // empty: it is not known
     std::filesystem::path state = "/var/lib/stormcellar";
-    std::filesystem::path cache = "/var/cache/stormcellar";
+    std::filesystem::path catalog = "/var/lib/stormcellar/catalog";  // empty: none
+    std::filesystem::path cache = "/var/cache/stormcellar";          // empty: none
     std::vector<AddedStation> added_stations;
     std::string log_level = "info";  // debug, info, warning or error
     WebConfig web;
-
-    [[nodiscard]] std::filesystem::path catalog() const { return state / "catalog"; }
     bool operator==(const WebSetup&) const = default;
 };
 

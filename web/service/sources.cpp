@@ -20,14 +20,16 @@ class PlainIndex final : public Door {
 
 Result<Sources> open_sources(WebSetup setup) {
     Sources sources;
-    auto catalog = catalog::CatalogReader::open(setup.catalog());
-    if (catalog) {
-        sources.catalog = std::make_shared<const catalog::CatalogReader>(std::move(*catalog));
-    } else if (catalog.error().code != ErrorCode::not_found) {
-        return pass_on(catalog);
+    if (!setup.catalog.empty()) {
+        auto catalog = catalog::CatalogReader::open(setup.catalog);
+        if (catalog) {
+            sources.catalog = std::make_shared<const catalog::CatalogReader>(std::move(*catalog));
+        } else if (catalog.error().code != ErrorCode::not_found) {
+            return pass_on(catalog);
+        }
     }
-    auto grids = Grids::open({.cache = setup.cache,
-                              .most_open = static_cast<std::size_t>(setup.web.limits.open_grids)});
+    auto grids = Grids::open(
+        {.cache = setup.cache, .most_open = static_cast<std::size_t>(setup.web.limits.open_grids)});
     if (!grids) return pass_on(grids);
     sources.grids = std::move(*grids);
     sources.setup = std::move(setup);

@@ -1,4 +1,5 @@
-// web/service/sources.h -- what the doors answer from: the catalog, the grids, and the configuration.
+// web/service/sources.h -- what the doors answer from: the catalog, the grids, and the
+// configuration.
 //
 // Threads   Plain data; what it points to may be used by many threads.
 #pragma once

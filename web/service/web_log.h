@@ -20,7 +20,7 @@ void set_log_level(std::string_view name);
 void write_log(LogLevel level, std::string_view text);
 
 template <class... Arguments>
-void log(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... values) {
+void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... values) {
     if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
 }
 

@@ -32,7 +32,7 @@ unsigned workers_of(const WebLimits& limits) {
 
 void note_answer(const Served& served) {
     if (!is_logged(LogLevel::debug) || served.request == nullptr) return;
-    log(LogLevel::debug, "{} {} {} bytes in {:.1f} ms for {}", served.status, served.request->path,
+    say(LogLevel::debug, "{} {} {} bytes in {:.1f} ms for {}", served.status, served.request->path,
         served.bytes, served.seconds.count() * 1000, served.request->client);
 }
 
@@ -87,18 +87,19 @@ std::vector<std::string> WebService::addresses() const {
 }
 
 void WebService::look_again() {
-    if (has_catalog()) return;
-    auto catalog = catalog::CatalogReader::open(sources_.setup.catalog());
+    if (has_catalog() || sources_.setup.catalog.empty()) return;
+    auto catalog = catalog::CatalogReader::open(sources_.setup.catalog);
     if (!catalog) return;
-    log(LogLevel::info, "the catalog {} is there now", sources_.setup.catalog().native());
+    say(LogLevel::info, "the catalog {} is there now", sources_.setup.catalog.native());
     if (const Status taken = reload(sources_.setup); !taken)
-        log(LogLevel::error, "{}", taken.error().message);
+        say(LogLevel::error, "{}", taken.error().message);
 }
 
 Status WebService::reload(WebSetup fresh) {
     const WebSetup before = sources_.setup;
     fresh.drop = before.drop;
     fresh.state = before.state;
+    fresh.catalog = before.catalog;
     fresh.cache = before.cache;
     fresh.added_stations = before.added_stations;
     // All that can fail without the ports fails first.
@@ -110,7 +111,7 @@ Status WebService::reload(WebSetup fresh) {
     if (served) return {};
     std::swap(sources_, *sources);
     if (const Status again = serve(); !again)
-        log(LogLevel::error, "cannot listen as before: {}", again.error().message);
+        say(LogLevel::error, "cannot listen as before: {}", again.error().message);
     return served;
 }
 

@@ -29,8 +29,8 @@ class WebService {
     [[nodiscard]] bool has_catalog() const { return sources_.catalog != nullptr; }
     void look_again();
 
-    // Takes over a configuration, but for what needs_restart() names: connections are closed, and the
-    // server listens again. If it cannot, it goes on as before. Errors: those of open().
+    // Takes over a configuration, but for what needs_restart() names: connections are closed, and
+    // the server listens again. If it cannot, it goes on as before. Errors: those of open().
     Status reload(WebSetup fresh);
     [[nodiscard]] ServerFacts facts() const;
 
