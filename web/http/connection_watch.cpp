@@ -13,7 +13,6 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::milliseconds look_every{500};
-constexpr std::chrono::seconds rate_window{30};
 
 // The bytes that the other side has acknowledged since the connection was opened.
 std::uint64_t acknowledged_bytes(int descriptor) {
@@ -124,10 +123,10 @@ void ConnectionWatch::make_room() {
 bool ConnectionWatch::is_too_slow(Open& open, SteadyTime now) const {
     if (open.phase == Phase::thinking) return false;
     if (open.phase == Phase::request) return now - open.since > limits_.request_time;
-    if (now - open.since < rate_window) return false;
+    if (now - open.since < limits_.rate_time) return false;
     const std::uint64_t taken = acknowledged_bytes(open.descriptor);
     const std::uint64_t wanted =
-        limits_.least_bytes_per_s * static_cast<std::uint64_t>(rate_window.count());
+        limits_.least_bytes_per_s * static_cast<std::uint64_t>(limits_.rate_time.count());
     const bool is_slow = taken - open.taken_bytes < wanted && has_unsent(open.descriptor);
     open.taken_bytes = taken;
     open.since = now;

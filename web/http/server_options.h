@@ -27,8 +27,9 @@ struct ServerLimits {
     // From the opening of a connection, or the end of the previous answer, to the end of a request's
     // headers.
     std::chrono::seconds request_time{20};
-    // A client that takes less than this of a waiting body, on the mean of half a minute, is cut off.
+    // A client that takes less than this of a waiting body, on the mean of such a time, is cut off.
     std::uint64_t least_bytes_per_s = 1000;
+    std::chrono::seconds rate_time{30};
     unsigned workers = 4;        // threads that make answers
     std::size_t most_waiting = 64;  // requests that wait for a worker; beyond: 503
 };
