@@ -72,8 +72,9 @@ struct Grids::Impl {
     const GridsOptions options;
     std::atomic<std::uint64_t> changes{0};
 
-    mutable std::shared_mutex names_mutex;  // guards the next three and the listeners
+    mutable std::shared_mutex names_mutex;  // guards the next five
     std::map<std::string, OfDomain, std::less<>> names;
+    std::map<std::string, std::uint64_t, std::less<>> changes_of;  // by group
     // The number says which of the entries in the order counts.
     std::map<cache::GridName, std::uint64_t> evicted;
     std::deque<std::pair<std::uint64_t, cache::GridName>> evicted_order;
@@ -106,6 +107,7 @@ void Grids::Impl::remember_evicted(const cache::GridName& name) {
 void Grids::Impl::take(const CacheChange& change) {
     if (change.event != CacheEvent::everything) {
         const std::unique_lock lock(names_mutex);
+        ++changes_of[std::string(cache::group_of(change.grid.domain))];
         std::vector<UtcTime>& times = names[change.grid.domain][change.grid.moment];
         const auto at = std::lower_bound(times.begin(), times.end(), change.grid.time);
         const bool is_listed = at != times.end() && *at == change.grid.time;
@@ -259,6 +261,16 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     return grid;
 }
 
+std::shared_ptr<const OpenGrid> Grids::find_if_open(std::string_view domain, level2::Moment moment,
+                                                    UtcTime time) {
+    impl_->watch->catch_up();
+    const cache::GridName name{std::string(domain), moment, time};
+    if (!cache::is_domain_name(domain) || !cache::is_possible(time)) return nullptr;
+    const Result<struct stat> facts =
+        look_beneath(impl_->options.cache, impl_->options.cache / cache::relative_path(name));
+    return facts ? impl_->find_open(name, stamp_of_grid(*facts)) : nullptr;
+}
+
 bool Grids::was_evicted(std::string_view domain, level2::Moment moment, UtcTime time) const {
     impl_->watch->catch_up();
     const std::shared_lock lock(impl_->names_mutex);
@@ -268,6 +280,13 @@ bool Grids::was_evicted(std::string_view domain, level2::Moment moment, UtcTime 
 std::uint64_t Grids::changes() const {
     impl_->watch->catch_up();
     return impl_->changes;
+}
+
+std::uint64_t Grids::changes_of(std::string_view group) const {
+    impl_->watch->catch_up();
+    const std::shared_lock lock(impl_->names_mutex);
+    const auto found = impl_->changes_of.find(group);
+    return found == impl_->changes_of.end() ? 0 : found->second;
 }
 
 void Grids::refresh() {

@@ -61,12 +61,17 @@ class Grids {
     // Returns the grid. Errors: not_found; those of GridFile::open().
     [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find(std::string_view domain,
                                                                level2::Moment moment, UtcTime time);
+    // Returns the grid if it is open and still that of its name; else null. It takes microseconds.
+    [[nodiscard]] std::shared_ptr<const OpenGrid> find_if_open(std::string_view domain,
+                                                               level2::Moment moment, UtcTime time);
     // Returns true if a grid of this name was listed earlier and is gone: the answer is then 410,
     // not 404. The newest 65,536 of them are remembered.
     [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
                                    UtcTime time) const;
     // Counts changes: grids that came, changed or went.
     [[nodiscard]] std::uint64_t changes() const;
+    // Counts those of a group: a domain and its parts (stormcellar/cache/grid_name.h).
+    [[nodiscard]] std::uint64_t changes_of(std::string_view group) const;
     // Reads the cache, or a domain of it, again.
     void refresh();
     void refresh(std::string_view domain);
