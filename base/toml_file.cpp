@@ -212,6 +212,10 @@ bool TomlTable::is_text(std::string_view key) const {
     return node != nullptr && node->is_string();
 }
 
+void TomlTable::leave(std::string_view key) {
+    (void)document_->find(index_, key);
+}
+
 void TomlTable::complain(std::string_view key, std::string_view why) {
     document_->complain(index_, key, why);
 }

@@ -67,6 +67,8 @@ class TomlTable {
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool is_array(std::string_view key) const;
     [[nodiscard]] bool is_text(std::string_view key) const;
+    // Takes the key as read: it, and all below it, is for another program, which checks it.
+    void leave(std::string_view key);
     // Records a complaint about the value of a key, or about the table if the key is absent.
     void complain(std::string_view key, std::string_view why);
 

@@ -18,6 +18,7 @@ Run set_up_help(CLI::App& command);
 Run set_up_info(CLI::App& command);
 Run set_up_loop(CLI::App& command);
 Run set_up_replay(CLI::App& command);
+Run set_up_serve(CLI::App& command);
 Run set_up_status(CLI::App& command);
 Run set_up_synth(CLI::App& command);
 
@@ -41,6 +42,8 @@ constexpr std::array registry{
     Subcommand{"replay",
                "Replay files into a drop directory as LDM would, in the order of their times",
                set_up_replay},
+    Subcommand{"serve", "Serve files, or a cache and a catalog, over HTTP until Ctrl-C",
+               set_up_serve},
     Subcommand{"status", "Show the status of the running daemon", set_up_status},
     Subcommand{"synth", "Write the Level II files of a simulated scene (the same bytes every time)",
                set_up_synth},

@@ -384,13 +384,19 @@ Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWrit
 
 }  // namespace
 
-Status write_grids(FileSystem& file_system, const std::filesystem::path& path,
-                   std::span<const Grid> grids, const GridWriteOptions& options) {
+Result<std::vector<std::byte>> grid_file_bytes(std::span<const Grid> grids,
+                                               const GridWriteOptions& options) {
     if (auto good = check_together(grids); !good) return pass_on(good);
     for (const Grid& grid : grids) {
         if (auto good = check(grid, options); !good) return pass_on(good);
     }
-    const auto bytes = build(grids, options);
+    return build(grids, options);
+}
+
+Status write_grids(FileSystem& file_system, const std::filesystem::path& path,
+                   std::span<const Grid> grids, const GridWriteOptions& options) {
+    const auto bytes = grid_file_bytes(grids, options);
+    if (!bytes && bytes.error().code == ErrorCode::bad_argument) return pass_on(bytes);
     if (!bytes) return fail(bytes.error().code, "{}: {}", path.string(), bytes.error().message);
     return write_file_atomically(file_system, path, *bytes);
 }

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/added_stations.h"
 #include "base/byte_size.h"
 #include "base/printable.h"
 #include "base/toml_file.h"
@@ -355,6 +356,7 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     config.reloadable.loops =
         read_loops(root, std::filesystem::absolute(file).parent_path(),
                    {fixed.paths.drop, fixed.paths.state, fixed.paths.cache}, scenes);
+    config.reloadable.web = web::read_web_config(root);
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;
 }

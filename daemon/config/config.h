@@ -24,6 +24,7 @@
 #include "stormcellar/cache/budget.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/level2/volume.h"
+#include "web/config/web_config.h"
 
 namespace stormcellar::daemon {
 
@@ -104,6 +105,7 @@ struct ReloadableConfig {
     std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";
     std::vector<LoopConfig> loops;
+    web::WebConfig web;  // for stormcellar-web: the daemon checks it and does nothing with it
 
     [[nodiscard]] int worker_count() const;
     bool operator==(const ReloadableConfig&) const = default;

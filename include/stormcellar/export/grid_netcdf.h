@@ -30,8 +30,10 @@
 // Accuracy  Values are the grid's own floats.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/result.h"
@@ -54,5 +56,9 @@ struct GridWriteOptions {
 [[nodiscard]] Status write_grids(FileSystem& file_system, const std::filesystem::path& path,
                                  std::span<const grid::Grid> grids,
                                  const GridWriteOptions& options = {});
+
+// Returns the bytes of that file without writing it. Errors: bad_argument and internal.
+[[nodiscard]] Result<std::vector<std::byte>> grid_file_bytes(std::span<const grid::Grid> grids,
+                                                             const GridWriteOptions& options = {});
 
 }  // namespace stormcellar::netcdf

@@ -1,0 +1,107 @@
+#include "cli/serve/scratch_cellar.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "cli/shared/commands.h"
+#include "cli/shared/input_files.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_rule.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A directory is one whose files are the chunks of a volume.
+Status add_file_or_chunks(const fs::path& path, std::set<fs::path>& files) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+        files.insert(path);
+        return {};
+    }
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+         entry.increment(error)) {
+        std::error_code ignored;
+        if (entry->is_regular_file(ignored)) files.insert(entry->path());
+    }
+    if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
+    return {};
+}
+
+pipeline::IngestOptions options_for_all_moments(int threads) {
+    pipeline::IngestOptions options;
+    options.stations = std::make_shared<StationRule>(StationRule::any(StationRule::no_limit));
+    options.moments.assign(std::begin(level2::all_moments), std::end(level2::all_moments));
+    options.decode_threads = threads;
+    options.grid_threads = threads;
+    return options;
+}
+
+}  // namespace
+
+Result<std::vector<fs::path>> files_to_serve(const std::vector<std::string>& names) {
+    if (std::ranges::count(names, "-") > 0) {
+        return fail(ErrorCode::bad_argument,
+                    "raw files are served from where they are, so standard input cannot be served");
+    }
+    const auto inputs = InputFiles::find(names);
+    if (!inputs) return pass_on(inputs);
+    for (const std::string& one : inputs->left_out())
+        print_note(fmt::format("left out: {}", one));
+    std::set<fs::path> files;
+    for (const InputFile& file : inputs->files()) {
+        std::error_code error;
+        const fs::path path = fs::canonical(file.path, error);
+        if (error) return fail(ErrorCode::not_found, "{}: {}", file.path.native(), error.message());
+        if (Status added = add_file_or_chunks(path, files); !added) return pass_on(added);
+    }
+    return std::vector<fs::path>(files.begin(), files.end());
+}
+
+ScratchCellar::ScratchCellar(ScratchDirectory scratch, catalog::CatalogWriter catalog,
+                             cache::StoreWriter store, int threads)
+    : scratch_(std::move(scratch)),
+      catalog_(std::move(catalog)),
+      store_(std::move(store)),
+      ingestor_(catalog_, store_, options_for_all_moments(threads)) {}
+
+Result<std::unique_ptr<ScratchCellar>> ScratchCellar::make(int threads) {
+    auto scratch = ScratchDirectory::make();
+    if (!scratch) return pass_on(scratch);
+    catalog::CatalogOptions options;
+    options.drop = "/";
+    auto catalog = catalog::CatalogWriter::open(scratch->path() / "catalog", options);
+    if (!catalog) return pass_on(catalog);
+    auto store = cache::StoreWriter::open(real_file_system(), scratch->path() / "cache",
+                                           false);
+    if (!store) return pass_on(store);
+    return std::unique_ptr<ScratchCellar>(
+        new ScratchCellar(std::move(*scratch), std::move(*catalog), std::move(*store), threads));
+}
+
+Result<std::size_t> ScratchCellar::take(const fs::path& file) {
+    const auto outcome = ingestor_.ingest(file, true, pipeline::Tries::last);
+    if (!outcome) return pass_on(outcome);
+    using enum pipeline::IngestResult;
+    switch (outcome->result()) {
+        case gridded:
+        case unchanged:
+        case registered:
+            break;
+        case no_position:
+            print_note(
+                fmt::format("{}: served, but not gridded: it is not known where the radar "
+                            "stands",
+                            file.native()));
+            break;
+        default:
+            print_note(fmt::format("{}: served, but not gridded{}{}", file.native(),
+                                   outcome->reason.empty() ? "" : ": ", outcome->reason));
+    }
+    return outcome->grids.size();
+}
+
+}  // namespace stormcellar::cli

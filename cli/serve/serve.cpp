@@ -1,0 +1,218 @@
+// stormcellar serve: the data server for one person, until Ctrl-C.
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/serve/scratch_cellar.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/service_places.h"
+#include "stormcellar/base/station_table.h"
+#include "web/service/web_log.h"
+#include "web/service/web_service.h"
+#include "web/service/web_signals.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ServeOptions {
+    std::vector<std::string> files;
+    std::string cache, catalog, config;
+    std::vector<std::string> listen, names;
+    bool cors = false, verbose = false;
+    int threads = 0;
+};
+
+// What the configuration says, if one is named or if nothing else says what is to be served.
+Result<web::WebSetup> setup_by_config(const ServeOptions& options) {
+    web::WebSetup setup;
+    setup.state.clear();
+    setup.catalog.clear();
+    setup.cache.clear();
+    const bool says_what =
+        !options.files.empty() || !options.cache.empty() || !options.catalog.empty();
+    if (says_what && options.config.empty()) return setup;
+    const auto places = service_places(options.config);
+    if (!places) return pass_on(places);
+    if (!*places) {
+        return fail(ErrorCode::bad_argument,
+                    "say what is to be served: files, --cache and --catalog, or --config FILE for "
+                    "what a service keeps");
+    }
+    return web::load_web_setup((*places)->config);
+}
+
+Status take_addresses(const ServeOptions& options, web::WebSetup& setup) {
+    if (!options.listen.empty()) setup.web.listen.clear();
+    for (const std::string& text : options.listen) {
+        const auto address = web::parse_bind_address(text);
+        if (!address) return fail(ErrorCode::bad_argument, "--listen: {}", address.error().message);
+        setup.web.listen.push_back(*address);
+    }
+    for (const std::string& name : options.names) {
+        if (!web::is_host_name(name)) {
+            return fail(ErrorCode::bad_argument,
+                        "--allow-host: \"{}\" is not the name of a host (without a port)", name);
+        }
+        setup.web.names.push_back(name);
+    }
+    return {};
+}
+
+// Errors: bad_argument, and those of a configuration.
+Result<web::WebSetup> setup_of(const ServeOptions& options) {
+    auto setup = setup_by_config(options);
+    if (!setup) return setup;
+    if (!options.cache.empty()) setup->cache = options.cache;
+    if (!options.catalog.empty()) setup->catalog = options.catalog;
+    if (options.cors) setup->web.cors = true;
+    for (const fs::path* directory : {&setup->cache, &setup->catalog}) {
+        const bool was_typed =
+            directory == &setup->cache ? !options.cache.empty() : !options.catalog.empty();
+        if (was_typed && !fs::is_directory(*directory))
+            return fail(ErrorCode::not_found, "{}: there is no such directory",
+                        directory->native());
+    }
+    if (Status taken = take_addresses(options, *setup); !taken) return pass_on(taken);
+    return setup;
+}
+
+int thread_count_of(const ServeOptions& options) {
+    if (options.threads > 0) return options.threads;
+    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+// The files that a command line names, taken in one after another.
+class ServedFiles {
+  public:
+    ServedFiles(std::unique_ptr<ScratchCellar> cellar, std::vector<fs::path> files)
+        : cellar_(std::move(cellar)), files_(std::move(files)) {}
+    ServedFiles(const ServedFiles&) = delete;
+    ServedFiles& operator=(const ServedFiles&) = delete;
+    ~ServedFiles() {
+        is_stopping_ = true;
+        if (thread_.joinable()) thread_.join();
+    }
+
+    // Takes in files until one gave grids, so that there is something to see from the start.
+    // Errors: not_found if none did.
+    Status take_first() {
+        while (next_ < files_.size()) {
+            const auto grids = cellar_->take(files_[next_++]);
+            if (!grids) return pass_on(grids);
+            if (*grids > 0) return {};
+        }
+        return fail(ErrorCode::not_found, "nothing can be gridded of what was named");
+    }
+    // Takes in the rest beside what the caller does.
+    void take_rest() {
+        thread_ = std::thread([this] {
+            while (next_ < files_.size() && !is_stopping_) {
+                const auto grids = cellar_->take(files_[next_++]);
+                if (!grids) report_error(grids.error());
+            }
+        });
+    }
+    [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
+
+  private:
+    std::unique_ptr<ScratchCellar> cellar_;
+    std::vector<fs::path> files_;
+    std::size_t next_ = 0;
+    std::atomic<bool> is_stopping_{false};
+    std::thread thread_;
+};
+
+Result<std::unique_ptr<ServedFiles>> take_files(const ServeOptions& options) {
+    auto files = files_to_serve(options.files);
+    if (!files) return pass_on(files);
+    auto cellar = ScratchCellar::make(thread_count_of(options));
+    if (!cellar) return pass_on(cellar);
+    auto served = std::make_unique<ServedFiles>(std::move(*cellar), std::move(*files));
+    if (Status first = served->take_first(); !first) return pass_on(first);
+    return served;
+}
+
+void serve_until_signal(const web::WebSignals& signals, web::WebService& service) {
+    for (;;) {
+        const auto number = signals.next(std::chrono::seconds{1});
+        if (number && *number != SIGHUP) return;
+        service.look_again();
+    }
+}
+
+int run_serve(const ServeOptions& options) {
+    auto setup = setup_of(options);
+    if (!setup) return report_error(setup.error());
+    set_added_stations(setup->added_stations);
+    web::set_log_level(options.verbose ? "debug" : "warning");
+    // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
+    const web::WebSignals signals;
+    std::unique_ptr<ServedFiles> files;
+    if (!options.files.empty()) {
+        auto taken = take_files(options);
+        if (!taken) return report_error(taken.error());
+        files = std::move(*taken);
+        setup->catalog = files->cellar().catalog();
+        setup->cache = files->cellar().cache();
+    }
+    auto service = web::WebService::open(std::move(*setup));
+    if (!service) return report_error(service.error());
+    for (const std::string& address : (*service)->addresses())
+        fmt::print("listening on {}\n", address);
+    std::fflush(stdout);
+    if (files) files->take_rest();
+    serve_until_signal(signals, **service);
+    service->reset();
+    return exit_done;
+}
+
+}  // namespace
+
+Run set_up_serve(CLI::App& serve) {
+    const auto options = std::make_shared<ServeOptions>();
+    auto* files = serve.add_option("FILE", options->files,
+                                   "Level II files, archives or directories of them, which are "
+                                   "gridded and served");
+    auto* cache =
+        serve.add_option("--cache", options->cache, "Directory of a cache whose grids are served");
+    auto* catalog =
+        serve.add_option("--catalog", options->catalog,
+                         "Directory of a catalog (state/catalog) whose raw files are served");
+    cache->excludes(files);
+    catalog->excludes(files);
+    serve.add_option(
+        "--config", options->config,
+        "Configuration file of the service, whose directories and [web] count. "
+        "Default, if nothing else says what is to be served: $STORMCELLAR_CONFIG, else "
+        "/etc/stormcellar/stormcellard.toml");
+    serve
+        .add_option("--listen", options->listen,
+                    "Numeric address and port on which it listens; may be repeated. Port 0: any "
+                    "that is free. Default: 127.0.0.1:8090 and [::1]:8090")
+        ->type_name("ADDRESS:PORT")
+        ->allow_extra_args(false);
+    serve
+        .add_option("--allow-host", options->names,
+                    "Name by which clients may call this server, beside localhost and the "
+                    "addresses of --listen; may be repeated")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    serve.add_flag("--cors", options->cors,
+                   "Let web pages of other servers read public data in a browser");
+    serve
+        .add_option("--threads", options->threads,
+                    "Number of threads for decoding and gridding. Default: one for each processor")
+        ->check(CLI::Range(0, 256));
+    serve.add_flag("--verbose", options->verbose, "Print a line for each answer on stderr");
+    return [options] { return run_serve(*options); };
+}
+
+}  // namespace stormcellar::cli

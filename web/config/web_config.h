@@ -1,0 +1,123 @@
+// web/config/web_config.h -- the tables [web] of stormcellard.toml: what the data server serves, to
+// whom, and how much at most. daemon/stormcellard.toml explains every key and holds every default.
+//
+// This is a library of its own (stormcellar::web_config), so that stormcellard can check the tables
+// without linking the server.
+//
+// Units     Bytes, seconds.
+// Threads   Plain data and pure functions.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/toml_file.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::web {
+
+// A numeric address and a port. Port 0: the system chooses one.
+struct BindAddress {
+    std::string host;  // "127.0.0.1", or "::1" without brackets
+    int port = 0;
+
+    [[nodiscard]] bool is_loopback() const;
+    [[nodiscard]] std::string text() const;  // "127.0.0.1:8090", "[::1]:8090"
+    bool operator==(const BindAddress&) const = default;
+};
+// Errors: bad_argument for a text that is not ADDRESS:PORT with a numeric address.
+[[nodiscard]] Result<BindAddress> parse_bind_address(std::string_view text);
+
+// What can be served. The order is that of names_of_parts.
+enum class WebPart {
+    volumes,   // raw files: /volumes
+    thredds,   // the THREDDS radar server: /thredds
+    polling,   // what GR2Analyst and GRLevel2 poll: /nexrd2
+    s3,        // the listing of a bucket: /s3
+    grids,     // JSON, packed grids, netCDF: /api/v1
+    zarr,      // /zarr and /zarr3
+    pictures,  // frames, loops, tiles and WMS: /frames, /loops, /tiles, /wms
+    events,    // /api/v1/events
+    metrics,   // /metrics
+};
+inline constexpr std::array<std::string_view, 9> names_of_parts = {
+    "volumes", "thredds", "polling", "s3", "grids", "zarr", "pictures", "events", "metrics"};
+[[nodiscard]] std::vector<WebPart> all_parts();
+
+// The address under which clients reach the server through a proxy: "https://example.org/storms".
+struct PublicAddress {
+    std::string scheme;     // "http" or "https"
+    std::string authority;  // "example.org" or "example.org:8443"
+    std::string prefix;     // "/storms"; empty: none
+
+    [[nodiscard]] std::string text() const;
+    [[nodiscard]] std::string host() const;  // without the port, and without brackets
+    bool operator==(const PublicAddress&) const = default;
+};
+// Errors: bad_argument.
+[[nodiscard]] Result<PublicAddress> parse_public_address(std::string_view text);
+
+// Returns true if the text may be the name of a host: letters, digits, "-" and "." as in DNS, or a
+// numeric address without brackets.
+[[nodiscard]] bool is_host_name(std::string_view text);
+
+// A data set of the THREDDS radar server.
+struct ConfiguredCollection {
+    std::string path;  // "nexrad/level2/IDD"
+    std::string title;
+    // Names of variables of a data set of Level III, which we can describe but have no files of.
+    // Empty: Level II, from the catalog.
+    std::vector<std::string> variables;
+    std::vector<std::string> stations;  // that it names; empty: those of the catalog
+    bool operator==(const ConfiguredCollection&) const = default;
+};
+
+struct ThreddsConfig {
+    std::vector<ConfiguredCollection> collections;  // never empty
+    std::vector<std::string> denied;  // beginnings of paths below /thredds/fileServer: 403
+    bool operator==(const ThreddsConfig&) const = default;
+};
+
+struct WebLimits {
+    int connections = 1024;
+    int connections_of_an_address = 256;  // trusted proxies have as many as there are in all
+    int event_streams = 2048;             // these count apart from other connections
+    std::uint64_t header_bytes = 32'768;
+    std::chrono::seconds request{20};  // from the opening, or the last answer, to a request's end
+    std::uint64_t least_bytes_per_second = 1'000;  // that a client must take of an answer
+    int workers = 0;                               // 0: two for each processor
+    int renders = 1;                               // pictures and grids computed at the same time
+    int waiting = 32;                        // requests that wait for one of these; beyond, 503
+    int results = 10'000;                    // rows of one query
+    std::uint64_t kept_bytes = 256'000'000;  // packed grids and lists kept in memory
+    std::uint64_t kept_picture_bytes = 64'000'000;
+    int open_grids = 64;
+    bool operator==(const WebLimits&) const = default;
+};
+
+struct WebConfig {
+    std::vector<BindAddress> listen = {{"127.0.0.1", 8090}, {"::1", 8090}};
+    std::vector<std::string> names;  // in lower case, beside the names of the loopback
+    std::optional<PublicAddress> public_address;
+    std::vector<std::string> trusted_proxies;  // numeric addresses
+    std::vector<WebPart> serve = all_parts();  // each once, in their order
+    std::string bucket = "unidata-nexrad-level2";
+    bool cors = false;  // "*" on paths of public data
+    ThreddsConfig thredds = usual_thredds();
+    WebLimits limits;
+
+    [[nodiscard]] bool serves(WebPart part) const;
+    [[nodiscard]] static ThreddsConfig usual_thredds();
+    bool operator==(const WebConfig&) const = default;
+};
+
+// Reads [web], [web.thredds], [[web.thredds.collection]] and [web.limits]. What is wrong is
+// recorded as a complaint.
+[[nodiscard]] WebConfig read_web_config(TomlTable& root);
+
+}  // namespace stormcellar::web

@@ -1,0 +1,38 @@
+// web/config/web_setup.h -- all that the data server reads of stormcellard.toml: its own tables,
+// the directories, the stations that were added, and the level of the log.
+//
+// Threads   Plain data and a pure function.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_table.h"
+#include "web/config/web_config.h"
+
+namespace stormcellar::web {
+
+struct WebSetup {
+    std::filesystem::path drop;  // empty: it is not known
+    std::filesystem::path state = "/var/lib/stormcellar";
+    std::filesystem::path catalog = "/var/lib/stormcellar/catalog";  // empty: none
+    std::filesystem::path cache = "/var/cache/stormcellar";          // empty: none
+    std::vector<AddedStation> added_stations;
+    std::string log_level = "info";  // debug, info, warning or error
+    WebConfig web;
+    bool operator==(const WebSetup&) const = default;
+};
+
+// Relative paths start at the directory of the file. The tables that are stormcellard's alone are
+// not looked at. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
+[[nodiscard]] Result<WebSetup> load_web_setup(const std::filesystem::path& file);
+
+// What a reload cannot apply: a sentence for each part of `fresh` that differs from `running` and
+// takes effect only at a start, [paths] and [[station]]. All of [web] and [log] takes effect at
+// once.
+[[nodiscard]] std::vector<std::string> needs_restart(const WebSetup& fresh,
+                                                     const WebSetup& running);
+
+}  // namespace stormcellar::web

@@ -1,0 +1,141 @@
+// web/doors/api_call.h -- one request to the JSON API, and what its operations share.
+//
+// Threads   Many threads may use one ApiState; a call belongs to one.
+// Errors    The functions that read a parameter return bad_argument with its name.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/site_frame.h"
+#include "stormcellar/level2/volume.h"
+#include "web/data/grids.h"
+#include "web/data/kept_answers.h"
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+using ApiJson = nlohmann::ordered_json;
+
+// Where the API finds what it serves.
+struct ApiSources {
+    std::shared_ptr<Grids> grids;      // null: no cache is served
+    std::filesystem::path catalog;     // empty: no catalog is served
+    std::shared_ptr<KeptAnswers> kept;
+    // How many answers that take long may be in the making: more are asked to come back.
+    int most_computations = 2;
+};
+
+class ApiState {
+  public:
+    explicit ApiState(ApiSources sources) : sources_(std::move(sources)) {}
+    [[nodiscard]] const ApiSources& sources() const { return sources_; }
+
+    // Held while an answer is computed. None: as many are being computed as may be.
+    class Slot {
+      public:
+        explicit Slot(std::atomic<int>& used) : used_(&used) {}
+        Slot(Slot&& other) noexcept : used_(std::exchange(other.used_, nullptr)) {}
+        Slot& operator=(Slot&&) = delete;
+        Slot(const Slot&) = delete;
+        Slot& operator=(const Slot&) = delete;
+        ~Slot() {
+            if (used_ != nullptr) --*used_;
+        }
+
+      private:
+        std::atomic<int>* used_;
+    };
+    [[nodiscard]] std::optional<Slot> take_slot();
+
+    // Returns the catalog. It is opened when it is first asked for, since it may come later.
+    // Errors: not_found if none is served; those of CatalogReader::open().
+    [[nodiscard]] Result<std::shared_ptr<const catalog::CatalogReader>> catalog();
+
+    // Halved grids are kept while they are looked at, the least recently used give way.
+    using Halved = std::shared_ptr<const grid::BrickGrid>;
+    [[nodiscard]] Halved find_halved(const std::string& key);
+    void keep_halved(const std::string& key, const Halved& halved);
+
+    // The volume that was decoded last is kept, since its sweeps are asked for one after another.
+    using DecodedVolume = std::shared_ptr<const level2::Volume>;
+    [[nodiscard]] DecodedVolume find_volume(const std::string& key);
+    void keep_volume(const std::string& key, DecodedVolume volume);
+
+  private:
+    const ApiSources sources_;
+    std::atomic<int> computations_{0};
+    std::mutex mutex_;  // guards what follows
+    std::shared_ptr<const catalog::CatalogReader> catalog_;
+    std::list<std::pair<std::string, Halved>> halved_;  // the most recently used first
+    std::string volume_key_;
+    DecodedVolume volume_;
+};
+
+struct ApiCall {
+    const Request& request;
+    ApiState& state;
+    std::vector<std::pair<std::string, std::string>> path_values;
+
+    [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
+    [[nodiscard]] std::string path_value(std::string_view name) const;
+};
+
+// What went wrong, as an answer.
+template <class T>
+using Answered = tl::expected<T, Answer>;
+[[nodiscard]] inline tl::unexpected<Answer> refuse(Answer answer) {
+    return tl::unexpected<Answer>(std::move(answer));
+}
+[[nodiscard]] inline tl::unexpected<Answer> refuse(const Error& error) {
+    return tl::unexpected<Answer>(json_error(error));
+}
+
+// Read parameters. A number is finite and within its limits.
+[[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
+                                                             std::string_view name, double least,
+                                                             double most);
+[[nodiscard]] Result<std::int64_t> whole_parameter(const ApiCall& call, std::string_view name,
+                                                   std::int64_t least, std::int64_t most,
+                                                   std::int64_t usual);
+[[nodiscard]] Result<std::optional<UtcTime>> time_parameter(const ApiCall& call,
+                                                            std::string_view name);
+[[nodiscard]] Result<std::optional<level2::Moment>> moment_parameter(const ApiCall& call);
+// "35.3,-97.3": latitude and longitude in degrees. The parameter must be there.
+[[nodiscard]] Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name);
+// "3-17": both are inclusive.
+[[nodiscard]] Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
+                                                                        std::string_view text);
+
+// Find the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
+// error is 404, 410 if the grid was evicted, or why it cannot be read.
+struct NamedGrid {
+    std::string domain;
+    level2::Moment moment = level2::Moment::ref;
+    UtcTime time;
+};
+[[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
+[[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
+// The answer to those who ask for a grid that is not there.
+[[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
+
+// Answers with JSON, which clients ask for again each time unless it has not changed.
+[[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
+[[nodiscard]] Answer come_back_later();
+// A path below the API's own, for links.
+[[nodiscard]] std::string grid_path(const NamedGrid& grid);
+
+}  // namespace stormcellar::web

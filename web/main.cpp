@@ -1,0 +1,200 @@
+// stormcellar-web: the data server as a service. Its usage is the text below.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+#include <systemd/sd-daemon.h>
+
+#include "base/memory.h"
+#include "base/printable.h"
+#include "base/steady_time.h"
+#include "cache/map_guard.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/version.h"
+#include "web/config/web_setup.h"
+#include "web/service/web_log.h"
+#include "web/service/web_service.h"
+#include "web/service/web_signals.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr int exit_failed = 1;
+constexpr int exit_bad_usage = 2;
+// How often the program looks whether there is a catalog, and whether the watchdog is due.
+constexpr std::chrono::milliseconds turn{1000};
+
+constexpr std::string_view usage =
+    "usage: stormcellar-web --config FILE [--check-config]\n"
+    "  --config FILE    read the configuration from FILE (TOML), that of stormcellard\n"
+    "  --check-config   check what concerns this program in FILE, and exit\n"
+    "  --version, --help\n";
+
+struct Arguments {
+    std::optional<std::filesystem::path> config;
+    bool check = false;
+    bool help = false;
+    bool version = false;
+};
+
+// Errors: bad_argument for invalid arguments.
+Result<Arguments> parse(int argc, char** argv) {
+    Arguments arguments;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        if (word == "--config" && i + 1 < argc) {
+            arguments.config = argv[++i];
+        } else if (word.starts_with("--config=")) {
+            arguments.config = word.substr(9);
+        } else if (word == "--check-config") {
+            arguments.check = true;
+        } else if (word == "--version") {
+            arguments.version = true;
+        } else if (word == "--help" || word == "-h") {
+            arguments.help = true;
+        } else if (word == "--config") {
+            return fail(ErrorCode::bad_argument, "--config: give a file");
+        } else {
+            return fail(ErrorCode::bad_argument, "{}: is not an option", word);
+        }
+    }
+    if (!arguments.help && !arguments.version && !arguments.config)
+        return fail(ErrorCode::bad_argument, "--config FILE must be given");
+    return arguments;
+}
+
+int complain(const Error& error) {
+    fmt::print(stderr, "stormcellar-web: {}\n", printable(error.message));
+    return exit_failed;
+}
+
+// Each connection, open grid and raw file takes a descriptor, and 1,024 is the usual soft limit for
+// the sake of old programs.
+void raise_descriptor_limit() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = std::max<rlim_t>(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 65'536));
+    (void)::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+// Tells systemd. Without it, nothing happens.
+void notify(const std::string& state) {
+    (void)::sd_notify(0, state.c_str());
+}
+
+std::string reloading_state() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
+                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
+}
+
+// Feeds the watchdog four times in its period. The thread that calls it must be able to ask the
+// server for its facts, so a server that is stuck is started again.
+class Watchdog {
+  public:
+    Watchdog() {
+        std::uint64_t microseconds = 0;
+        if (::sd_watchdog_enabled(0, &microseconds) > 0)
+            period_ = std::chrono::microseconds{microseconds} / 4;
+    }
+    void feed(const WebService& service) {
+        const SteadyTime now = steady_now();
+        if (!period_ || now < next_) return;
+        next_ = now + *period_;
+        (void)service.facts();
+        notify("WATCHDOG=1");
+    }
+
+  private:
+    std::optional<std::chrono::microseconds> period_;
+    SteadyTime next_{};
+};
+
+void reload(WebService& service, const std::filesystem::path& file) {
+    notify(reloading_state());
+    const auto fresh = load_web_setup(file);
+    if (!fresh) {
+        say(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
+    } else {
+        for (const std::string& sentence : needs_restart(*fresh, service.setup()))
+            say(LogLevel::warning, "{}", sentence);
+        set_log_level(fresh->log_level);
+        const Status taken = service.reload(*fresh);
+        if (taken) say(LogLevel::info, "reloaded {}", file.native());
+        if (!taken)
+            say(LogLevel::error, "the configuration stays as it was: {}", taken.error().message);
+    }
+    notify("READY=1");
+}
+
+int serve(const WebSetup& setup, const std::filesystem::path& file) {
+    keep_freed_memory();
+    cache::install_map_guard();
+    raise_descriptor_limit();
+    set_log_level(setup.log_level);
+    set_added_stations(setup.added_stations);
+    const WebSignals signals;
+    auto service = WebService::open(setup);
+    if (!service) return complain(service.error());
+    say(LogLevel::info, "stormcellar-web {}: listening on {}", software_version,
+        fmt::join((*service)->addresses(), " "));
+    if (!(*service)->has_catalog())
+        say(LogLevel::warning, "there is no catalog {} yet", setup.catalog.native());
+    notify("READY=1");
+    Watchdog watchdog;
+    for (;;) {
+        watchdog.feed(**service);
+        const auto number = signals.next(turn);
+        if (!number) {
+            (*service)->look_again();
+        } else if (*number == SIGHUP) {
+            reload(**service, file);
+        } else {
+            say(LogLevel::info, "stopping: received {}", *number == SIGTERM ? "SIGTERM" : "SIGINT");
+            break;
+        }
+    }
+    notify("STOPPING=1");
+    service->reset();
+    return EXIT_SUCCESS;
+}
+
+int run(int argc, char** argv) {
+    const Result<Arguments> arguments = parse(argc, argv);
+    if (!arguments) {
+        (void)complain(arguments.error());
+        fmt::print(stderr, "{}", usage);
+        return exit_bad_usage;
+    }
+    if (arguments->help || arguments->version) {
+        fmt::print("{}", arguments->help ? std::string{usage}
+                                         : fmt::format("stormcellar-web {}\n", software_version));
+        return EXIT_SUCCESS;
+    }
+    const Result<WebSetup> setup = load_web_setup(*arguments->config);
+    if (!setup) return complain(setup.error());
+    if (!arguments->check) return serve(*setup, *arguments->config);
+    fmt::print("{}: ok\n", printable(arguments->config->native()));
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace stormcellar::web
+
+int main(int argc, char** argv) {
+    try {
+        return stormcellar::web::run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "stormcellar-web: {}\n", stormcellar::printable(error.what()));
+        return 1;
+    }
+}

@@ -1,0 +1,45 @@
+#include "web/service/sources.h"
+
+#include <string>
+#include <utility>
+
+namespace stormcellar::web {
+namespace {
+
+// Answers "/" until somebody asks for more.
+class PlainIndex final : public Door {
+  public:
+    std::optional<Answer> answer_at_once(const Request& request) override {
+        if (request.path != "/") return sentence(404, "There is nothing at this address.");
+        return text_answer(200, "text/plain; charset=utf-8", "stormcellar: a data server\n");
+    }
+    Answer answer(const Request& request) override { return *answer_at_once(request); }
+};
+
+}  // namespace
+
+Result<Sources> open_sources(WebSetup setup) {
+    Sources sources;
+    if (!setup.catalog.empty()) {
+        auto catalog = catalog::CatalogReader::open(setup.catalog);
+        if (catalog) {
+            sources.catalog = std::make_shared<const catalog::CatalogReader>(std::move(*catalog));
+        } else if (catalog.error().code != ErrorCode::not_found) {
+            return pass_on(catalog);
+        }
+    }
+    auto grids = Grids::open(
+        {.cache = setup.cache, .most_open = static_cast<std::size_t>(setup.web.limits.open_grids)});
+    if (!grids) return pass_on(grids);
+    sources.grids = std::move(*grids);
+    sources.setup = std::move(setup);
+    return sources;
+}
+
+std::shared_ptr<const Doors> doors_to(const Sources& /*sources*/) {
+    auto doors = std::make_shared<Doors>();
+    doors->add("/", std::make_shared<PlainIndex>());
+    return doors;
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,27 @@
+// web/service/web_log.h -- the lines that stormcellar-web writes to stderr: start, stop, trouble.
+//
+// Under systemd, lines carry the "<N>" prefix by which the journal knows their level; otherwise the
+// time and the level. Control characters are escaped.
+//
+// Threads   Any thread may call every function.
+#pragma once
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace stormcellar::web {
+
+enum class LogLevel { debug, info, warning, error };
+
+// `name` is debug, info, warning or error. Lines below this level are not written.
+void set_log_level(std::string_view name);
+[[nodiscard]] bool is_logged(LogLevel level);
+void write_log(LogLevel level, std::string_view text);
+
+template <class... Arguments>
+void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... values) {
+    if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
+}
+
+}  // namespace stormcellar::web

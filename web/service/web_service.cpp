@@ -1,0 +1,122 @@
+#include "web/service/web_service.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <thread>
+#include <utility>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "stormcellar/base/descriptor.h"
+#include "web/service/web_log.h"
+
+namespace stormcellar::web {
+namespace {
+
+// A machine may have IPv6 switched off, and the shipped configuration names [::1].
+bool has_ipv6_loopback() {
+    const Descriptor socket{::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    if (!socket.is_open()) return false;
+    sockaddr_in6 address{};
+    address.sin6_family = AF_INET6;
+    address.sin6_addr = in6addr_loopback;
+    return ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) ==
+           0;
+}
+
+unsigned workers_of(const WebLimits& limits) {
+    if (limits.workers > 0) return static_cast<unsigned>(limits.workers);
+    return 2 * std::max(1U, std::thread::hardware_concurrency());
+}
+
+void note_answer(const Served& served) {
+    if (!is_logged(LogLevel::debug) || served.request == nullptr) return;
+    say(LogLevel::debug, "{} {} {} bytes in {:.1f} ms for {}", served.status, served.request->path,
+        served.bytes, served.seconds.count() * 1000, served.request->client);
+}
+
+}  // namespace
+
+ServerOptions server_options_of(const WebConfig& config) {
+    ServerOptions options;
+    options.listen.clear();
+    const bool lacks_ipv6 = config.listen.size() > 1 && !has_ipv6_loopback();
+    for (const BindAddress& address : config.listen) {
+        if (address.host == "::1" && lacks_ipv6) continue;
+        options.listen.push_back({address.host, address.port});
+    }
+    options.names = config.names;
+    options.trusted_proxies = config.trusted_proxies;
+    options.any_origin = config.cors;
+    if (config.public_address) {
+        options.public_address = config.public_address->text();
+        options.prefix = config.public_address->prefix;
+        options.names.push_back(config.public_address->host());
+    }
+    const WebLimits& limits = config.limits;
+    options.limits.most_connections = static_cast<unsigned>(limits.connections);
+    options.limits.most_connections_of_address =
+        static_cast<unsigned>(limits.connections_of_an_address);
+    options.limits.header_bytes = limits.header_bytes;
+    options.limits.request_time = limits.request;
+    options.limits.least_bytes_per_s = limits.least_bytes_per_second;
+    options.limits.workers = workers_of(limits);
+    options.limits.most_waiting = static_cast<std::size_t>(limits.waiting);
+    options.on_answer = note_answer;
+    return options;
+}
+
+Result<std::unique_ptr<WebService>> WebService::open(WebSetup setup) {
+    auto sources = open_sources(std::move(setup));
+    if (!sources) return pass_on(sources);
+    std::unique_ptr<WebService> service(new WebService(std::move(*sources)));
+    if (const Status served = service->serve(); !served) return pass_on(served);
+    return service;
+}
+
+Status WebService::serve() {
+    auto server = Server::open(server_options_of(sources_.setup.web), doors_to(sources_));
+    if (!server) return pass_on(server);
+    server_ = std::move(*server);
+    return {};
+}
+
+std::vector<std::string> WebService::addresses() const {
+    return server_ ? server_->addresses() : std::vector<std::string>{};
+}
+
+void WebService::look_again() {
+    if (has_catalog() || sources_.setup.catalog.empty()) return;
+    auto catalog = catalog::CatalogReader::open(sources_.setup.catalog);
+    if (!catalog) return;
+    say(LogLevel::info, "the catalog {} is there now", sources_.setup.catalog.native());
+    if (const Status taken = reload(sources_.setup); !taken)
+        say(LogLevel::error, "{}", taken.error().message);
+}
+
+Status WebService::reload(WebSetup fresh) {
+    const WebSetup before = sources_.setup;
+    fresh.drop = before.drop;
+    fresh.state = before.state;
+    fresh.catalog = before.catalog;
+    fresh.cache = before.cache;
+    fresh.added_stations = before.added_stations;
+    // All that can fail without the ports fails first.
+    auto sources = open_sources(std::move(fresh));
+    if (!sources) return pass_on(sources);
+    server_.reset();
+    std::swap(sources_, *sources);
+    const Status served = serve();
+    if (served) return {};
+    std::swap(sources_, *sources);
+    if (const Status again = serve(); !again)
+        say(LogLevel::error, "cannot listen as before: {}", again.error().message);
+    return served;
+}
+
+ServerFacts WebService::facts() const {
+    return server_ ? server_->facts() : ServerFacts{};
+}
+
+}  // namespace stormcellar::web

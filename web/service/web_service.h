@@ -1,0 +1,48 @@
+// web/service/web_service.h -- the data server as a whole: sources, doors and the HTTP server, made
+// from a configuration.
+//
+// Threads   One thread at a time; the server's own threads answer.
+// Errors    See each function.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "web/config/web_setup.h"
+#include "web/http/server.h"
+#include "web/service/sources.h"
+
+namespace stormcellar::web {
+
+class WebService {
+  public:
+    // Errors: those of open_sources() and Server::open(). A machine without IPv6 listens without
+    // [::1].
+    static Result<std::unique_ptr<WebService>> open(WebSetup setup);
+
+    // "http://127.0.0.1:8090/", one for each address.
+    [[nodiscard]] std::vector<std::string> addresses() const;
+    [[nodiscard]] const WebSetup& setup() const { return sources_.setup; }
+    // Returns false as long as there is no catalog; look_again() then opens it once it is there.
+    [[nodiscard]] bool has_catalog() const { return sources_.catalog != nullptr; }
+    void look_again();
+
+    // Takes over a configuration, but for what needs_restart() names: connections are closed, and
+    // the server listens again. If it cannot, it goes on as before. Errors: those of open().
+    Status reload(WebSetup fresh);
+    [[nodiscard]] ServerFacts facts() const;
+
+  private:
+    explicit WebService(Sources sources) : sources_(std::move(sources)) {}
+    Status serve();
+
+    Sources sources_;
+    std::unique_ptr<Server> server_;  // null only if it could not be opened again
+};
+
+// Returns what the server is told of a configuration. Public for tests.
+[[nodiscard]] ServerOptions server_options_of(const WebConfig& config);
+
+}  // namespace stormcellar::web
