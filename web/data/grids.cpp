@@ -19,10 +19,6 @@
 #include "web/data/cache_watch.h"
 
 namespace stormcellar::web {
-namespace {
-
-constexpr std::size_t most_evicted_remembered = 65536;
-constexpr std::size_t opening_locks = 32;
 
 // What tells one file from the file that replaces it.
 struct GridFileStamp {
@@ -30,6 +26,11 @@ struct GridFileStamp {
     std::int64_t modified_ns = 0;
     bool operator==(const GridFileStamp&) const = default;
 };
+
+namespace {
+
+constexpr std::size_t most_evicted_remembered = 65536;
+constexpr std::size_t opening_locks = 32;
 
 GridFileStamp stamp_of_grid(const struct stat& facts) {
     return {facts.st_dev, facts.st_ino, static_cast<std::uint64_t>(facts.st_size),
