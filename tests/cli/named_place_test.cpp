@@ -1,4 +1,4 @@
-#include "cli/shared/named_place.h"
+#include "render/options/named_place.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,14 +13,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 void expect_at(const char* text, double latitude_deg, double longitude_deg, double off_deg = 0.05) {
-    const auto place = parse_place("--at", text);
+    const auto place = render::parse_place("--at", text);
     ASSERT_TRUE(place) << text << ": " << place.error().message;
     EXPECT_NEAR(place->latitude_deg, latitude_deg, off_deg) << text;
     EXPECT_NEAR(place->longitude_deg, longitude_deg, off_deg) << text;
 }
 
 std::string refusal(const char* text) {
-    const auto place = parse_place("--at", text);
+    const auto place = render::parse_place("--at", text);
     EXPECT_FALSE(place) << text;
     return place ? "" : place.error().message;
 }
@@ -81,7 +81,7 @@ TEST(NamedPlace, RadarsByIcaoAndByPlace) {
     expect_at("ktlx", station->latitude_deg, station->longitude_deg, 1e-9);
     for (const Station& one : all_stations()) {
         const std::string name = fmt::format("{}, {}", one.name, one.state);
-        const auto place = parse_place("--at", name);
+        const auto place = render::parse_place("--at", name);
         if (place) continue;
         EXPECT_THAT(place.error().message, HasSubstr("may be")) << name;
     }

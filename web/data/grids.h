@@ -1,8 +1,9 @@
 // web/data/grids.h -- the grids of the cache, listed and opened.
 //
-// The names in the cache are listed once, and again when the cache changes (web/data/cache_watch.h), so that a
-// request reads no directory. Opened grids are kept, at most `most_open`, the least recently used
-// give way. A grid that its owner evicted while it is open stays readable to the one who holds it.
+// The names in the cache are listed once, and again when the cache changes
+// (web/data/cache_watch.h), so that a request reads no directory. Opened grids are kept, at most
+// `most_open`, the least recently used give way. A grid that its owner evicted while it is open
+// stays readable to the one who holds it.
 //
 // Threads   Many threads may use it.
 // Errors    not_found if there is and was no such grid; see each function.
@@ -53,10 +54,9 @@ class Grids {
                                                 level2::Moment moment) const;
     // Returns the grid. Errors: not_found; those of GridFile::open().
     [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find(std::string_view domain,
-                                                               level2::Moment moment,
-                                                               UtcTime time);
-    // Returns true if a grid of this name was listed earlier and is gone: the answer is then 410, not 404.
-    // The newest 65,536 of them are remembered.
+                                                               level2::Moment moment, UtcTime time);
+    // Returns true if a grid of this name was listed earlier and is gone: the answer is then 410,
+    // not 404. The newest 65,536 of them are remembered.
     [[nodiscard]] bool was_evicted(std::string_view domain, level2::Moment moment,
                                    UtcTime time) const;
     // Counts changes: grids that came, changed or went.
