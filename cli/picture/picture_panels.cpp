@@ -58,7 +58,7 @@ Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const Scen
                                              const SceneOptions& options) {
     const auto moments = moments_of(list);
     if (!moments) return pass_on(moments);
-    for (const PictureOption* row : {&render::moment_option(), &colors_option()}) {
+    for (const PictureOption* row : {&render::moment_option(), &render::colors_option()}) {
         if (contains(options.typed, *row)) {
             return fail(ErrorCode::bad_argument,
                         "{} is for a picture of one moment; each of the panels has its own",

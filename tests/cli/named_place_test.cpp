@@ -88,16 +88,16 @@ TEST(NamedPlace, RadarsByIcaoAndByPlace) {
 }
 
 TEST(NamedPlace, TwoPlaces) {
-    const auto numbers = parse_two_places("--section", "35,-98.5,35.6,-96.5");
+    const auto numbers = render::parse_two_places("--section", "35,-98.5,35.6,-96.5");
     ASSERT_TRUE(numbers);
     EXPECT_EQ((*numbers)[1].longitude_deg, -96.5);
-    const auto named = parse_two_places("--section", "Moore, OK; KINX");
+    const auto named = render::parse_two_places("--section", "Moore, OK; KINX");
     ASSERT_TRUE(named) << named.error().message;
     EXPECT_NEAR((*named)[0].latitude_deg, 35.34, 0.05);
     EXPECT_EQ((*named)[1].latitude_deg, find_station("KINX")->latitude_deg);
     for (const char* wrong : {"35,-98.5,35.6", "Moore, OK", "a;b;c", ";"})
-        EXPECT_FALSE(parse_two_places("--section", wrong)) << wrong;
-    EXPECT_THAT(parse_two_places("--section", "Moore; KINX").error().message,
+        EXPECT_FALSE(render::parse_two_places("--section", wrong)) << wrong;
+    EXPECT_THAT(render::parse_two_places("--section", "Moore; KINX").error().message,
                 HasSubstr("--section: 'Moore' may be"));
 }
 

@@ -79,9 +79,9 @@ TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
 
 // A row that is changed reaches the help by itself: the ends of its range, and what there is.
 TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
-    for (const PictureOption& row : picture_options())
+    for (const PictureOption& row : render::picture_options())
         EXPECT_THAT(help_of(row), ::testing::Not(::testing::HasSubstr("{"))) << row.option;
-    EXPECT_EQ(help_of(slices_option()), "Number of slices through the volume, 8 to 4096");
+    EXPECT_EQ(help_of(render::slices_option()), "Number of slices through the volume, 8 to 4096");
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
