@@ -6,10 +6,14 @@
 #include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include <fcntl.h>
 
 #include "base/checksum.h"
 #include "cache/check.h"
@@ -254,7 +258,7 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path) {
     auto mapping = std::make_unique<Mapping>(
         Mapping{path, std::move(*file), std::move(metadata->bytes), std::move(codes->map),
                 std::move(codes->unpacked), at, static_cast<std::uint64_t>(facts->st_blocks) * 512,
-                std::move(description), view});
+                metadata->header.checksum, std::move(description), view});
     mapping->view.spec = &mapping->description.spec;
     return GridFile(std::move(mapping));
 }
@@ -278,6 +282,23 @@ Packing GridFile::packing() const {
 
 std::uint64_t GridFile::bytes_on_disk() const {
     return mapping_->bytes_on_disk;
+}
+
+std::uint64_t GridFile::bytes() const {
+    return mapping_->at.file_size;
+}
+
+std::uint64_t GridFile::checksum() const {
+    return mapping_->checksum;
+}
+
+Result<Descriptor> GridFile::duplicate_descriptor() const {
+    Descriptor copy(::fcntl(mapping_->file.number(), F_DUPFD_CLOEXEC, 0));
+    if (!copy.is_open()) {
+        return with_path(mapping_->path,
+                         Error{ErrorCode::exhausted, std::system_category().message(errno)});
+    }
+    return copy;
 }
 
 }  // namespace stormcellar::cache

@@ -22,6 +22,7 @@ struct GridFile::Mapping {
     SparseMemory unpacked;
     format::Layout at;
     std::uint64_t bytes_on_disk = 0;
+    std::uint64_t checksum = 0;  // of the header
     GridDescription description;
     grid::BrickView view;
 

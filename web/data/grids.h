@@ -10,7 +10,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,12 +23,16 @@
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
+#include "web/data/cache_watch.h"
 
 namespace stormcellar::web {
 
 struct GridsOptions {
     std::filesystem::path cache;
     std::size_t most_open = 64;
+    // Of the memory that open grids hold: tables, states, and codes if these are packed. The grid
+    // used last is kept even if it is larger.
+    std::uint64_t most_open_bytes = std::uint64_t{256} << 20;
 };
 
 // A grid that is open. `id` changes when the grid of this name is made again.
@@ -64,6 +70,12 @@ class Grids {
     // Reads the cache, or a domain of it, again.
     void refresh();
     void refresh(std::string_view domain);
+    // Calls the function for each change from now on, after the lists have it. It is called by one
+    // thread at a time; it must be quick and must not ask for grids.
+    void listen(std::function<void(const CacheChange&)> listener);
+    // Why changes are not noticed at once, in a sentence; none if they are.
+    [[nodiscard]] std::optional<std::string> problem() const;
+    [[nodiscard]] const std::filesystem::path& cache() const;
 
   private:
     struct Impl;

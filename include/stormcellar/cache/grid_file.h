@@ -18,6 +18,7 @@
 #include <memory>
 #include <string>
 
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/brick_view.h"
@@ -74,6 +75,13 @@ class GridFile {
     [[nodiscard]] const GridDescription& description() const;
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this GridFile lives
     [[nodiscard]] std::uint64_t bytes_on_disk() const;
+    [[nodiscard]] std::uint64_t bytes() const;  // of the file, holes included
+    // Returns the checksum of the header, which covers the description and the checksums of all
+    // bricks: files of other contents have another one.
+    [[nodiscard]] std::uint64_t checksum() const;
+    // Returns a descriptor of the open file, which stays readable if the file is evicted. Errors:
+    // exhausted.
+    [[nodiscard]] Result<Descriptor> duplicate_descriptor() const;
     [[nodiscard]] Packing packing() const;
     // Checks, with one system call, that the file still has the size that it had when it was
     // opened. Returns truncated or corrupt if another program cut or lengthened it. Reading the
