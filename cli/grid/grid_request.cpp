@@ -10,9 +10,9 @@
 #include "base/name_list.h"
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
-#include "cli/shared/moment_option.h"
-#include "cli/shared/named_place.h"
 #include "grid/cells/level_range.h"
+#include "render/options/moment_name.h"
+#include "render/options/named_place.h"
 #include "stormcellar/export/grid_format.h"
 
 namespace stormcellar::cli {
@@ -151,7 +151,7 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
     if (!projection) return pass_on(projection);
     request.projection = *projection;
     if (!options.center.empty()) {
-        const auto center = parse_place(options.center_option, options.center);
+        const auto center = render::parse_place(options.center_option, options.center);
         if (!center) return pass_on(center);
         request.center_deg = {center->latitude_deg, center->longitude_deg};
     }
@@ -166,7 +166,7 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
 }
 
 Result<level2::Moment> parse_moment(const std::string& name) {
-    const auto moment = moment_named(name);
+    const auto moment = render::moment_named(name);
     if (!moment) return fail(ErrorCode::bad_argument, "--moment {}", moment.error().message);
     return *moment;
 }
@@ -380,7 +380,7 @@ void add_place_options(CLI::App& app, GridOptions& options) {
     CLI::Option* center = app.add_option(
         "--center", options.center,
         fmt::format("Center of the grid: {}. Default: the site, or the middle of the sites",
-                    place_for_help));
+                    render::place_for_help));
     app.add_option_function<std::string>(
            "--at",
            [&options](const std::string& place) {

@@ -19,13 +19,13 @@
 #include "cli/loop/sweep_loop.h"
 #include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
-#include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/follow.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output_file.h"
 #include "cli/shared/progress.h"
+#include "render/frame/picture_metadata.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 
@@ -112,15 +112,15 @@ Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const Loop
                 LoopScene& shown) {
     render::Scene& scene = shown.scene;
     render::EchoOutline outline(first.view(), scene.moment);
-    const bool fits = fits_anything(options.scene);
+    const bool fits = render::fits_anything(options.scene);
     for (const LoopFrame& frame : grids.frames) {
         if (!fits || !frame.stored) continue;
         const auto file = cache::GridFile::open(frame.stored->path);
         if (file) outline.add(file->view(), scene.moment);
     }
-    const auto facts = facts_of(options.domain, first.description(), options.scene.time_zone);
-    const auto fitted = fit_picture(outline, first.view(), facts, options.scene, scene,
-                                    moves_camera(options), options.kept_view);
+    const auto facts = frame_facts_of(options.domain, first.description(), options.scene.time_zone);
+    const auto fitted = render::fit_picture(outline, first.view(), facts, options.scene, scene,
+                                            moves_camera(options), options.kept_view);
     if (!fitted) return pass_on(fitted);
     shown.view = *fitted;
     return {};
@@ -130,9 +130,9 @@ Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const Loop
 Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions& options,
                render::Scene& scene) {
     const auto& description = first.description();
-    const auto facts = facts_of(options.domain, description, options.scene.time_zone);
+    const auto facts = frame_facts_of(options.domain, description, options.scene.time_zone);
     const auto error = plan_picture(first.view(), facts, options.plan, options.json,
-                                    thread_count(options.scene), scene);
+                                    render::thread_count(options.scene), scene);
     if (!error) return pass_on(error);
     const bool some_between =
         std::any_of(grids.frames.begin(), grids.frames.end(),
@@ -140,9 +140,9 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     const std::string between = some_between ? grids.between->method_text() : "";
     const auto by_time = [](const LoopFrame& a, const LoopFrame& b) { return a.time < b.time; };
     const auto [from, to] = std::minmax_element(grids.frames.begin(), grids.frames.end(), by_time);
-    options.animation.metadata =
-        metadata_of({options.domain, from->time, to->time, grids.frames.size(), between, *error},
-                    description, scene);
+    options.animation.metadata = render::metadata_of(
+        {options.domain, from->time, to->time, grids.frames.size(), between, *error}, description,
+        scene);
     return {};
 }
 

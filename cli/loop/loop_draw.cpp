@@ -61,9 +61,9 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
     if (!grid) return skip(grid.error());
     const auto opened = steady_now();
-    auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
+    auto facts = frame_facts_of(options.domain, grid->description(), options.scene.time_zone);
     facts.interpolated = grid->made != nullptr && options.time_method != "nearest";
-    const int threads = thread_count(options.scene);
+    const int threads = render::thread_count(options.scene);
     const auto render = [&] {
         return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.cache);
     };

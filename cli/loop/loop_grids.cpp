@@ -31,7 +31,8 @@ Status set_rhythm(const LoopOptions& options, level2::Moment moment, const Rhyth
     std::vector<std::string> problems;
     auto between = pipeline::BetweenGrids::open(
         *grids.store, grids.domain, moment,
-        {rhythm.method, grids.range.from, grids.range.to, thread_count(options.scene)}, problems);
+        {rhythm.method, grids.range.from, grids.range.to, render::thread_count(options.scene)},
+        problems);
     for (const std::string& problem : problems)
         warn_skipped({{}, problem});
     if (!between) return pass_on(between);
@@ -81,7 +82,7 @@ Result<ArchiveCall> call_of(const LoopOptions& options, const render::Scene& sce
     if (!rhythm) return pass_on(rhythm);
     call.interval = rhythm->interval;
     call.time = rhythm->method;
-    call.threads = thread_count(options.scene);
+    call.threads = render::thread_count(options.scene);
     call.keep = options.archive.keep_cache;
     call.quiet = options.quiet;
     return call;

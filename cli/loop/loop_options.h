@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "cli/loop/archive_options.h"
-#include "cli/picture/fitted_view.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
 #include "cli/shared/follow.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"
+#include "render/options/fitted_view.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/animation.h"
 

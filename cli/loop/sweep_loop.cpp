@@ -15,7 +15,6 @@
 #include "cli/loop/loop_report.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_grid.h"
-#include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/raw_volume.h"
 #include "cli/picture/swept_volume.h"
@@ -23,6 +22,7 @@
 #include "cli/shared/progress.h"
 #include "pipeline/drop/archive_volumes.h"
 #include "render/frame/frame_cache.h"
+#include "render/frame/picture_metadata.h"
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/render/render.h"
 
@@ -210,9 +210,10 @@ Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const Lo
     if (!sweep) return pass_on(sweep);
     report.read_s += seconds_since(start);
     const auto read = steady_now();
-    const auto facts = facts_of(options.domain, sweep->description(), options.scene.time_zone);
+    const auto facts =
+        frame_facts_of(options.domain, sweep->description(), options.scene.time_zone);
     auto picture = render::render_frame(sweep->view(), facts, drawing.scene,
-                                        thread_count(options.scene), &drawing.cache);
+                                        render::thread_count(options.scene), &drawing.cache);
     if (!picture) return pass_on(picture);
     report.render_s += seconds_since(read);
     if (report.frames == 0) report.from = report.to = frame.time;
@@ -229,14 +230,15 @@ Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>&
     const auto sweep = sweep_of(**volume, frames.front().elevation_deg, drawing);
     if (!sweep) return pass_on(sweep);
     if (options.domain.empty()) options.domain = sweep->name();
-    const auto facts = facts_of(options.domain, sweep->description(), options.scene.time_zone);
+    const auto facts =
+        frame_facts_of(options.domain, sweep->description(), options.scene.time_zone);
     const auto error = plan_picture(sweep->view(), facts, options.plan, options.json,
-                                    thread_count(options.scene), drawing.scene);
+                                    render::thread_count(options.scene), drawing.scene);
     if (!error) return pass_on(error);
     const auto [from, to] = std::ranges::minmax(frames, {}, &SweepFrame::time);
-    options.animation.metadata =
-        metadata_of({options.domain, from.time, to.time, frames.size(), "", *error},
-                    sweep->description(), render::scene_shown(sweep->view(), drawing.scene));
+    options.animation.metadata = render::metadata_of(
+        {options.domain, from.time, to.time, frames.size(), "", *error}, sweep->description(),
+        render::scene_shown(sweep->view(), drawing.scene));
     return {};
 }
 
@@ -287,7 +289,7 @@ int run_sweep_loop(LoopOptions options, const render::Scene& scene, Interrupt& i
     SweepDrawing drawing;
     drawing.grid = options.archive.place;
     drawing.grid.moment = options.scene.moment;
-    drawing.grid.threads = thread_count(options.scene);
+    drawing.grid.threads = render::thread_count(options.scene);
     drawing.scene = scene;
     drawing.all_elevations = options.all_elevations;
     LoopReport report;

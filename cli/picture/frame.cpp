@@ -9,7 +9,6 @@
 
 #include "base/name_list.h"
 #include "base/steady_time.h"
-#include "cli/picture/fitted_view.h"
 #include "cli/picture/frame_options.h"
 #include "cli/picture/frame_panels.h"
 #include "cli/picture/frame_probe.h"
@@ -17,30 +16,16 @@
 #include "cli/picture/frame_sources.h"
 #include "cli/picture/look_costs.h"
 #include "cli/picture/picture_grid.h"
-#include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/still_output.h"
 #include "cli/shared/commands.h"
-#include "cli/shared/named_place.h"
-#include "stormcellar/render/render.h"
+#include "render/options/fitted_view.h"
+#include "render/options/named_place.h"
+#include "render/options/still_frame.h"
 #include "stormcellar/render/still.h"
 
 namespace stormcellar::cli {
 namespace {
-
-// Draws the scene and encodes the picture; of a format of maps, encodes the map of the grid
-// instead. Calls `drawn` between the two.
-Result<std::vector<std::byte>> encode_frame(const render::StillFormat& format,
-                                            const render::StillMap& shown,
-                                            const render::StillOptions& options,
-                                            const std::function<void()>& drawn) {
-    if (format.encode_map != nullptr) return format.encode_map(shown, options);
-    const auto picture =
-        render::render_frame(shown.view, shown.facts, shown.scene, options.threads);
-    if (!picture) return pass_on(picture);
-    drawn();
-    return format.encode_picture(*picture, options);
-}
 
 // `fit_s` is the time within that of reading that the view took.
 Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene& scene,
@@ -48,8 +33,8 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
     FrameTiming timing;
     timing.read_s = seconds_since(start);
     timing.decode_s = decode_s(file);
-    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
-    const int threads = thread_count(options.scene);
+    const auto facts = frame_facts_of(options.domain, file.description(), options.scene.time_zone);
+    const int threads = render::thread_count(options.scene);
     render::Scene planned = scene;
     const auto done =
         plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
@@ -58,39 +43,21 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
         fmt::print(options.json ? stderr : stdout, "{}",
                    look_costs(file.view(), planned, fit_s, threads));
     }
-    const PictureFacts told{
-        options.domain, file.description().time, file.description().time, std::nullopt, {}, *done};
-    render::Scene written = planned;
-    // Data stay in the units of the grid.
-    if (still_format(options.output).encode_map != nullptr) written.units = {};
-    render::StillOptions still{.metadata = metadata_of(told, file.description(), written),
-                               .tiff = options.tiff,
-                               .threads = threads};
-    // A map as data has no picture's size.
-    if (still_format(options.output).encode_map != nullptr)
-        std::erase_if(still.metadata, [](const auto& text) { return text.first == "Picture"; });
-    const render::StillMap map{file.view(), facts, planned};
-    const auto bytes = encode_frame(still_format(options.output), map, still, [&] {
-        timing.render_s = seconds_since(start) - timing.read_s;
-    });
+    const render::StillWriting writing{
+        .format = still_format(options.output),
+        .tiff = options.tiff,
+        .error = *done,
+        .threads = threads,
+        .drawn = [&] { timing.render_s = seconds_since(start) - timing.read_s; }};
+    const grid::BrickView view = file.view();
+    const auto bytes = render::encode_still(
+        {options.domain, view, file.description(), options.scene}, planned, writing);
     if (!bytes) return pass_on(bytes);
     if (Status whole = file.check_whole(); !whole) return pass_on(whole);
     if (auto written = write_still(options.output, *bytes); !written) return pass_on(written);
     timing.total_s = seconds_since(start);
     timing.write_s = timing.total_s - timing.read_s - timing.render_s;
     return timing;
-}
-
-// Chooses what was not asked for by the echo. A sweep is seen from above, as it is.
-Status fit_scene(const FrameOptions& options, const PictureGrid& grid, render::Scene& scene) {
-    if (grid.view().sweep != nullptr) {
-        scene = render::scene_shown(grid.view(), std::move(scene));
-        return {};
-    }
-    const auto facts = facts_of(options.domain, grid.description(), options.scene.time_zone);
-    const render::EchoOutline outline(grid.view(), scene.moment);
-    const auto fitted = fit_picture(outline, grid.view(), facts, options.scene, scene);
-    return fitted ? Status{} : pass_on(fitted);
 }
 
 int run_frame(FrameOptions options) {
@@ -109,9 +76,11 @@ int run_frame(FrameOptions options) {
     if (!grid) return report_error(grid.error());
     if (!*grid) return exit_nothing_matched;
     const auto before_fit = steady_now();
-    if (const Status fitted = fit_scene(options, **grid, *scene); !fitted)
+    const grid::BrickView view = (*grid)->view();
+    const render::StillSource source{options.domain, view, (*grid)->description(), options.scene};
+    if (const Status fitted = render::fit_to_grid(source, *scene); !fitted)
         return report_error(fitted.error());
-    const double fit_s = fits_anything(options.scene) ? seconds_since(before_fit) : 0;
+    const double fit_s = render::fits_anything(options.scene) ? seconds_since(before_fit) : 0;
     const auto probe = probe_grid(options, *scene, **grid);
     if (!probe) return report_error(probe.error());
     if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
@@ -165,9 +134,9 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");
-    frame.add_option(
-        "--probe-at", options->probe_at,
-        fmt::format("Print the value at this place (maps and volumes): {}", place_for_help));
+    frame.add_option("--probe-at", options->probe_at,
+                     fmt::format("Print the value at this place (maps and volumes): {}",
+                                 render::place_for_help));
     frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);

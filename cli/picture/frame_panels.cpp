@@ -4,10 +4,10 @@
 
 #include "cli/picture/frame_report.h"
 #include "cli/picture/frame_sources.h"
-#include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_panels.h"
 #include "cli/picture/still_output.h"
 #include "cli/shared/commands.h"
+#include "render/frame/picture_metadata.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -22,7 +22,8 @@ Result<FrameTiming> make_panels(FrameOptions& options, const std::vector<PanelSc
     timing.render_s = seconds_since(start) - timing.read_s;
     const auto& first = grids.front().description();
     const render::StillOptions still{
-        .metadata = metadata_of({options.domain, first.time, first.time, std::nullopt, {}, {}},
+        .metadata =
+            render::metadata_of({options.domain, first.time, first.time, std::nullopt, {}, {}},
                                 first, panels.front().scene)};
     const auto bytes = still_format(options.output).encode_picture(*picture, still);
     if (!bytes) return pass_on(bytes);

@@ -7,7 +7,7 @@
 
 #include "base/floating_point.h"
 #include "cli/shared/commands.h"
-#include "cli/shared/named_place.h"
+#include "render/options/named_place.h"
 #include "render/products/section.h"
 #include "render/view/length_text.h"
 #include "stormcellar/render/product.h"
@@ -77,8 +77,8 @@ void print_probe(const render::Probe& probe, const FrameOptions& options,
 
 Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
                               const PictureGrid& file) {
-    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
-    const int threads = thread_count(options.scene);
+    const auto facts = frame_facts_of(options.domain, file.description(), options.scene.time_zone);
+    const int threads = render::thread_count(options.scene);
     const auto as_maybe = [](Result<render::Probe> probe) -> Result<MaybeProbe> {
         if (!probe) return pass_on(probe);
         return MaybeProbe{std::move(*probe)};
@@ -102,7 +102,7 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
                                             static_cast<int>(y), threads));
     }
     if (!options.probe_at.empty()) {
-        const auto place = parse_place("--probe-at", options.probe_at);
+        const auto place = render::parse_place("--probe-at", options.probe_at);
         if (!place) return pass_on(place);
         return as_maybe(render::probe_place(file.view(), facts, scene, *place, threads));
     }

@@ -109,7 +109,7 @@ Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const ren
     for (const std::string& note : raw->notes)
         print_note(printable(note));
     options.grid.moment = options.scene.moment;
-    options.grid.threads = thread_count(options.scene);
+    options.grid.threads = render::thread_count(options.scene);
     auto volume = decode_sweeps(raw->bytes, raw->file, options.grid, &scene);
     if (!volume) return pass_on(volume);
     auto sweep = PictureGrid::of_sweep(std::move(*volume), scene);
@@ -126,7 +126,7 @@ Result<PictureGrid> sweep_of_file(const GridOptions& options, const render::Scen
 Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
                                                  const render::Scene& scene) {
     options.grid.moment = options.scene.moment;
-    options.grid.threads = thread_count(options.scene);
+    options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
     auto grid = render::facts_of(scene.product).is_of_sweep ? sweep_of_file(options.grid, scene)
                                                             : PictureGrid::make(options.grid);
@@ -174,7 +174,7 @@ Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
         if (!until) return pass_on(until);
         return stored_panels(*store, options.domain, panels, *until);
     }
-    options.grid.threads = thread_count(options.scene);
+    options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
     auto grids = gridded_panels(options.grid, panels);
     if (grids) options.domain = grids->front().name();

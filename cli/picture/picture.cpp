@@ -46,11 +46,4 @@ int report_no_grid(const cache::StoreReader& store, const std::string& domain,
     return exit_nothing_matched;
 }
 
-std::string ascii(std::string_view text) {
-    std::string safe = printable(text);
-    std::replace_if(
-        safe.begin(), safe.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7E; }, '?');
-    return safe;
-}
-
 }  // namespace stormcellar::cli

@@ -14,7 +14,4 @@ namespace stormcellar::cli {
 int report_no_grid(const cache::StoreReader& store, const std::string& domain,
                    level2::Moment moment, const std::string& when);
 
-// Makes a text ASCII for the metadata of a picture; names of files may be anything.
-[[nodiscard]] std::string ascii(std::string_view text);
-
 }  // namespace stormcellar::cli

@@ -58,7 +58,7 @@ Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const Scen
                                              const SceneOptions& options) {
     const auto moments = moments_of(list);
     if (!moments) return pass_on(moments);
-    for (const PictureOption* row : {&moment_option(), &colors_option()}) {
+    for (const PictureOption* row : {&render::moment_option(), &render::colors_option()}) {
         if (contains(options.typed, *row)) {
             return fail(ErrorCode::bad_argument,
                         "{} is for a picture of one moment; each of the panels has its own",
@@ -70,7 +70,7 @@ Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const Scen
     const auto is_given = [&](const PictureOption& row) {
         return contains(options.typed, row) || contains(options.in_file, row);
     };
-    if (!is_given(width_option()) && !is_given(height_option())) {
+    if (!is_given(render::width_option()) && !is_given(render::height_option())) {
         panel.scene.width = panels_width;
         panel.scene.height = panels_height;
     }
@@ -154,10 +154,10 @@ Result<render::Image> draw_panels(const std::string& domain, const std::vector<P
     std::vector<render::Panel> drawn;
     for (std::size_t i = 0; i < panels.size(); ++i) {
         drawn.push_back({grids[i].view(),
-                         facts_of(domain, grids[i].description(), options.time_zone),
+                         frame_facts_of(domain, grids[i].description(), options.time_zone),
                          panels[i].scene});
     }
-    auto picture = render::render_panels(drawn, thread_count(options));
+    auto picture = render::render_panels(drawn, render::thread_count(options));
     if (!picture) return picture;
     for (const PictureGrid& grid : grids) {
         if (Status whole = grid.check_whole(); !whole) return pass_on(whole);

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "accuracy/explain.h"
-#include "cli/picture/picture_options.h"
 #include "render/frame/picture_layout.h"
+#include "render/options/picture_options.h"
 #include "render/plan/volume_plan.h"
 
 namespace stormcellar::cli {
@@ -113,7 +113,7 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
 
 Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                               const SceneOptions& scene) {
-    const PictureOption& slices = slices_option();
+    const PictureOption& slices = render::slices_option();
     const bool typed = contains(scene.typed, slices);
     const bool in_file = !typed && contains(scene.in_file, slices);
     PicturePlanOptions kept = plan;

@@ -15,8 +15,8 @@
 
 #include "base/floating_point.h"
 #include "base/toml_file.h"
-#include "cli/picture/picture_options.h"
 #include "cli/shared/commands.h"
+#include "render/options/picture_options.h"
 #include "render/plan/volume_plan.h"
 #include "stormcellar/accuracy/budget.h"
 #include "stormcellar/accuracy/chain.h"
@@ -25,6 +25,15 @@
 
 namespace stormcellar::cli {
 namespace {
+
+using render::FlagValue;
+using render::NamesValue;
+using render::NumberPlace;
+using render::NumbersValue;
+using render::NumberValue;
+using render::PictureSettings;
+using render::TextValue;
+using render::WholeValue;
 
 constexpr std::array sections{"picture", "camera", "light", "volume", "labels", "plan", "loop"};
 
@@ -167,7 +176,7 @@ bool read_camera(TomlTable& table, const std::filesystem::path& directory, rende
     SceneOptions read;
     render::Camera& camera = read.scene.camera;
     camera.azimuth_deg = camera.tilt_deg = camera.zoom = camera.field_of_view_deg = none;
-    for (const PictureOption& row : picture_options()) {
+    for (const PictureOption& row : render::picture_options()) {
         if (row.section == "camera") read_row(row, table, directory, {read, read.scene, nullptr});
     }
     std::size_t taken = 0;
@@ -266,7 +275,7 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     LoopSettings new_loop = loop;
     Sections tables(root);
     const PictureSettings to{new_scene, new_scene.scene, &new_loop};
-    for (const PictureOption& row : picture_options()) {
+    for (const PictureOption& row : render::picture_options()) {
         if (!row.section.empty()) read_row(row, tables[row.section], file.parent_path(), to);
     }
     new_scene.file_product = new_scene.product;

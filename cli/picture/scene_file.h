@@ -27,17 +27,11 @@
 namespace stormcellar::cli {
 
 // What [loop] and the options of `loop` say.
-struct LoopSettings {
+struct LoopSettings : LoopChoices {
     std::string domain;
     TimeRangeOptions range;
-    int last = 0;    // of the grids only so many; 0: all
-    int frames = 0;  // spread over the grids; 0: one for each, or as many as the camera's way lasts
-    double orbit_deg = 0;  // how far the camera moves around the grid during the loop
     std::vector<render::CameraKey> camera;  // places on its way; empty: it has none
-    bool ping_pong = false;
-    bool all_elevations = false;  // of a ppi, a frame for each elevation of each volume
     std::vector<std::string> outputs;
-    render::AnimationOptions animation;
 };
 
 // Sets what the file names; sets nothing if there is an error in it.

@@ -79,9 +79,9 @@ TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
 
 // A row that is changed reaches the help by itself: the ends of its range, and what there is.
 TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
-    for (const PictureOption& row : picture_options())
+    for (const PictureOption& row : render::picture_options())
         EXPECT_THAT(help_of(row), ::testing::Not(::testing::HasSubstr("{"))) << row.option;
-    EXPECT_EQ(help_of(slices_option()), "Number of slices through the volume, 8 to 4096");
+    EXPECT_EQ(help_of(render::slices_option()), "Number of slices through the volume, 8 to 4096");
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
@@ -210,7 +210,7 @@ cache::GridDescription description() {
 }
 
 TEST(FactsOf, SaysWhatTheGridSays) {
-    const auto facts = facts_of("plains", description(), "America/Chicago");
+    const auto facts = frame_facts_of("plains", description(), "America/Chicago");
     EXPECT_EQ(facts.domain, "plains");
     EXPECT_EQ(facts.sites.at(0).icao, "KTLX");
     EXPECT_TRUE(facts.partial);
@@ -220,14 +220,14 @@ TEST(FactsOf, SaysWhatTheGridSays) {
 }
 
 TEST(FactsOf, UtcIsSaidOnceAndANameThatIsNoZoneNotAtAll) {
-    EXPECT_EQ(facts_of("plains", description(), "Etc/UTC").local_time, "");
-    EXPECT_EQ(facts_of("plains", description(), "Nowhere/Land").local_time, "");
+    EXPECT_EQ(frame_facts_of("plains", description(), "Etc/UTC").local_time, "");
+    EXPECT_EQ(frame_facts_of("plains", description(), "Nowhere/Land").local_time, "");
 }
 
 TEST(FactsOf, TheAgeOfTheNewestRadialWhileItIsNews) {
     const auto age_at = [](std::chrono::milliseconds later) {
         const auto grid = description();
-        return facts_of("plains", grid, "UTC", grid.end_time + later).antenna_to_picture;
+        return frame_facts_of("plains", grid, "UTC", grid.end_time + later).antenna_to_picture;
     };
     EXPECT_EQ(age_at(std::chrono::milliseconds(192'999)), std::chrono::seconds(192));
     EXPECT_EQ(age_at(std::chrono::milliseconds(0)), std::chrono::seconds(0));

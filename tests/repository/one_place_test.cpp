@@ -68,7 +68,7 @@ std::string quoted(const std::string& text) {
     return '"' + text + '"';
 }
 
-const std::set<std::string> option_table{"cli/picture/picture_options.cpp"};
+const std::set<std::string> option_table{"render/options/picture_option_rows.cpp"};
 const std::set<std::string> subcommand_registry{"cli/subcommands.cpp"};
 
 TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
@@ -78,7 +78,8 @@ TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
     const std::set<std::string> distinct(options.begin(), options.end());
     EXPECT_EQ(distinct.size(), options.size()) << "each is one row";
     for (const std::string& option : options) {
-        EXPECT_EQ(sources_with(quoted(option), {"cli/picture", "cli/loop"}), option_table)
+        EXPECT_EQ(sources_with(quoted(option), {"cli/picture", "cli/loop", "render/options"}),
+                  option_table)
             << option;
     }
 }
@@ -92,7 +93,9 @@ TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
                                            "frames",  "azimuth_deg", "elevation_deg"};
     for (const std::string& key : keys) {
         if (also_facts.contains(key)) continue;
-        EXPECT_EQ(sources_with(quoted(key), {"cli/picture", "cli/loop"}), option_table) << key;
+        EXPECT_EQ(sources_with(quoted(key), {"cli/picture", "cli/loop", "render/options"}),
+                  option_table)
+            << key;
     }
 }
 

@@ -25,8 +25,8 @@ using Text = std::shared_ptr<const std::string>;  // bytes in memory
     return std::make_shared<const std::string>(std::move(bytes));
 }
 
-// A part of a file. It is read as it is sent: if the file is cut meanwhile, the connection is closed
-// before Content-Length is reached, so that the client can tell.
+// A part of a file. It is read as it is sent: if the file is cut meanwhile, the connection is
+// closed before Content-Length is reached, so that the client can tell.
 struct FileSlice {
     std::shared_ptr<const Descriptor> file;
     std::uint64_t offset = 0, size = 0;
@@ -45,8 +45,8 @@ class Stream {
     virtual ~Stream() = default;
     // Returns up to `most` bytes; empty: there is nothing yet; none: the stream is over.
     virtual std::optional<std::string> read(std::size_t most) = 0;
-    // The server gives a function that the stream calls, from any thread, when there is more to read
-    // or the stream is over. It is called with null when the client is gone.
+    // The server gives a function that the stream calls, from any thread, when there is more to
+    // read or the stream is over. It is called with null when the client is gone.
     virtual void on_more(std::function<void()> more) = 0;
 };
 
@@ -67,7 +67,8 @@ struct Answer {
 // A sentence in plain text, for people.
 [[nodiscard]] Answer sentence(unsigned status, std::string_view text);
 // {"error": "..."}, for programs; and an error of a room, with the status that fits its code:
-// not_found 404, bad_argument 400, busy, exhausted, over_budget and unmet 503 with Retry-After, others 500.
+// not_found 404, bad_argument 400, busy, exhausted, over_budget and unmet 503 with Retry-After,
+// others 500.
 [[nodiscard]] Answer json_error(unsigned status, std::string_view text);
 [[nodiscard]] Answer json_error(const Error& error);
 [[nodiscard]] unsigned status_of(const Error& error);
@@ -86,20 +87,22 @@ struct Entity {
     // How long a client may use it without asking: none: it must ask each time ("no-cache").
     std::optional<std::chrono::seconds> max_age;
     bool never_changes = false;  // adds "immutable"
-    bool varies = false;  // by Accept-Encoding
-    Fields headers;  // more of them
+    bool varies = false;         // by Accept-Encoding
+    Fields headers;              // more of them
 };
 
 // Answers GET and HEAD: If-None-Match and If-Modified-Since (304), If-Match and If-Unmodified-Since
-// (412), Range with one part, a suffix or up to 16 parts (206; several as multipart/byteranges), If-Range, 416. A Range that
-// makes no sense is ignored, as RFC 9110 section 14.2 says.
+// (412), Range with one part, a suffix or up to 16 parts (206; several as multipart/byteranges),
+// If-Range, 416. A Range that makes no sense is ignored, as RFC 9110 section 14.2 says.
 [[nodiscard]] Answer answer_with(const Request& request, Entity entity);
 
-// "Thu, 17 Mar 2022 00:08:42 GMT" (RFC 9110 section 5.6.7), and what a client sends in any of its three forms.
+// "Thu, 17 Mar 2022 00:08:42 GMT" (RFC 9110 section 5.6.7), and what a client sends in any of its
+// three forms.
 [[nodiscard]] std::string http_date(UtcTime time);
 [[nodiscard]] std::optional<UtcTime> parse_http_date(std::string_view text);
 
-// `<`, `>`, `&`, `"` and `'` as entities; control characters, which XML 1.0 does not allow, as U+FFFD.
+// `<`, `>`, `&`, `"` and `'` as entities; control characters, which XML 1.0 does not allow, as
+// U+FFFD.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
 }  // namespace stormcellar::web

@@ -20,8 +20,8 @@ struct Request {
     // Decoded: UTF-8 without control characters, begins with "/", and has no segment that is "." or
     // ".." and no doubled slash. A slash at the end stays. The prefix of [web] is taken off.
     std::string path = "/";
-    Fields query;    // decoded, in the order in which they were sent
-    Fields headers;  // names as they were sent
+    Fields query;        // decoded, in the order in which they were sent
+    Fields headers;      // names as they were sent
     std::string client;  // the address of the client, or what a trusted proxy says that it is
     // The address under which clients reach the server, without a slash at the end:
     // "http://127.0.0.1:8080" or "https://radar.example.org/storms".

@@ -1,4 +1,4 @@
-// cli/picture/picture_metadata.h -- the metadata that a file of a picture or a loop contains.
+// render/frame/picture_metadata.h -- the metadata that a file of a picture or a loop contains.
 //
 // It consists of keywords and texts in printable ASCII, and is the same for the same picture on
 // every machine.
@@ -28,7 +28,7 @@
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/render/scene.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
@@ -43,6 +43,6 @@ struct PictureFacts {
 
 // `scene` is the scene that was drawn; `grid` describes the method of all frames.
 [[nodiscard]] Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
-                                   const render::Scene& scene);
+                                   const Scene& scene);
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

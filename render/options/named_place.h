@@ -1,4 +1,4 @@
-// cli/shared/named_place.h -- places on the command line: LAT,LON, a town or a radar.
+// render/options/named_place.h -- places as people write them: LAT,LON, a town or a radar.
 //
 // Every option that takes a place takes it from here.
 //
@@ -14,7 +14,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/site_frame.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 
 // How help says what a place may be.
 inline constexpr std::string_view place_for_help =
@@ -30,4 +30,4 @@ inline constexpr std::string_view place_for_help =
 [[nodiscard]] Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
                                                                    const std::string& text);
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

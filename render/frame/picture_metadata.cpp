@@ -1,14 +1,24 @@
-#include "cli/picture/picture_metadata.h"
+#include "render/frame/picture_metadata.h"
+
+#include <algorithm>
 
 #include <fmt/ranges.h>
 
-#include "cli/picture/picture.h"
+#include "base/printable.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/render/product.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 namespace {
+
+// Names of files may be anything.
+std::string ascii_text(std::string_view text) {
+    std::string safe = printable(text);
+    std::replace_if(
+        safe.begin(), safe.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7E; }, '?');
+    return safe;
+}
 
 std::string title_of(const PictureFacts& facts) {
     if (!facts.frames) return fmt::format("{} {}", facts.domain, format_utc(facts.first));
@@ -39,14 +49,14 @@ std::string gridding_text(const grid::Provenance& provenance) {
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-std::string picture_text(const render::Scene& scene) {
-    if (render::view_of(scene.product) != render::View::volume) {
+std::string picture_text(const Scene& scene) {
+    if (view_of(scene.product) != View::volume) {
         return fmt::format("{} x {} pixels", scene.width, scene.height);
     }
     const bool every_pixel = !(scene.pixel_tolerance > 0);
     return fmt::format("{} x {} pixels, {} slices, {} integration, light {}, {}{}", scene.width,
-                       scene.height, scene.slices, render::integration_name(scene.integration),
-                       render::light_names(scene.light),
+                       scene.height, scene.slices, integration_name(scene.integration),
+                       light_names(scene.light),
                        every_pixel ? "a ray for every pixel" : "rays as many as the picture needs",
                        scene.curved_earth ? ", curved earth" : "");
 }
@@ -54,16 +64,16 @@ std::string picture_text(const render::Scene& scene) {
 }  // namespace
 
 Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
-                     const render::Scene& scene) {
+                     const Scene& scene) {
     const grid::Provenance& provenance = grid.provenance;
     const std::string stations = fmt::format("{}", fmt::join(provenance.stations, " "));
     Metadata all;
     const auto add = [&](std::string keyword, const std::string& text) {
-        if (!text.empty()) all.emplace_back(std::move(keyword), ascii(text));
+        if (!text.empty()) all.emplace_back(std::move(keyword), ascii_text(text));
     };
     add("Title", title_of(facts));
     add("Description",
-        fmt::format("{}; gridded by {}, {}; {}", render::product_title(scene), provenance.method,
+        fmt::format("{}; gridded by {}, {}; {}", product_title(scene), provenance.method,
                     provenance.beam_model,
                     facts.frames
                         ? "stations " + stations
@@ -75,9 +85,9 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
     }
     add("Domain", facts.domain);
     add("Stations", stations);
-    add("Product", std::string(render::product_name(scene.product)));
+    add("Product", std::string(product_name(scene.product)));
     add("Moment", std::string(level2::moment_name(scene.moment)));
-    add("Units", render::written_unit(scene).symbol);
+    add("Units", written_unit(scene).symbol);
     add("Grid", grid_text(grid.spec));
     add("Gridding", gridding_text(provenance));
     add("Gridding error", provenance.predicted_error);
@@ -88,4 +98,4 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
     return all;
 }
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

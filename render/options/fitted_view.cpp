@@ -1,11 +1,11 @@
-#include "cli/picture/fitted_view.h"
+#include "render/options/fitted_view.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/colour/built_in_tables.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 namespace {
 
 bool is_typed(const SceneOptions& options, ViewPart part) {
@@ -20,7 +20,7 @@ bool file_has_a_view(const SceneOptions& options) {
 
 // Returns true if a view shows nearly the same part of the grid as another, from nearly the same
 // place.
-bool is_near(const render::FittedView& one, const render::FittedView& other) {
+bool is_near(const FittedView& one, const FittedView& other) {
     if (one.has_echo != other.has_echo) return false;
     if (!one.has_echo) return true;
     const double moved_m =
@@ -33,11 +33,11 @@ bool is_near(const render::FittedView& one, const render::FittedView& other) {
 
 }  // namespace
 
-render::FitParts parts_to_fit(const SceneOptions& options) {
-    if (file_has_a_view(options)) return render::FitParts::none();
-    render::FitParts parts;
+FitParts parts_to_fit(const SceneOptions& options) {
+    if (file_has_a_view(options)) return FitParts::none();
+    FitParts parts;
     const auto is_open = [&](ViewPart part) { return !is_typed(options, part); };
-    const render::Camera& camera = options.scene.camera;
+    const Camera& camera = options.scene.camera;
     const bool has_place = camera.eye.has_value();
     const bool is_parallel =
         is_typed(options, ViewPart::field_of_view) && camera.field_of_view_deg == 0;
@@ -59,26 +59,24 @@ bool chooses_light(const SceneOptions& options) {
     return !is_typed(options, ViewPart::light) && !file_has_a_view(options);
 }
 
-Result<render::FittedView> fit_picture(const render::EchoOutline& outline,
-                                       const grid::BrickView& view, const render::FrameFacts& facts,
-                                       const SceneOptions& options, render::Scene& scene,
-                                       bool orbits, std::optional<render::FittedView>* last) {
+Result<FittedView> fit_picture(const EchoOutline& outline, const grid::BrickView& view,
+                               const FrameFacts& facts, const SceneOptions& options, Scene& scene,
+                               bool orbits, std::optional<FittedView>* last) {
     // By default echo so weak that the usual colors leave it out has those of clear air.
-    if (scene.colours == render::smooth_colour_table(level2::Moment::ref) &&
-        options.colours.empty() && render::is_clear_air(outline)) {
-        scene.colours = render::clear_air_colours();
+    if (scene.colours == smooth_colour_table(level2::Moment::ref) && options.colours.empty() &&
+        is_clear_air(outline)) {
+        scene.colours = clear_air_colours();
     }
-    if (render::view_of(scene.product) != render::View::volume) return render::FittedView{};
+    if (view_of(scene.product) != View::volume) return FittedView{};
     if (chooses_light(options)) scene.light.gradient = scene.light.shadow = true;
-    const auto fitted =
-        render::fit_scene(outline, view, facts, parts_to_fit(options), scene, orbits);
+    const auto fitted = fit_scene(outline, view, facts, parts_to_fit(options), scene, orbits);
     if (!fitted || last == nullptr) return fitted;
     if (*last && is_near(**last, *fitted)) {
-        render::apply(**last, scene);
+        apply(**last, scene);
     } else {
         *last = *fitted;
     }
     return **last;
 }
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

@@ -1,9 +1,10 @@
-// cli/picture/picture_options.h -- the table of the options of a picture.
+// render/options/picture_options.h -- the table of the options of a picture.
 //
 // Each row is one option: its name on the command line, its key in a scene file, the values that it
-// takes, the products that use it, its help, and the setting that it sets. The command line and the
-// check of what a product uses (scene_options.h) and scene files (scene_file.h) read this table;
-// --help, the manual pages and the completions of shells come from the command line.
+// takes, the products that use it, its help, and the setting that it sets. The command line, scene
+// files, the addresses of the data server and the check of what a product uses (scene_options.h)
+// read this table; --help, the manual pages and the completions of shells come from the command
+// line. The rows stand in picture_option_rows.cpp.
 // Thread contract: the table is constant.
 #pragma once
 
@@ -19,16 +20,16 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/scene.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 
-struct LoopSettings;
+struct LoopChoices;
 struct SceneOptions;
 
 // What the options set.
 struct PictureSettings {
     SceneOptions& options;
-    render::Scene& scene;  // that of the options
-    LoopSettings* loop;    // null where only options of the scene are set
+    Scene& scene;       // that of the options
+    LoopChoices* loop;  // null where only options of the scene are set
 };
 
 // Says who refuses a number on the command line that is out of range. In a scene file such a number
@@ -71,6 +72,7 @@ struct TextValue {
     std::string (*beside)(const std::filesystem::path& directory,
                           const std::string& text) = nullptr;
     std::string (*known)() = nullptr;  // the texts that there are, for {} in the help; null: any
+    bool (*is_file)(const std::string&) = nullptr;  // the text names a file; null: no text does
 };
 // "gradient,shadow" on the command line, an array of texts in a scene file, where an empty one is
 // "none".
@@ -84,15 +86,15 @@ using PictureValue =
 // The products that use an option: one product only, all but one, those with a threshold, maps, or,
 // with none of these, all.
 struct ProductUse {
-    std::optional<render::Product> only{};
-    std::optional<render::Product> all_but{};
+    std::optional<Product> only{};
+    std::optional<Product> all_but{};
     bool with_threshold = false;
     bool maps = false;
 
-    [[nodiscard]] bool includes(render::Product product) const {
+    [[nodiscard]] bool includes(Product product) const {
         return (!only || product == *only) && (!all_but || product != *all_but) &&
-               (!with_threshold || render::facts_of(product).threshold_dbz != nullptr) &&
-               (!maps || render::is_map(product));
+               (!with_threshold || facts_of(product).threshold_dbz != nullptr) &&
+               (!maps || is_map(product));
     }
     // As in "cappi", "any product but section".
     [[nodiscard]] std::string text() const;
@@ -110,9 +112,7 @@ struct PictureOption {
 
     // The options of [loop] are those of `loop` alone; the others are those of the scene.
     [[nodiscard]] bool is_of_loop() const { return section == "loop"; }
-    [[nodiscard]] bool is_used_by(render::Product product) const {
-        return used_by.includes(product);
-    }
+    [[nodiscard]] bool is_used_by(Product product) const { return used_by.includes(product); }
 };
 
 // In the order of --help.
@@ -127,7 +127,7 @@ struct PictureOption {
 [[nodiscard]] const PictureOption& height_option();
 
 // The parts of the view of a volume that are fitted to the echo unless an option says them
-// (cli/picture/fitted_view.h).
+// (render/options/fitted_view.h).
 enum class ViewPart {
     azimuth,
     tilt,
@@ -146,6 +146,8 @@ enum class ViewPart {
 // the keys of a scene file.
 [[nodiscard]] bool moves_camera(const PictureOption& option);
 
+// The option as a parameter of an address: "tilt" of "--tilt".
+[[nodiscard]] std::string_view parameter_of(const PictureOption& option);
 // As a message names a key: "[volume] slices".
 [[nodiscard]] std::string key_of(const PictureOption& option);
 [[nodiscard]] std::string help_of(const PictureOption& option);
@@ -153,4 +155,4 @@ enum class ViewPart {
 using ChosenOptions = std::vector<const PictureOption*>;
 [[nodiscard]] bool contains(const ChosenOptions& chosen, const PictureOption& option);
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

@@ -1,31 +1,18 @@
-#include "cli/picture/picture_options.h"
-
 #include <algorithm>
 #include <array>
-#include <cctype>
 
-#include <fmt/ranges.h>
-
-#include "base/local_time.h"
 #include "base/name_list.h"
-#include "base/nearest_name.h"
-#include "cli/picture/scene_file.h"
-#include "cli/picture/scene_options.h"
-#include "cli/shared/commands.h"
-#include "cli/shared/moment_option.h"
-#include "cli/shared/named_place.h"
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_file.h"
+#include "render/options/picture_option_values.h"
+#include "render/options/picture_options.h"
+#include "render/options/scene_options.h"
 #include "stormcellar/render/product.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 namespace {
 
-using render::Product;
 using To = PictureSettings;
-namespace limits = render::limits;
 
-constexpr double per_km = 1000;
+constexpr double per_km = option_units_per_km;
 // Any direction will do; a scene file refuses what is no direction but a mistake.
 constexpr NumberRange turns_deg{-3600, 3600};
 
@@ -46,93 +33,13 @@ constexpr std::array camera_places{NumberPlace{"east", limits::eye_m.in(per_km)}
 constexpr std::array sun_places{NumberPlace{"azimuth", turns_deg},
                                 NumberPlace{"elevation", limits::sun_elevation_deg}};
 
-void set_section(To to, std::span<const double> ends) {
-    to.scene.section = render::SectionLine{{ends[0], ends[1]}, {ends[2], ends[3]}};
-}
-
-Result<std::vector<double>> read_section(const std::string& option, const std::string& text) {
-    const auto ends = parse_two_places(option, text);
-    if (!ends) return pass_on(ends);
-    return std::vector{(*ends)[0].latitude_deg, (*ends)[0].longitude_deg, (*ends)[1].latitude_deg,
-                       (*ends)[1].longitude_deg};
-}
-
-void set_camera(To to, std::span<const double> at) {
-    to.scene.camera.eye = render::Eye{at[0] * per_km, at[1] * per_km, at[2] * per_km};
-}
-
-void set_look_at(To to, std::span<const double> at) {
-    to.scene.camera.look_at = render::Eye{at[0] * per_km, at[1] * per_km, at[2] * per_km};
-}
-
-void set_sun(To to, std::span<const double> sun) {
-    to.scene.light.sun_azimuth_deg = sun[0];
-    to.scene.light.sun_elevation_deg = sun[1];
-}
-
-Status check_product(const std::string& name) {
-    const auto product = render::product_from_name(name);
-    return product ? Status{} : pass_on(product);
-}
-
-Status check_theme(const std::string& name) {
-    const auto theme = render::theme_from_name(name);
-    return theme ? Status{} : pass_on(theme);
-}
-
-std::string known_moments() {
-    return level2::moment_names(", ", " or ");
-}
-
-Status check_moment(const std::string& name) {
-    const auto moment = moment_named(name);
-    return moment ? Status{} : pass_on(moment);
-}
-
-Status check_time_zone(const std::string& zone) {
-    if (format_local(UtcTime{}, zone)) return {};
-    return fail(ErrorCode::bad_argument, "the time zone '{}' is not known on this machine",
-                printable(zone));
-}
-
-Status check_colors(const std::string& name) {
-    if (render::table_of_family(name, level2::Moment::ref) != nullptr) return {};
-    const auto table = render::colours_from(name);
-    if (table) return {};
-    const std::vector<std::string> families(render::colour_families.begin(),
-                                            render::colour_families.end());
-    if (const std::string meant = did_you_mean(name, families); !meant.empty())
-        return fail(ErrorCode::bad_argument, "there is no color table '{}'{}", printable(name),
-                    meant);
-    return pass_on(table);
-}
-
-std::string known_smoothings() {
-    return "cubic or none";
-}
-
-Status check_smoothing(const std::string& name) {
-    if (name == "cubic" || name == "none") return {};
-    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", known_smoothings(),
-                printable(name));
-}
-
-// A table by name is the same everywhere; a file stands beside the scene file.
-std::string colors_beside(const std::filesystem::path& directory, const std::string& name) {
-    std::string ending = std::filesystem::path(name).extension().native();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool is_file = ending == ".pal" || ending == ".toml";
-    return is_file ? (directory / name).native() : name;
-}
-
 constexpr std::array option_rows{
     PictureOption{.option = "--product",
                   .section = "picture",
                   .key = "product",
                   .value = TextValue{.field = [](To to) { return &to.options.product; },
                                      .check = check_product,
-                                     .known = render::products_for_help},
+                                     .known = products_for_help},
                   .help = "What to draw: {}"},
     PictureOption{.option = "--moment",
                   .section = "picture",
@@ -148,7 +55,8 @@ constexpr std::array option_rows{
                   .old_key = "colours",
                   .value = TextValue{.field = [](To to) { return &to.options.colours; },
                                      .check = check_colors,
-                                     .beside = colors_beside},
+                                     .beside = colors_beside,
+                                     .is_file = is_color_file},
                   .help =
                       "smooth for colors without classes (the default), nws for the classes of the "
                       "Weather Service, the name of a color table, or a .pal or .toml file"},
@@ -204,7 +112,7 @@ constexpr std::array option_rows{
                   .key = "theme",
                   .value = TextValue{.field = [](To to) { return &to.options.theme; },
                                      .check = check_theme,
-                                     .known = render::themes_for_help},
+                                     .known = themes_for_help},
                   .help = "The page on which the picture is drawn: {}"},
     PictureOption{.option = "--width",
                   .section = "picture",
@@ -270,11 +178,7 @@ constexpr std::array option_rows{
         .option = "--light",
         .section = "light",
         .key = "kinds",
-        .value = NamesValue{.set =
-                                [](To to, const std::string& names) {
-                                    return render::set_light(names, to.scene.light);
-                                },
-                            .get = [](To to) { return render::light_names(to.scene.light); }},
+        .value = NamesValue{set_light_kinds, light_kinds},
         .used_by = by_volume,
         .help = "Kinds of light, separated by commas: gradient, shadow, scattering, or none for "
                 "exact colors. Light changes neither the hue of echo nor its mean lightness"},
@@ -332,13 +236,7 @@ constexpr std::array option_rows{
         .option = "--units",
         .section = "labels",
         .key = "units",
-        .value = NamesValue{.set = [](To to, const std::string& names) -> Status {
-                                const auto units = render::units_from_names(names);
-                                if (!units) return pass_on(units);
-                                to.scene.units = *units;
-                                return {};
-                            },
-                            .get = [](To to) { return render::unit_names(to.scene.units); }},
+        .value = NamesValue{set_units, units_set},
         .help = "Units in which the picture writes speeds, distances and heights, separated by "
                 "commas, as in knots,miles,kft: m/s, knots, mph or km/h; km, miles or "
                 "nautical-miles; km, kft or feet. Default: m/s,km"},
@@ -435,38 +333,7 @@ constexpr std::array keys_of_the_view = {KeyOfView{ViewPart::azimuth, "azimuth_d
                                          KeyOfView{ViewPart::opacity, "opacity"}};
 static_assert(is_in_order(keys_of_the_view, &KeyOfView::part));
 
-// The ends of its range, or what its texts may be.
-struct HelpOf {
-    std::string help;
-    std::string operator()(const WholeValue& value) const { return with(value.range); }
-    std::string operator()(const NumberValue& value) const { return with(value.range); }
-    std::string operator()(const TextValue& value) const {
-        return value.known == nullptr ? help : fmt::format(fmt::runtime(help), value.known());
-    }
-    template <class Other>
-    std::string operator()(const Other& /*value*/) const {
-        return help;
-    }
-    [[nodiscard]] std::string with(NumberRange range) const {
-        return fmt::format(fmt::runtime(help), range.least, range.most);
-    }
-};
-
 }  // namespace
-
-std::string ProductUse::text() const {
-    if (only) return std::string(render::product_name(*only));
-    if (with_threshold) {
-        std::vector<std::string_view> names;
-        for (const render::ProductFacts& facts : render::all_products()) {
-            if (facts.threshold_dbz != nullptr) names.push_back(facts.name);
-        }
-        return fmt::format("{}", fmt::join(names, ", "));
-    }
-    if (maps) return "maps";
-    if (!all_but) return "any product";
-    return fmt::format("any product but {}", render::product_name(*all_but));
-}
 
 std::span<const PictureOption> picture_options() {
     return option_rows;
@@ -509,16 +376,4 @@ bool moves_camera(const PictureOption& option) {
     return option.key == "orbit_deg" || option.key == "at_km" || option.key == "look_at_km";
 }
 
-std::string key_of(const PictureOption& option) {
-    return fmt::format("[{}] {}", option.section, option.key);
-}
-
-std::string help_of(const PictureOption& option) {
-    return std::visit(HelpOf{std::string(option.help)}, option.value);
-}
-
-bool contains(const ChosenOptions& chosen, const PictureOption& option) {
-    return std::ranges::find(chosen, &option) != chosen.end();
-}
-
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

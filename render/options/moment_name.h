@@ -1,4 +1,4 @@
-// cli/shared/moment_option.h -- the moment that a command line or a scene file names.
+// render/options/moment_name.h -- the moment that a command line, a scene file or an address names.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -8,9 +8,9 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/moment.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 
 // Takes a name in upper or lower case. Errors: bad_argument; the message lists the moments.
 [[nodiscard]] Result<level2::Moment> moment_named(const std::string& text);
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

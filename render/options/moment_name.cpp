@@ -1,13 +1,13 @@
-#include "cli/shared/moment_option.h"
+#include "render/options/moment_name.h"
 
 #include <algorithm>
 #include <cctype>
 #include <vector>
 
 #include "base/nearest_name.h"
-#include "cli/shared/commands.h"
+#include "base/printable.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 
 Result<level2::Moment> moment_named(const std::string& text) {
     std::string name = text;
@@ -21,4 +21,4 @@ Result<level2::Moment> moment_named(const std::string& text) {
                 level2::moment_names(", ", " or "), printable(text), did_you_mean(text, names));
 }
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

@@ -1,4 +1,4 @@
-#include "cli/shared/named_place.h"
+#include "render/options/named_place.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 #include "base/printable.h"
 #include "stormcellar/base/station_table.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 namespace {
 
 constexpr int large_town_thousands = 100;
@@ -174,4 +174,4 @@ Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
     return places;
 }
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

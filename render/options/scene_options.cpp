@@ -1,0 +1,151 @@
+#include "render/options/scene_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include "base/floating_point.h"
+#include "base/local_time.h"
+#include "render/colour/built_in_tables.h"
+#include "render/colour/colour_file.h"
+#include "render/options/moment_name.h"
+
+namespace stormcellar::render {
+
+namespace {
+
+std::string spelled(const PictureOption& row, const SceneOptions& options) {
+    return std::string(options.spelling == Spelling::option ? row.option : parameter_of(row));
+}
+
+Status unused(std::string_view name, const PictureOption& row, Product product) {
+    return fail(ErrorCode::bad_argument, "{} is for {}; {} does not use it", name,
+                row.used_by.text(), product_name(product));
+}
+
+// bad_argument names the option, or the key of a file for this product, and who uses it.
+Status check_uses(Product product, const SceneOptions& options) {
+    const auto files = product_from_name(options.file_product);
+    for (const PictureOption& row : picture_options()) {
+        if (row.is_used_by(product)) continue;
+        if (contains(options.typed, row)) return unused(spelled(row, options), row, product);
+        const bool was_used = files && row.is_used_by(*files);
+        if (!was_used && contains(options.in_file, row)) return unused(key_of(row), row, product);
+    }
+    return {};
+}
+
+// The number of a row that is out of its range; none: there is no such number.
+struct OutOfRange {
+    PictureSettings to;
+    std::optional<std::string> operator()(const WholeValue& value) const {
+        return said(value.range, *value.field(to), false);
+    }
+    std::optional<std::string> operator()(const NumberValue& value) const {
+        NumberRange range = value.range;
+        const double* const field = value.field(to);
+        // Only a camera with a place of its own may look up.
+        const bool looks_down = field == &to.scene.camera.tilt_deg && !to.scene.camera.eye;
+        if (looks_down) range = limits::tilt_deg;
+        return said(range, *field / value.unit, value.or_zero);
+    }
+    template <class Other>
+    std::optional<std::string> operator()(const Other& /*value*/) const {
+        return std::nullopt;
+    }
+    static std::optional<std::string> said(NumberRange range, double number, bool or_zero) {
+        if (is_within(number, range.least, range.most)) return std::nullopt;
+        if (or_zero && std::fpclassify(number) == FP_ZERO) return std::nullopt;
+        return fmt::format("must be {} to {}{}, not {}", range.least, range.most,
+                           or_zero ? ", or 0" : "", number);
+    }
+};
+
+// bad_argument names the option, or the key if it is a scene file that has the number.
+Status check_ranges(SceneOptions options) {
+    const PictureSettings to{options, options.scene, nullptr};
+    for (const PictureOption& row : picture_options()) {
+        // A default out of range stands for nothing given.
+        const bool is_given = contains(options.typed, row) || contains(options.in_file, row);
+        if (row.is_of_loop() || !is_given) continue;
+        const auto said = std::visit(OutOfRange{to}, row.value);
+        if (!said) continue;
+        const bool is_in_file = !contains(options.typed, row) && contains(options.in_file, row);
+        return fail(ErrorCode::bad_argument, "{} {}",
+                    is_in_file ? key_of(row) : spelled(row, options), *said);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Scene> scene_of(const SceneOptions& options) {
+    if (options.problem) return tl::unexpected(*options.problem);
+    const auto product = product_from_name(options.product);
+    if (!product) return pass_on(product);
+    if (auto used = check_uses(*product, options); !used) return pass_on(used);
+    if (auto ranges = check_ranges(options); !ranges) return pass_on(ranges);
+    Scene scene = options.scene;
+    scene.product = *product;
+    const auto moment = moment_named(options.moment);
+    if (!moment) return fail(ErrorCode::bad_argument, "the moment {}", moment.error().message);
+    scene.moment = *moment;
+    const auto theme = theme_from_name(options.theme);
+    if (!theme) return pass_on(theme);
+    scene.theme = *theme;
+    if (scene.product == Product::section && !scene.section) {
+        return fail(ErrorCode::bad_argument,
+                    "a section needs its two ends; give {} LAT,LON,LAT,LON or two names of places, "
+                    "or {} in a scene file",
+                    spelled(section_option(), options), key_of(section_option()));
+    }
+    if (scene.elevation_deg != Scene::lowest_sweep && scene.sweep_number != Scene::no_number) {
+        return fail(ErrorCode::bad_argument,
+                    "a sweep is named by its elevation or by its number; give only one of them");
+    }
+    // A picture that says nothing of colors has those without classes; a scene file has the
+    // defaults that it was written for.
+    const bool has_own_colours = facts_of(scene.product).colours != nullptr;
+    if (options.colours.empty() && options.file_product.empty() && !has_own_colours) {
+        scene.colours = smooth_colour_table(scene.moment);
+    } else if (const auto* table = table_of_family(options.colours, scene.moment)) {
+        scene.colours = *table;
+    } else if (!options.colours.empty()) {
+        auto colours = colours_from(options.colours);
+        if (!colours) return pass_on(colours);
+        scene.colours = std::move(*colours);
+    }
+    scene.smooth =
+        options.smooth.empty() ? options.file_product.empty() : options.smooth == "cubic";
+    // A camera with a place of its own looks in perspective.
+    if (scene.camera.eye && scene.camera.field_of_view_deg == 0) {
+        scene.camera.field_of_view_deg = 60;
+    }
+    scene.labels = !options.no_labels;
+    if (auto valid = validate(scene); !valid) return pass_on(valid);
+    return scene;
+}
+
+int thread_count(const SceneOptions& options) {
+    if (options.threads > 0) return options.threads;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescription& description,
+                          const std::string& time_zone, UtcTime now) {
+    FrameFacts facts{domain, description.moment, description.time, description.sites,
+                     description.provenance.partial};
+    facts.radar_troubles = description.provenance.radar_troubles;
+    const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
+    const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
+    if (!local.ends_with(" UTC")) facts.local_time = local;
+    const auto age = std::chrono::floor<std::chrono::seconds>(now - description.end_time);
+    if (age >= std::chrono::seconds(0) && age < std::chrono::hours(1)) {
+        facts.antenna_to_picture = age;
+    }
+    return facts;
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,56 @@
+#include "render/options/still_frame.h"
+
+#include <utility>
+
+#include "render/frame/picture_metadata.h"
+#include "render/options/fitted_view.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::render {
+namespace {
+
+FrameFacts facts_of_still(const StillSource& source) {
+    return frame_facts_of(source.domain, source.description, source.options.time_zone);
+}
+
+Metadata metadata_of_still(const StillSource& source, const Scene& scene,
+                           const StillWriting& writing) {
+    const UtcTime time = source.description.time;
+    const PictureFacts told{source.domain, time, time, std::nullopt, {}, writing.error};
+    if (writing.format.encode_map == nullptr) return metadata_of(told, source.description, scene);
+    // Data stay in the units of the grid, and a map as data has no picture's size.
+    Scene in_grid_units = scene;
+    in_grid_units.units = {};
+    Metadata metadata = metadata_of(told, source.description, in_grid_units);
+    std::erase_if(metadata, [](const auto& text) { return text.first == "Picture"; });
+    return metadata;
+}
+
+}  // namespace
+
+Status fit_to_grid(const StillSource& source, Scene& scene) {
+    if (source.view.sweep != nullptr) {
+        scene = scene_shown(source.view, std::move(scene));
+        return {};
+    }
+    const EchoOutline outline(source.view, scene.moment);
+    const auto fitted =
+        fit_picture(outline, source.view, facts_of_still(source), source.options, scene);
+    return fitted ? Status{} : pass_on(fitted);
+}
+
+Result<std::vector<std::byte>> encode_still(const StillSource& source, const Scene& scene,
+                                            const StillWriting& writing) {
+    const FrameFacts facts = facts_of_still(source);
+    const StillOptions options{.metadata = metadata_of_still(source, scene, writing),
+                               .tiff = writing.tiff,
+                               .threads = writing.threads};
+    if (writing.format.encode_map != nullptr)
+        return writing.format.encode_map({source.view, facts, scene}, options);
+    const auto picture = render_frame(source.view, facts, scene, writing.threads);
+    if (!picture) return pass_on(picture);
+    if (writing.drawn) writing.drawn();
+    return writing.format.encode_picture(*picture, options);
+}
+
+}  // namespace stormcellar::render

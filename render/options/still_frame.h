@@ -1,0 +1,52 @@
+// render/options/still_frame.h -- one still of one grid: what nobody asked for is fitted to the
+// echo, the picture is drawn and encoded, with its metadata.
+//
+// `stormcellar frame` and the data server both draw by these functions, so that the same options
+// give the same bytes.
+//
+// Threads   Pure but for the scene that is fitted; drawing uses `threads` threads of its own.
+// Errors    See each function.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/options/scene_options.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/scene.h"
+#include "stormcellar/render/still.h"
+
+namespace stormcellar::render {
+
+// What a still is drawn of. What is referred to must outlive it.
+struct StillSource {
+    const std::string& domain;
+    const grid::BrickView& view;
+    const cache::GridDescription& description;
+    const SceneOptions& options;
+};
+
+// Chooses what was not asked for by the echo (fitted_view.h). A sweep is seen from above, as it is.
+// Errors: those of fit_picture().
+[[nodiscard]] Status fit_to_grid(const StillSource& source, Scene& scene);
+
+// How a still is written.
+struct StillWriting {
+    const StillFormat& format;
+    TiffContent tiff = TiffContent::values;
+    std::string error;  // of the picture, by its plan; empty: not planned
+    int threads = 1;
+    std::function<void()> drawn;  // is called when the picture is drawn, before it is encoded
+};
+
+// Draws the fitted scene and encodes the picture; of a format of maps, encodes the map of the grid
+// instead, and does not call `drawn`. Errors: those of render_frame() and of the format.
+[[nodiscard]] Result<std::vector<std::byte>> encode_still(const StillSource& source,
+                                                          const Scene& scene,
+                                                          const StillWriting& writing);
+
+}  // namespace stormcellar::render
