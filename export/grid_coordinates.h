@@ -11,6 +11,7 @@
 // Threads   Hold library_mutex() (export/netcdf_builder.h).
 #pragma once
 
+#include "export/cf_attributes.h"
 #include "export/netcdf_builder.h"
 #include "stormcellar/grid/grid_spec.h"
 
@@ -20,16 +21,7 @@ struct MapDimensions {
     int y = 0, x = 0;
 };
 
-// The names of the two dimensions, and of their coordinates.
-struct MapNames {
-    const char* y;
-    const char* x;
-};
-[[nodiscard]] MapNames map_names(const grid::GridSpec& spec);
-
-// Returns azimuthal_equidistant, latitude_longitude or lambert_conformal_conic.
-[[nodiscard]] const char* mapping_name(grid::Projection projection);
-
+void write_attributes(NetcdfBuilder& file, int variable, const CfAttributes& attributes);
 void write_mapping(NetcdfBuilder& file, const grid::GridSpec& spec);
 void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size);
 // Writes lat and lon of each column, or nothing if the dimensions give them already.

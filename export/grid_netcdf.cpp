@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,7 +11,6 @@
 #include <netcdf.h>
 
 #include "export/grid_coordinates.h"
-#include "export/moment_text.h"
 #include "export/netcdf_builder.h"
 #include "stormcellar/grid/method.h"
 
@@ -62,22 +62,12 @@ std::vector<Cell> in_file_order(const grid::GridSpec& spec, From from) {
     return cells;
 }
 
-void define_coordinate(NetcdfBuilder& file, int variable, const char* standard_name,
-                       const char* units, const char* axis) {
-    file.text(variable, "standard_name", standard_name);
-    file.text(variable, "units", units);
-    file.text(variable, "axis", axis);
-}
-
 void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
     const int time = file.variable("time", NC_DOUBLE, {size.time});
-    define_coordinate(file, time, "time", "seconds since 1970-01-01T00:00:00Z", "T");
-    file.text(time, "calendar", "standard");
-    file.text(time, "long_name", grid.frame_time ? "frame time" : "start of the volume");
+    write_attributes(file, time,
+                     time_attributes(grid.frame_time ? "frame time" : "start of the volume"));
     const int z = file.variable("z", NC_DOUBLE, {size.z});
-    define_coordinate(file, z, "altitude", "m", "Z");
-    file.text(z, "positive", "up");
-    file.text(z, "long_name", "height above mean sea level");
+    write_attributes(file, z, height_attributes());
     const std::array<double, 1> seconds = {
         std::chrono::duration<double>(grid.frame_time.value_or(grid.time).time_since_epoch())
             .count()};
@@ -154,14 +144,7 @@ void write_field(NetcdfBuilder& file, const Field& one, const Dimensions& size, 
     const int field = define_field(file, name, NC_FLOAT, size, grid.spec, deflate_level);
     constexpr float fill = NC_FILL_FLOAT;
     file.fill_value(field, fill);
-    const MomentText names = text_of(grid.moment);
-    file.text(field, "long_name", names.long_name);
-    if (names.cf_name != nullptr) file.text(field, "standard_name", names.cf_name);
-    file.text(field, "units", level2::moment_units(grid.moment));
-    file.text(field, "cell_methods",
-              grid::cell_extent_of(grid.provenance.method) == grid::CellExtent::area
-                  ? "area: mean"
-                  : "area: point");
+    write_attributes(file, field, field_attributes(grid.moment, grid.provenance.method));
     std::vector<std::string> beside = {one.name_of("status")};
     for (const grid::Detail detail : grid::all_details) {
         if (grid.details.set().has(detail))
@@ -182,21 +165,12 @@ void write_status(NetcdfBuilder& file, const Field& one, const Dimensions& size,
     const Grid& grid = one.grid;
     const int status =
         define_field(file, one.name_of("status"), NC_BYTE, size, grid.spec, deflate_level);
-    file.text(status, "long_name", "what a cell holds");
-    file.text(status, "standard_name", "status_flag");
-    std::array<signed char, 4> flags{};
-    std::string meanings;
-    for (std::size_t i = 0; i < flags.size(); ++i) {
-        flags[i] = static_cast<signed char>(i);
-        if (i > 0) meanings += ' ';
-        meanings += grid::cell_status_name(static_cast<CellStatus>(i));
-    }
+    write_attributes(file, status, status_attributes());
+    const std::vector<std::string_view> meanings = status_meanings();
+    std::vector<signed char> flags(meanings.size());
+    std::iota(flags.begin(), flags.end(), static_cast<signed char>(0));
     file.bytes(status, "flag_values", flags);
-    file.text(status, "flag_meanings", meanings);
-    file.text(
-        status, "comment",
-        "not_seen: blind region, beyond range, missing radials or sweeps; no_echo: seen, below "
-        "the radar's threshold; range_folded: echo from beyond the unambiguous range");
+    file.text(status, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
     const auto cells = in_file_order<signed char>(
         grid.spec, [&](std::size_t cell) { return static_cast<signed char>(grid.status[cell]); });
     file.write(status, std::span(cells));

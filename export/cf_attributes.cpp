@@ -1,0 +1,161 @@
+#include "export/cf_attributes.h"
+
+#include "export/moment_text.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/grid/method.h"
+#include "stormcellar/grid/projection.h"
+
+namespace stormcellar::netcdf {
+namespace {
+
+// How CF names a projection and the longitude of its origin (CF-1.8, appendix F).
+struct MappingNames {
+    const char* mapping;
+    const char* origin_longitude;
+};
+MappingNames names_of(grid::Projection projection) {
+    switch (projection) {
+        case grid::Projection::azimuthal_equidistant:
+            return {"azimuthal_equidistant", "longitude_of_projection_origin"};
+        case grid::Projection::latitude_longitude:
+            return {"latitude_longitude", ""};
+        case grid::Projection::lambert_conformal:
+            return {"lambert_conformal_conic", "longitude_of_central_meridian"};
+    }
+    return {"", ""};
+}
+
+CfAttributes coordinate(const char* standard_name, const char* units, const char* axis) {
+    return {{"standard_name", standard_name}, {"units", units}, {"axis", axis}};
+}
+
+CfAttributes map_axis(const char* standard_name, const char* units, const char* axis,
+                      const char* long_name) {
+    CfAttributes attributes = coordinate(standard_name, units, axis);
+    attributes.emplace_back("long_name", long_name);
+    return attributes;
+}
+
+void add_origin(CfAttributes& attributes, const grid::GridSpec& spec) {
+    attributes.emplace_back("latitude_of_projection_origin", spec.center_latitude_deg);
+    attributes.emplace_back(names_of(spec.projection).origin_longitude, spec.center_longitude_deg);
+    attributes.emplace_back("false_easting", 0.0);
+    attributes.emplace_back("false_northing", 0.0);
+    if (!grid::facts_of(spec.projection).takes_parallels) return;
+    const auto [first_deg, second_deg] = spec.parallels_deg;
+    if (first_deg == second_deg) {
+        attributes.emplace_back("standard_parallel", first_deg);
+    } else {
+        attributes.emplace_back("standard_parallel", std::vector<double>{first_deg, second_deg});
+    }
+}
+
+}  // namespace
+
+MapNames map_names(const grid::GridSpec& spec) {
+    return spec.in_degrees() ? MapNames{"lat", "lon"} : MapNames{"y", "x"};
+}
+
+const char* mapping_name(grid::Projection projection) {
+    return names_of(projection).mapping;
+}
+
+CfAttributes time_attributes(std::string_view long_name) {
+    CfAttributes attributes = coordinate("time", "seconds since 1970-01-01T00:00:00Z", "T");
+    attributes.emplace_back("calendar", "standard");
+    attributes.emplace_back("long_name", std::string(long_name));
+    return attributes;
+}
+
+CfAttributes height_attributes() {
+    CfAttributes attributes = coordinate("altitude", "m", "Z");
+    attributes.emplace_back("positive", "up");
+    attributes.emplace_back("long_name", "height above mean sea level");
+    return attributes;
+}
+
+CfAttributes row_attributes(const grid::GridSpec& spec) {
+    if (spec.in_degrees()) return map_axis("latitude", "degrees_north", "Y", "latitude");
+    return map_axis("projection_y_coordinate", "m", "Y", "distance north of the centre");
+}
+
+CfAttributes column_attributes(const grid::GridSpec& spec) {
+    if (spec.in_degrees()) return map_axis("longitude", "degrees_east", "X", "longitude");
+    return map_axis("projection_x_coordinate", "m", "X", "distance east of the centre");
+}
+
+CfAttributes latitude_attributes() {
+    return {{"standard_name", "latitude"}, {"units", "degrees_north"}};
+}
+
+CfAttributes longitude_attributes() {
+    return {{"standard_name", "longitude"}, {"units", "degrees_east"}};
+}
+
+CfAttributes mapping_attributes(const grid::GridSpec& spec) {
+    CfAttributes attributes = {{"grid_mapping_name", mapping_name(spec.projection)}};
+    if (!spec.in_degrees()) add_origin(attributes, spec);
+    attributes.emplace_back("semi_major_axis", grid::wgs84_semi_major_m);
+    attributes.emplace_back("inverse_flattening", 1 / grid::wgs84_flattening);
+    attributes.emplace_back("longitude_of_prime_meridian", 0.0);
+    attributes.emplace_back(
+        "comment",
+        "WGS84; heights above mean sea level are used as heights above the ellipsoid (about "
+        "1 m at 230 km)");
+    return attributes;
+}
+
+CfAttributes reference_to_map(const grid::GridSpec& spec) {
+    CfAttributes attributes;
+    if (!spec.in_degrees()) attributes.emplace_back("coordinates", "lat lon");
+    attributes.emplace_back("grid_mapping", mapping_name(spec.projection));
+    return attributes;
+}
+
+CfAttributes field_attributes(level2::Moment moment, std::string_view method) {
+    const MomentText names = text_of(moment);
+    CfAttributes attributes = {{"long_name", names.long_name}};
+    if (names.cf_name != nullptr) attributes.emplace_back("standard_name", names.cf_name);
+    attributes.emplace_back("units", std::string(level2::moment_units(moment)));
+    const bool is_area = grid::cell_extent_of(method) == grid::CellExtent::area;
+    attributes.emplace_back("cell_methods", is_area ? "area: mean" : "area: point");
+    return attributes;
+}
+
+CfAttributes status_attributes() {
+    return {
+        {"long_name", "what a cell holds"},
+        {"standard_name", "status_flag"},
+        {"comment",
+         "not_seen: blind region, beyond range, missing radials or sweeps; no_echo: seen, below "
+         "the radar's threshold; range_folded: echo from beyond the unambiguous range"},
+    };
+}
+
+std::vector<std::string_view> status_meanings() {
+    std::vector<std::string_view> names;
+    for (int status = 0; status < 4; ++status)
+        names.push_back(grid::cell_status_name(static_cast<grid::CellStatus>(status)));
+    return names;
+}
+
+std::vector<double> row_places(const grid::GridSpec& spec) {
+    const grid::GridProjection projection(spec);
+    std::vector<double> rows;
+    rows.reserve(static_cast<std::size_t>(spec.ny));
+    for (int iy = 0; iy < spec.ny; ++iy)
+        rows.push_back(spec.in_degrees() ? projection.row_latitude_deg(iy) : spec.y_m(iy));
+    return rows;
+}
+
+std::vector<double> column_places(const grid::GridSpec& spec) {
+    const grid::GridProjection projection(spec);
+    std::vector<double> columns;
+    columns.reserve(static_cast<std::size_t>(spec.nx));
+    for (int ix = 0; ix < spec.nx; ++ix)
+        columns.push_back(spec.in_degrees() ? projection.column_longitude_deg(ix) : spec.x_m(ix));
+    return columns;
+}
+
+}  // namespace stormcellar::netcdf

@@ -1,0 +1,56 @@
+// export/cf_attributes.h -- what the variables of a grid are called and said to be, in the terms of CF; internal.
+//
+// This is the one table of these texts. NetCDF files (export/grid_netcdf.h) and Zarr arrays
+// (docs/web/zarr.md) are written from it, so that a reader finds the same in both.
+//
+// Units     CF units, named in the attributes.
+// Threads   Pure functions.
+// Errors    None; specs must be valid.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::netcdf {
+
+using CfValue = std::variant<std::string, double, std::vector<double>>;
+using CfAttributes = std::vector<std::pair<std::string, CfValue>>;
+
+// The names of the two dimensions of a map, and of their coordinates.
+struct MapNames {
+    const char* y;
+    const char* x;
+};
+[[nodiscard]] MapNames map_names(const grid::GridSpec& spec);
+// Returns azimuthal_equidistant, latitude_longitude or lambert_conformal_conic.
+[[nodiscard]] const char* mapping_name(grid::Projection projection);
+
+[[nodiscard]] CfAttributes time_attributes(std::string_view long_name);
+[[nodiscard]] CfAttributes height_attributes();
+[[nodiscard]] CfAttributes row_attributes(const grid::GridSpec& spec);
+[[nodiscard]] CfAttributes column_attributes(const grid::GridSpec& spec);
+// Of the variables lat and lon, where these are no dimensions.
+[[nodiscard]] CfAttributes latitude_attributes();
+[[nodiscard]] CfAttributes longitude_attributes();
+[[nodiscard]] CfAttributes mapping_attributes(const grid::GridSpec& spec);
+// The attributes with which a field refers to the map.
+[[nodiscard]] CfAttributes reference_to_map(const grid::GridSpec& spec);
+// `method` is that of the provenance.
+[[nodiscard]] CfAttributes field_attributes(level2::Moment moment, std::string_view method);
+
+// long_name, standard_name and comment of the states; the flags are apart.
+[[nodiscard]] CfAttributes status_attributes();
+// Returns the names of the four states, in the order of their numbers, which begin at 0.
+[[nodiscard]] std::vector<std::string_view> status_meanings();
+
+// The places of rows and columns: meters, or degrees of latitude and continuous longitude.
+[[nodiscard]] std::vector<double> row_places(const grid::GridSpec& spec);
+[[nodiscard]] std::vector<double> column_places(const grid::GridSpec& spec);
+
+}  // namespace stormcellar::netcdf
