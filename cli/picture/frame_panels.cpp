@@ -48,12 +48,13 @@ int run_panels(FrameOptions& options, SteadyTime start) {
     }
     const auto panels = panel_scenes(options.panels, options.scene_file, options.scene);
     if (!panels) return report_error(panels.error());
-    if (const Status fine = check_frame_output(options, panels->front().scene.product); !fine)
-        return report_error(fine.error());
+    // Before what a map's format asks for, which no panels can fulfill.
     if (still_format(options.output).encode_picture == nullptr) {
         return report_error(
             {ErrorCode::bad_argument, "--panels makes a picture; GeoTIFF and KMZ hold one map"});
     }
+    if (const Status fine = check_frame_output(options, panels->front().scene.product); !fine)
+        return report_error(fine.error());
     const auto grids = grids_of_panels(options, *panels);
     if (!grids) return report_error(grids.error());
     if (grids->empty()) return exit_nothing_matched;

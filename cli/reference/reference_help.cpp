@@ -1,5 +1,10 @@
 // The text of --help and --help-all: examples first, then what is usual, then the rest.
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,12 +14,25 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr std::size_t page_width = 80;
+constexpr std::size_t usual_width = 80, least_width = 60, most_width = 160;
 constexpr std::size_t text_column = 26;  // where the words beside an option begin
 constexpr std::size_t margin = 2;
 
+// Returns the number of columns of a page: $COLUMNS, by which a reader asks for another, within
+// what can be read.
+std::size_t page_width() {
+    const char* const asked = std::getenv("COLUMNS");
+    if (asked == nullptr) return usual_width;
+    const std::string_view text = asked;
+    std::size_t width = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
+    if (error != std::errc{} || end != text.data() + text.size()) return usual_width;
+    return std::clamp(width, least_width, most_width);
+}
+
 // Breaks a text at its blanks; the lines after the first begin at this column.
 std::string wrapped(const std::string& text, std::size_t column) {
+    const std::size_t width = page_width();
     std::string out;
     std::size_t at = column;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -22,15 +40,15 @@ std::string wrapped(const std::string& text, std::size_t column) {
         std::string word = text.substr(begin, end - begin);
         begin = end + 1;
         // A list without blanks may be longer than a line.
-        while (column + word.size() > page_width) {
-            const std::size_t comma = word.rfind(',', page_width - column - 1);
+        while (column + word.size() > width) {
+            const std::size_t comma = word.rfind(',', width - column - 1);
             if (comma == std::string::npos) break;
             if (at > column) out += '\n' + std::string(column, ' ');
             out += word.substr(0, comma + 1) + '\n' + std::string(column, ' ');
             word.erase(0, comma + 1);
             at = column;
         }
-        if (at > column && at + 1 + word.size() > page_width) {
+        if (at > column && at + 1 + word.size() > width) {
             out += '\n' + std::string(column, ' ');
             at = column;
         } else if (at > column) {
@@ -106,13 +124,14 @@ std::vector<const OptionReference*> usual_options(const CommandReference& comman
 std::string example_line(std::string_view line) {
     std::string out;
     std::size_t begin = 0;
-    std::size_t room = page_width - margin - 2;
+    const std::size_t width = page_width();
+    std::size_t room = width - margin - 2;
     while (line.size() - begin > room) {
         std::size_t end = line.rfind(" -", begin + room);
         if (end == std::string_view::npos || end <= begin) break;
         out += fmt::format("{} \\\n      ", line.substr(begin, end - begin));
         begin = end + 1;
-        room = page_width - 8;
+        room = width - 8;
     }
     return out + std::string(line.substr(begin));
 }

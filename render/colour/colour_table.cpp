@@ -6,12 +6,13 @@
 #include <string_view>
 
 #include "base/floating_point.h"
+#include "render/image/level.h"
 
 namespace stormcellar::render {
 namespace {
 
 std::uint8_t blend(std::uint8_t from, std::uint8_t to, double share) {
-    return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
+    return nearest_level(from + (to - from) * share);
 }
 
 }  // namespace

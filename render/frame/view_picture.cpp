@@ -138,12 +138,14 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
     if (fonts != nullptr) draw_map(canvas, *lines.map, *lines.shades, size.scale);
     draw_border(canvas, lines);
     if (fonts != nullptr) draw_rings(canvas, lines);
-    Image picture = canvas.image();
-    if (view == View::volume) draw_volume(drawn, geometry, threads, cache, picture);
-    if (fonts == nullptr) return picture;
-    Canvas marked(picture);
-    draw_marks(marked, *fonts, lines, plan_marks(*fonts, lines));
-    return marked.image();
+    if (view == View::volume) {
+        Image picture = canvas.image();
+        draw_volume(drawn, geometry, threads, cache, picture);
+        if (fonts == nullptr) return picture;
+        canvas.place(picture, 0, 0);
+    }
+    if (fonts != nullptr) draw_marks(canvas, *fonts, lines, plan_marks(*fonts, lines));
+    return canvas.image();
 }
 
 Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size,

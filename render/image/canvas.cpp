@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -73,9 +74,16 @@ void use_colour(cairo_t* context, Rgba8 colour) {
                           colour[3] / 255.0);
 }
 
-// Cairo's pixels are native 32-bit numbers with alpha in the highest byte.
-std::uint32_t packed(const std::uint8_t* rgba) {
-    return 0xFF000000U | (std::uint32_t{rgba[0]} << 16) | (std::uint32_t{rgba[1]} << 8) | rgba[2];
+// Cairo's pixels are 32-bit numbers, 0xAARRGGBB; those of an image are bytes, R G B A. Turns either
+// into the other, opaque: red and blue change places. The compiler does many pixels at once.
+static_assert(std::endian::native == std::endian::little);
+void swap_red_and_blue(const unsigned char* from, unsigned char* to, std::size_t pixels) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, from + 4 * i, sizeof pixel);
+        pixel = 0xFF000000U | (pixel & 0xFF00U) | ((pixel & 0xFFU) << 16) | ((pixel >> 16) & 0xFFU);
+        std::memcpy(to + 4 * i, &pixel, sizeof pixel);
+    }
 }
 
 }  // namespace
@@ -124,7 +132,11 @@ Canvas::Canvas(int width, int height, Rgba8 fill_colour)
     cairo_paint(context_.get());
 }
 
-Canvas::Canvas(const Image& opaque) : Canvas(opaque.width, opaque.height, {0, 0, 0, 255}) {
+Canvas::Canvas(const Image& opaque)
+    : width_(opaque.width),
+      height_(opaque.height),
+      surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, opaque.width, opaque.height)),
+      context_(cairo_create(surface_.get())) {
     place(opaque, 0, 0);
 }
 
@@ -214,16 +226,16 @@ void Canvas::place(const Image& image, int left, int top) {
     cairo_surface_flush(surface_.get());
     unsigned char* pixels = cairo_image_surface_get_data(surface_.get());
     const int stride = cairo_image_surface_get_stride(surface_.get());
+    const int first = std::max(0, -left);
+    const int end = std::min(image.width, width_ - left);
+    if (first >= end) return;
     for (int y = std::max(0, -top); y < std::min(image.height, height_ - top); ++y) {
-        unsigned char* row = pixels + static_cast<std::ptrdiff_t>(y + top) * stride;
-        for (int x = std::max(0, -left); x < std::min(image.width, width_ - left); ++x) {
-            const std::uint32_t pixel =
-                packed(image.rgba.data() +
-                       (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                        static_cast<std::size_t>(x)) *
-                           4);
-            std::memcpy(row + static_cast<std::ptrdiff_t>(x + left) * 4, &pixel, 4);
-        }
+        const auto from = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(first);
+        swap_red_and_blue(image.rgba.data() + 4 * from,
+                          pixels + static_cast<std::ptrdiff_t>(y + top) * stride +
+                              std::ptrdiff_t{4} * (first + left),
+                          static_cast<std::size_t>(end - first));
     }
     cairo_surface_mark_dirty(surface_.get());
 }
@@ -233,16 +245,10 @@ Image Canvas::image() const {
     const unsigned char* pixels = cairo_image_surface_get_data(surface_.get());
     const int stride = cairo_image_surface_get_stride(surface_.get());
     Image image(width_, height_, {0, 0, 0, 255});
-    std::uint8_t* to = image.rgba.data();
+    const auto width = static_cast<std::size_t>(width_);
     for (int y = 0; y < height_; ++y) {
-        const unsigned char* row = pixels + static_cast<std::ptrdiff_t>(y) * stride;
-        for (int x = 0; x < width_; ++x, to += 4) {
-            std::uint32_t pixel = 0;
-            std::memcpy(&pixel, row + static_cast<std::ptrdiff_t>(x) * 4, 4);
-            to[0] = static_cast<std::uint8_t>(pixel >> 16);
-            to[1] = static_cast<std::uint8_t>(pixel >> 8);
-            to[2] = static_cast<std::uint8_t>(pixel);
-        }
+        swap_red_and_blue(pixels + static_cast<std::ptrdiff_t>(y) * stride,
+                          image.rgba.data() + 4 * static_cast<std::size_t>(y) * width, width);
     }
     return image;
 }

@@ -1,7 +1,10 @@
 #include "stormcellar/render/image.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstring>
+
+#include "render/image/level.h"
 
 namespace stormcellar::render {
 namespace {
@@ -15,20 +18,20 @@ std::size_t pixel_offset(const Image& image, int x, int y) {
 }  // namespace
 
 Rgba8 over(const Rgba8& colour, const Rgba8& below) {
+    if (colour[3] == 255) return {colour[0], colour[1], colour[2], below[3]};
     Rgba8 mixed = below;
     const double alpha = colour[3] / 255.0;
     for (std::size_t c = 0; c < 3; ++c) {
-        mixed[c] = static_cast<std::uint8_t>(
-            std::lround(below[c] + alpha * (static_cast<double>(colour[c]) - below[c])));
+        mixed[c] = nearest_level(below[c] + alpha * (static_cast<double>(colour[c]) - below[c]));
     }
     return mixed;
 }
 
 Image::Image(int w, int h, Rgba8 fill)
     : width(w), height(h), rgba(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 4) {
-    for (std::size_t i = 0; i < rgba.size(); i += 4) {
-        std::copy(fill.begin(), fill.end(), rgba.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+    const auto pixel = std::bit_cast<std::uint32_t>(fill);
+    for (std::size_t i = 0; i < rgba.size(); i += sizeof pixel)
+        std::memcpy(rgba.data() + i, &pixel, sizeof pixel);
 }
 
 Rgba8 Image::at(int x, int y) const {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "render/image/level.h"
+
 namespace stormcellar::render {
 
 const Shades& shades_of(Theme theme) {
@@ -18,16 +20,19 @@ const Shades& shades_of(Theme theme) {
 }
 
 Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
+    if (share == 0) return one;
+    if (share == 1) return {other[0], other[1], other[2], one[3]};
     for (std::size_t c = 0; c < 3; ++c) {
         const double from = one[c];
-        one[c] = static_cast<std::uint8_t>(std::lround(from + share * (other[c] - from)));
+        one[c] = nearest_level(from + share * (other[c] - from));
     }
     return one;
 }
 
 Rgba8 hatched(Rgba8 ground, const Shades& shades, int x, int y, double scale) {
     const double period = 9 * scale;  // along a row of pixels
-    const double along = std::fmod(static_cast<double>(x + y), period);
+    const double place = x + y;
+    const double along = place - period * static_cast<int>(place / period);
     const double distance = std::min(along, period - along) / std::numbers::sqrt2;
     return mixed(ground, shades.hatch, std::clamp(0.5 * scale + 0.5 - distance, 0.0, 1.0));
 }

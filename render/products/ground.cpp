@@ -10,6 +10,28 @@
 namespace stormcellar::render {
 namespace {
 
+// Finds the column whose cell holds a point.
+class ColumnFinder {
+  public:
+    explicit ColumnFinder(const grid::GridSpec& spec)
+        : nx_(spec.nx),
+          ny_(spec.ny),
+          cell_width_m_(spec.cell_width_m()),
+          cell_height_m_(spec.cell_height_m()) {}
+
+    // Returns -1 beyond the grid.
+    [[nodiscard]] std::ptrdiff_t at(GroundPoint p) const {
+        const double x = p.x_m / cell_width_m_ + 0.5 * nx_;
+        const double y = p.y_m / cell_height_m_ + 0.5 * ny_;
+        if (!(x >= 0 && x < nx_ && y >= 0 && y < ny_)) return -1;
+        return static_cast<std::ptrdiff_t>(y) * nx_ + static_cast<std::ptrdiff_t>(x);
+    }
+
+  private:
+    int nx_, ny_;
+    double cell_width_m_, cell_height_m_;
+};
+
 // Returns true for the pixels of the dots that mark a value "at least".
 bool is_dot(int x, int y, double scale) {
     const int period = std::max(4, static_cast<int>(std::lround(6 * scale)));
@@ -23,18 +45,35 @@ constexpr double slanted_reach = 1.5;
 // Seen from straight above it goes on as far as maps hold.
 constexpr double farthest_m = 2e6;
 
+constexpr int band_rows = 8;
+
+// Calls work(y, ground of the row) for every row of a picture.
+template <class Work>
+void for_each_row(const ViewGeometry& geometry, int threads, Work work) {
+    const int height = geometry.height();
+    for_each_piece((height + band_rows - 1) / band_rows, threads, [&](int band) {
+        GroundRow row;
+        for (int y = band * band_rows; y < std::min((band + 1) * band_rows, height); ++y) {
+            geometry.ground_of_row(y, row);
+            work(y, row);
+        }
+    });
+}
+
 // Calls shade(column, patch) for every pixel over the grid.
 template <class Shade>
 Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, const GroundLook& look,
             int threads, Shade shade) {
     Image image(geometry.width(), geometry.height(), look.shades->page);
-    for_each_piece(image.height, threads, [&](int y) {
+    const ColumnFinder columns(spec);
+    for_each_row(geometry, threads, [&](int y, const GroundRow& row) {
         for (int x = 0; x < image.width; ++x) {
-            const auto p = geometry.ground({x + 0.5, y + 0.5});
-            if (!p) continue;
-            const std::ptrdiff_t column = column_at(spec, *p);
+            const auto place = static_cast<std::size_t>(x);
+            if (row.is_sky(place)) continue;
+            const GroundPoint p = {row.x_m[place], row.y_m[place]};
+            const std::ptrdiff_t column = columns.at(p);
             if (column < 0 && look.water == nullptr) continue;
-            const GroundPatch patch{x, y, look.water != nullptr ? look.water->water_at(*p) : 0, *p};
+            const GroundPatch patch{x, y, look.water != nullptr ? look.water->water_at(p) : 0, p};
             image.set(x, y,
                       column >= 0 ? shade(static_cast<std::size_t>(column), patch)
                                   : patch.shade(look, &GroundShades::beyond));
@@ -50,10 +89,7 @@ bool is_from_above(const ViewGeometry& geometry) {
 }
 
 std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
-    const double ix = std::floor(p.x_m / spec.cell_width_m() + 0.5 * spec.nx);
-    const double iy = std::floor(p.y_m / spec.cell_height_m() + 0.5 * spec.ny);
-    if (!(ix >= 0 && ix < spec.nx && iy >= 0 && iy < spec.ny)) return -1;
-    return static_cast<std::ptrdiff_t>(iy) * spec.nx + static_cast<std::ptrdiff_t>(ix);
+    return ColumnFinder(spec).at(p);
 }
 
 Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>& columns,
@@ -121,14 +157,14 @@ double reach_beyond_m(const ViewGeometry& geometry) {
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture) {
     if (is_from_above(geometry)) return;
     const double reach_m = reach_beyond_m(geometry);
-    for_each_piece(picture.height, threads, [&](int y) {
+    for_each_row(geometry, threads, [&](int y, const GroundRow& row) {
         for (int x = 0; x < picture.width; ++x) {
-            const auto p = geometry.ground({x + 0.5, y + 0.5});
-            if (!p) continue;
-            const double beyond_m =
-                std::hypot(std::max(0.0, std::abs(p->x_m) - geometry.half_x_m()),
-                           std::max(0.0, std::abs(p->y_m) - geometry.half_y_m()));
-            if (beyond_m == 0) continue;
+            const auto place = static_cast<std::size_t>(x);
+            if (row.is_sky(place)) continue;
+            const double aside_m = std::max(0.0, std::abs(row.x_m[place]) - geometry.half_x_m());
+            const double ahead_m = std::max(0.0, std::abs(row.y_m[place]) - geometry.half_y_m());
+            if (aside_m == 0 && ahead_m == 0) continue;
+            const double beyond_m = std::hypot(aside_m, ahead_m);
             const double share = std::min(1.0, beyond_m / reach_m);
             picture.set(x, y, mixed(picture.at(x, y), shades.page, share * (2 - share)));
         }

@@ -28,10 +28,14 @@ struct WaterMask {
         const double y = std::clamp((north_m - p.y_m) / metres_per_cell - 0.5, 0.0, height - 1.0);
         const int left = std::min(static_cast<int>(x), std::max(0, width - 2));
         const int top = std::min(static_cast<int>(y), std::max(0, height - 2));
-        const auto row = [&](int iy) {
-            return std::lerp(at(left, iy), at(std::min(left + 1, width - 1), iy), x - left);
-        };
-        return std::lerp(row(top), row(std::min(top + 1, height - 1)), y - top) / 255;
+        const int right = std::min(left + 1, width - 1);
+        const int bottom = std::min(top + 1, height - 1);
+        const double corner = at(left, top);
+        // Most places are far from any shore.
+        if (corner == at(right, top) && corner == at(left, bottom) && corner == at(right, bottom))
+            return corner / 255;
+        const auto row = [&](int iy) { return std::lerp(at(left, iy), at(right, iy), x - left); };
+        return std::lerp(row(top), row(bottom), y - top) / 255;
     }
 
   private:

@@ -240,4 +240,50 @@ std::optional<GroundPoint> ViewGeometry::ground(Pixel pixel) const {
     return GroundPoint{start[0] + depth * step[0], start[1] + depth * step[1]};
 }
 
+void ViewGeometry::ground_of_row(int y, GroundRow& row) const {
+    const auto width = static_cast<std::size_t>(width_);
+    row.x_m.resize(width);
+    row.y_m.resize(width);
+    const Pixel first = {0.5, y + 0.5};
+    if (drop_per_m2_ == 0) return flat_ground_of_row(first, row);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t x = 0; x < width; ++x) {
+        const auto at = ground({static_cast<double>(x) + 0.5, first.y}).value_or({nan, nan});
+        row.x_m[x] = at.x_m;
+        row.y_m[x] = at.y_m;
+    }
+}
+
+// A row of pixels is level, because right() is, so that all of its rays fall alike and meet a
+// flat ground at one depth.
+void ViewGeometry::flat_ground_of_row(Pixel first, GroundRow& row) const {
+    const double fall = along(first)[2];
+    const double depth = -(point(first, 0)[2] - ground_m_ * exaggeration_) / fall;
+    if (!(fall < -flattest) || (is_perspective() && !(depth > 0))) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        std::fill(row.x_m.begin(), row.x_m.end(), nan);
+        std::fill(row.y_m.begin(), row.y_m.end(), nan);
+        return;
+    }
+    const auto fill = [&](std::vector<double>& to, std::size_t axis) {
+        const double right = right_[axis];
+        if (is_perspective()) {
+            const double b = (0.5 * height_ - first.y) / focal_pixels_;
+            for (std::size_t x = 0; x < to.size(); ++x) {
+                const double a = (static_cast<int>(x) + 0.5 - 0.5 * width_) / focal_pixels_;
+                to[x] = eye_[axis] + depth * (forward_[axis] + a * right + b * up_[axis]);
+            }
+            return;
+        }
+        const double up = (0.5 * height_ - first.y) * metres_per_pixel_ * up_[axis];
+        const double ahead = depth * forward_[axis];
+        for (std::size_t x = 0; x < to.size(); ++x) {
+            const double a = (static_cast<int>(x) + 0.5 - 0.5 * width_) * metres_per_pixel_;
+            to[x] = eye_[axis] + (a * right + up) + ahead;
+        }
+    };
+    fill(row.x_m, 0);
+    fill(row.y_m, 1);
+}
+
 }  // namespace stormcellar::render

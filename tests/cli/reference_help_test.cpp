@@ -108,6 +108,24 @@ TEST_F(ReferenceHelp, SpeaksNoTypesOfTheParserAndFitsThePage) {
     }
 }
 
+// 2026-11-26: COLUMNS was ignored.
+TEST_F(ReferenceHelp, IsAsWideAsTheReaderAsks) {
+    const auto widest_line = [&](const char* columns) {
+        ::setenv("COLUMNS", columns, 1);
+        std::istringstream lines(help_of(at("frame"), HelpExtent::all));
+        ::unsetenv("COLUMNS");
+        std::size_t widest = 0;
+        for (std::string line; std::getline(lines, line);)
+            widest = std::max(widest, line.size());
+        return widest;
+    };
+    EXPECT_LE(widest_line("120"), 120U);
+    EXPECT_GT(widest_line("120"), 100U);
+    EXPECT_LE(widest_line("100000"), 160U) << "what can be read";
+    for (const char* unusable : {"", "wide", "100x", "-5"})
+        EXPECT_LE(widest_line(unusable), 80U) << unusable;
+}
+
 TEST_F(ReferenceHelp, BeginsWithExamplesAndAtMostTenOptions) {
     for (const CommandReference* command : all_) {
         const std::string text = help_of(*command, HelpExtent::usual);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "render/image/level.h"
 
 namespace stormcellar::render {
 namespace {
@@ -104,6 +107,35 @@ TEST(Theme, NamesAreReadBack) {
               "there is no theme 'sepia'; the known themes are dark or light");
     EXPECT_EQ(theme_from_name("ligth").error().message,
               "there is no theme 'ligth'; did you mean 'light'?");
+}
+
+// The promise of nearest_level(): that of std::lround(), halves and their neighbors included.
+TEST(NearestLevel, IsThatOfTheLibrary) {
+    for (int i = 0; i <= 510; ++i) {
+        const double half = i / 2.0;
+        for (const double level : {half, std::nextafter(half, 0), std::nextafter(half, 255)})
+            EXPECT_EQ(nearest_level(level), std::lround(level)) << level;
+    }
+    std::mt19937 random(31);
+    std::uniform_real_distribution<double> any(0, 255);
+    for (int i = 0; i < 100'000; ++i) {
+        const double level = any(random);
+        ASSERT_EQ(nearest_level(level), std::lround(level)) << level;
+    }
+}
+
+TEST(Hatched, HasALineEveryNinePixelsOfAnyScale) {
+    for (const double scale : {0.6, 1.0, 1.37, 4.0}) {
+        for (int place = 0; place < 6000; ++place) {
+            const double along = std::fmod(place, 9 * scale);
+            const double distance = std::min(along, 9 * scale - along) / std::sqrt(2);
+            const double share = std::clamp(0.5 * scale + 0.5 - distance, 0.0, 1.0);
+            const Rgba8 slow = mixed({0, 0, 0, 255}, shades::dark.hatch, share);
+            const Rgba8 fast = hatched({0, 0, 0, 255}, shades::dark, place / 3, place - place / 3,
+                                       scale);
+            ASSERT_EQ(fast, slow) << scale << " " << place;
+        }
+    }
 }
 
 TEST(Mixed, GoesFromOneToTheOther) {

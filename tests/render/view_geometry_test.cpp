@@ -84,6 +84,37 @@ TEST(ViewGeometry, TheGroundUnderAPixelProjectsBackToIt) {
     EXPECT_FALSE(view_from(30, 90).ground({200.5, 333.5}));
 }
 
+// The promise of ground_of_row(): the numbers of ground(), to the bit.
+TEST(ViewGeometry, TheGroundOfARowIsThatOfItsPixels) {
+    const Camera from_above{180, 0, 1}, aslant{211, 63, 1.7}, level{180, 90, 1};
+    Camera perspective{140, 71, 1};
+    perspective.field_of_view_deg = 50;
+    Camera placed = perspective;
+    placed.eye = Eye{-70e3, 30e3, 4000};
+    placed.look_at = Eye{10e3, -5e3, 2000};
+    std::size_t sky = 0, ground = 0;
+    for (const Camera& camera : {from_above, aslant, level, perspective, placed}) {
+        for (const bool curved : {false, true}) {
+            const ViewGeometry view(small_spec(100, 16), camera, 8, 101, 67, curved);
+            GroundRow row;
+            for (int y = 0; y < view.height(); ++y) {
+                view.ground_of_row(y, row);
+                for (int x = 0; x < view.width(); ++x) {
+                    const auto at = view.ground({x + 0.5, y + 0.5});
+                    const auto place = static_cast<std::size_t>(x);
+                    ASSERT_EQ(row.is_sky(place), !at) << x << " " << y << " " << curved;
+                    (at ? ground : sky) += 1;
+                    if (!at) continue;
+                    ASSERT_EQ(row.x_m[place], at->x_m) << x << " " << y << " " << curved;
+                    ASSERT_EQ(row.y_m[place], at->y_m) << x << " " << y << " " << curved;
+                }
+            }
+        }
+    }
+    EXPECT_GT(sky, 10'000U);
+    EXPECT_GT(ground, 30'000U);
+}
+
 TEST(ViewGeometry, DepthsEncloseTheCells) {
     for (int azimuth = 0; azimuth < 360; azimuth += 40) {
         const ViewGeometry view = view_from(azimuth, 62);

@@ -19,7 +19,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/render/scene.h"
@@ -34,6 +36,12 @@ struct Pixel {
 
 struct GroundPoint {
     double x_m = 0, y_m = 0;
+};
+
+// The ground under the middles of a row of pixels; not a number where there is sky.
+struct GroundRow {
+    std::vector<double> x_m, y_m;
+    [[nodiscard]] bool is_sky(std::size_t x) const { return std::isnan(x_m[x]); }
 };
 
 class ViewGeometry {
@@ -68,6 +76,10 @@ class ViewGeometry {
     // Returns the ground under a pixel, also beyond the grid, or none where there is sky.
     [[nodiscard]] std::optional<GroundPoint> ground(Pixel pixel) const;
 
+    // Puts the ground under all pixels of a row, from left to right, into `row`, whose memory is
+    // used again. The numbers are those of ground(), to the bit.
+    void ground_of_row(int y, GroundRow& row) const;
+
     // The depths between which the box of the grid's cells lies, in front of the camera. far_m() is
     // always the larger.
     [[nodiscard]] double near_m() const { return near_m_; }
@@ -98,6 +110,7 @@ class ViewGeometry {
     void look_at(const Eye& point);
     void find_depths();
     [[nodiscard]] std::array<Vec3, 8> corners(double low_m) const;
+    void flat_ground_of_row(Pixel first, GroundRow& row) const;
 
     int width_, height_;
     double exaggeration_;
