@@ -11,9 +11,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr int column_step = 2;         // of the columns that are read, in both directions
 constexpr double least_area_km2 = 60;  // below this, a threshold is reached by specks only
-constexpr double clear_air_km2 = 150;  // of 20 dBZ
 constexpr double range_share = 0.02;   // of the columns beyond each end of the region
 constexpr double wider_share = 0.12, wider_m = 5e3;
 constexpr double least_half_m = 15e3;  // of the region, in each direction
@@ -21,11 +19,10 @@ constexpr double filled_share = 0.84;
 constexpr double fitted_field_of_view_deg = 40;
 constexpr double usual_azimuth_deg = 180, farthest_turn_deg = 45;
 constexpr double long_ratio = 1.8;  // a region as long as this times its width is a line
-constexpr double top_dbz = 18;
 constexpr double least_top_m = 2e3;
 constexpr double sun_from_camera_deg = 65, sun_height_deg = 40;
 constexpr double earth_diameter_m = 2 * 6371e3;
-constexpr std::size_t all_columns = EchoOutline::thresholds_dbz.size();
+constexpr std::size_t all_columns = EchoOutline::all_columns;
 
 double scalar_product(const Vec3& a, const Vec3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -43,17 +40,6 @@ struct Region {
     [[nodiscard]] double side_m() const { return std::hypot(width_m(), height_m()) / std::sqrt(2); }
 };
 
-// The edges of a tile, in meters from the grid's middle.
-double tile_west_m(const EchoOutline& outline, int x) {
-    const grid::GridSpec& spec = outline.spec();
-    return (std::min(x * EchoOutline::tile_columns, spec.nx) - 0.5 * spec.nx) * spec.cell_width_m();
-}
-double tile_south_m(const EchoOutline& outline, int y) {
-    const grid::GridSpec& spec = outline.spec();
-    return (std::min(y * EchoOutline::tile_columns, spec.ny) - 0.5 * spec.ny) *
-           spec.cell_height_m();
-}
-
 template <class Each>
 void for_each_tile(const EchoOutline& outline, Each each) {
     for (int x = 0; x < outline.across(); ++x) {
@@ -62,19 +48,10 @@ void for_each_tile(const EchoOutline& outline, Each each) {
     }
 }
 
-std::array<double, all_columns + 1> columns_that_reach(const EchoOutline& outline) {
-    std::array<double, all_columns + 1> columns{};
-    for_each_tile(outline, [&](int, int, const EchoOutline::Tile& tile) {
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            columns[k] += tile.columns[k];
-    });
-    return columns;
-}
-
 // Returns the highest threshold that enough columns reach; all columns if there is none; none if
 // there is no value at all.
 std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
-    const auto columns = columns_that_reach(outline);
+    const auto columns = outline.columns();
     for (std::size_t k = 0; k < all_columns; ++k) {
         if (k == 1) continue;  // 35 dBZ only adds columns to those of 40
         if (columns[k] * outline.column_km2() >= least_area_km2) return k;
@@ -121,14 +98,12 @@ std::optional<Region> region_of(const EchoOutline& outline) {
     const auto [first_y, last_y] = middle_range(by_y);
     Region region;
     region.of_threshold = *shown == 0 ? 1 : *shown;
-    region.west_m = tile_west_m(outline, first_x);
-    region.east_m = tile_west_m(outline, last_x + 1);
-    region.south_m = tile_south_m(outline, first_y);
-    region.north_m = tile_south_m(outline, last_y + 1);
-    widen(region.west_m, region.east_m, tile_west_m(outline, 0),
-          tile_west_m(outline, outline.across()));
-    widen(region.south_m, region.north_m, tile_south_m(outline, 0),
-          tile_south_m(outline, outline.up()));
+    region.west_m = outline.west_m(first_x);
+    region.east_m = outline.west_m(last_x + 1);
+    region.south_m = outline.south_m(first_y);
+    region.north_m = outline.south_m(last_y + 1);
+    widen(region.west_m, region.east_m, outline.west_m(0), outline.west_m(outline.across()));
+    widen(region.south_m, region.north_m, outline.south_m(0), outline.south_m(outline.up()));
     return region;
 }
 
@@ -143,8 +118,8 @@ std::vector<Column> columns_of(const EchoOutline& outline, const Region& region)
     for_each_tile(outline, [&](int x, int y, const EchoOutline::Tile& tile) {
         const int count = tile.columns[region.of_threshold];
         if (count == 0) return;
-        const double x_m = 0.5 * (tile_west_m(outline, x) + tile_west_m(outline, x + 1));
-        const double y_m = 0.5 * (tile_south_m(outline, y) + tile_south_m(outline, y + 1));
+        const double x_m = 0.5 * (outline.west_m(x) + outline.west_m(x + 1));
+        const double y_m = 0.5 * (outline.south_m(y) + outline.south_m(y + 1));
         if (x_m < region.west_m || x_m > region.east_m || y_m < region.south_m ||
             y_m > region.north_m) {
             return;
@@ -318,97 +293,6 @@ void place_camera(const std::vector<Vec3>& points, const Region& region, const S
 }
 
 }  // namespace
-
-// Reads the columns of one brick after the other.
-class EchoOutline::Reader {
-  public:
-    Reader(const grid::BrickView& view, level2::Moment moment) : view_(view) {
-        const auto code_of = [&](double value) {
-            const auto& q = view.quantization;
-            const double code =
-                grid::first_value_code +
-                (value - static_cast<double>(q.first_value)) / static_cast<double>(q.step);
-            return static_cast<int>(std::ceil(code));
-        };
-        for (std::size_t k = 0; k < thresholds_dbz.size(); ++k) {
-            codes_[k] = moment == level2::Moment::ref ? code_of(thresholds_dbz[k])
-                                                      : std::numeric_limits<int>::max();
-        }
-        top_code_ = moment == level2::Moment::ref ? code_of(top_dbz) : grid::first_value_code;
-    }
-    void read(int bx, int by, std::vector<Tile>& tiles, int tiles_up) const {
-        for (int x = bx * grid::brick_edge; x < (bx + 1) * grid::brick_edge; x += column_step) {
-            if (x >= view_.spec->nx) break;
-            for (int y = by * grid::brick_edge; y < (by + 1) * grid::brick_edge; y += column_step) {
-                if (y >= view_.spec->ny) break;
-                add_column(x, y,
-                           tiles[static_cast<std::size_t>(x / tile_columns) *
-                                     static_cast<std::size_t>(tiles_up) +
-                                 static_cast<std::size_t>(y / tile_columns)]);
-            }
-        }
-    }
-
-  private:
-    void add_column(int x, int y, Tile& tile) const {
-        const std::size_t column = view_.offset_x(x) + view_.offset_y(y);
-        int largest = 0, top = -1, highest = -1;
-        for (int bz = 0; bz < view_.bricks_z; ++bz) {
-            const auto& brick =
-                view_.bricks[view_.brick_index(x / grid::brick_edge, y / grid::brick_edge, bz)];
-            if (brick.kind != grid::BrickKind::stored || brick.value_count == 0) continue;
-            const int end = std::min((bz + 1) * grid::brick_edge, view_.spec->nz());
-            for (int z = bz * grid::brick_edge; z < end; ++z) {
-                const int code = view_.code_at(column + view_.offset_z(z));
-                largest = std::max(largest, code);
-                if (code >= grid::first_value_code) highest = z;
-                if (code >= top_code_) top = z;
-            }
-        }
-        if (largest < grid::first_value_code) return;
-        for (std::size_t k = 0; k < codes_.size(); ++k)
-            tile.columns[k] += largest >= codes_[k] ? 1 : 0;
-        ++tile.columns[thresholds_dbz.size()];
-        // Echo that never reaches the usual value of a top ends where it ends.
-        const int level = top >= 0 ? top : highest;
-        tile.top_m = std::max(
-            tile.top_m, static_cast<float>(view_.spec->levels_m[static_cast<std::size_t>(level)]));
-    }
-
-    const grid::BrickView& view_;
-    std::array<int, thresholds_dbz.size()> codes_{};
-    int top_code_ = 0;
-};
-
-void EchoOutline::add(const grid::BrickView& view, level2::Moment moment) {
-    if (tiles_.empty()) {
-        spec_ = *view.spec;
-        across_ = (spec_.nx + tile_columns - 1) / tile_columns;
-        up_ = (spec_.ny + tile_columns - 1) / tile_columns;
-        tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(up_));
-    }
-    if (!(spec_ == *view.spec)) return;
-    const Reader reader(view, moment);
-    for (int bx = 0; bx < view.bricks_x; ++bx) {
-        for (int by = 0; by < view.bricks_y; ++by)
-            reader.read(bx, by, tiles_, up_);
-    }
-}
-
-bool is_clear_air(const EchoOutline& outline) {
-    if (outline.empty()) return false;
-    const auto columns = columns_that_reach(outline);
-    const auto km2 = [&](std::size_t k) { return columns[k] * outline.column_km2(); };
-    constexpr std::size_t of_30_dbz = 2, of_20_dbz = 3;
-    static_assert(EchoOutline::thresholds_dbz[of_30_dbz] == 30 &&
-                  EchoOutline::thresholds_dbz[of_20_dbz] == 20);
-    return columns[all_columns] > 0 && km2(of_20_dbz) < clear_air_km2 &&
-           km2(of_30_dbz) < least_area_km2;
-}
-
-double EchoOutline::column_km2() const {
-    return column_step * column_step * spec_.cell_width_m() * spec_.cell_height_m() / 1e6;
-}
 
 FittedView fit_view(const EchoOutline& outline, const Scene& scene, int width, int height,
                     const FitParts& parts, bool orbits) {

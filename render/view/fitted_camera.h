@@ -1,7 +1,7 @@
 // render/view/fitted_camera.h -- chooses camera, exaggeration, opacity and sun from the echo that
 // is to be seen.
 //
-// An EchoOutline says where echo stands, for one grid or for all grids of a loop, which then stands
+// The outline says where echo stands, for one grid or for all grids of a loop, which then stands
 // still. fit_view() chooses what the caller leaves to it:
 //   shown    The columns that reach the highest of 40, 30, 20 and 5 dBZ that covers 60 km2 or more;
 //            else all columns with a value. Their 2 to 98 % ranges in both directions, widened by
@@ -19,57 +19,14 @@
 // Without any echo the camera sees the whole grid.
 //
 // Units     As in stormcellar/render/scene.h.
-// Threads   An EchoOutline may be used by one thread at a time; fit_view() is pure.
+// Threads   Functions without state.
 // Errors    None.
-// Cost      Reads the codes of every second column in each direction of bricks with values, once.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include "stormcellar/grid/brick_view.h"
+#include "render/view/echo_outline.h"
 #include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
-
-class EchoOutline {
-  public:
-    static constexpr int tile_columns = 4;
-    static constexpr std::array<double, 5> thresholds_dbz = {40, 35, 30, 20, 5};
-
-    EchoOutline() = default;
-    EchoOutline(const grid::BrickView& view, level2::Moment moment) { add(view, moment); }
-    // Adds a grid. One that does not lie where the first one lies is left out.
-    void add(const grid::BrickView& view, level2::Moment moment);
-
-    // A square of columns: how many reach each threshold, how many have a value, and the height of
-    // the highest cell that counts as a top, above sea level.
-    struct Tile {
-        std::array<std::int32_t, thresholds_dbz.size() + 1> columns{};
-        float top_m = 0;
-    };
-    [[nodiscard]] bool empty() const { return tiles_.empty(); }
-    [[nodiscard]] int across() const { return across_; }
-    [[nodiscard]] int up() const { return up_; }
-    [[nodiscard]] const Tile& tile(int x, int y) const {
-        return tiles_[static_cast<std::size_t>(x) * static_cast<std::size_t>(up_) +
-                      static_cast<std::size_t>(y)];
-    }
-    [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
-    // The area that each counted column stands for.
-    [[nodiscard]] double column_km2() const;
-
-  private:
-    class Reader;
-    grid::GridSpec spec_;
-    int across_ = 0, up_ = 0;
-    std::vector<Tile> tiles_;
-};
-
-// Returns true if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less than 60 km2:
-// insects, birds, dust, the ground about the radar, light snow.
-[[nodiscard]] bool is_clear_air(const EchoOutline& outline);
 
 // What fit_view() chooses; all else stays as the scene has it.
 struct FitParts {

@@ -1,5 +1,4 @@
 // Pictures of files, without a daemon, and where commands find the service's directories.
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -8,9 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "tests/cli/run_stormcellar.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/cli/files_and_service.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -18,20 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class FrameFiles : public ::testing::Test {
+class FrameFiles : public FilesAndService {
   protected:
-    void SetUp() override {
-        STORMCELLAR_NEED_DATA();
-        data_ = *testing::data_directory();
-        std::ofstream(directory_ / "config.toml")
-            << "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n";
-    }
-
-    [[nodiscard]] std::string volume(const char* name) const {
-        return (data_ / "volumes" / name).native();
-    }
-    [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).native(); }
-
     [[nodiscard]] std::string bytes_of(const std::string& path) const {
         std::ifstream file(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
@@ -50,21 +35,6 @@ class FrameFiles : public ::testing::Test {
         }
         return pixels;
     }
-
-    // As the daemon does: the raw file to catalog and cache.
-    void ingest(const std::string& file) {
-        fs::create_directories(directory_ / "drop");
-        fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());
-        testing::RunningProgram daemon(STORMCELLARD, {"--config", out("config.toml")});
-        ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
-            return fs::is_directory(directory_ / "cache") &&
-                   run({"cache", "list", "--cache", out("cache")}).status == 0;
-        })) << daemon.err();
-        EXPECT_EQ(daemon.end(SIGTERM), 0);
-    }
-
-    testing::TemporaryDirectory directory_;
-    fs::path data_;
 };
 
 // The daemon's own grid of the file is drawn to the same pixel, with the same words.

@@ -1,15 +1,12 @@
 // Sweeps as the radar saw them: of a file, of a file that is cut short, of a domain by the catalog,
 // and loops of them.
-#include <csignal>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/run_stormcellar.h"
-#include "tests/testing/data.h"
-#include "tests/testing/temporary_directory.h"
+#include "tests/cli/files_and_service.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -17,20 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class Ppi : public ::testing::Test {
+class Ppi : public FilesAndService {
   protected:
-    void SetUp() override {
-        STORMCELLAR_NEED_DATA();
-        data_ = *testing::data_directory();
-        std::ofstream(directory_ / "config.toml")
-            << "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n";
-    }
-
-    [[nodiscard]] std::string volume(const char* name) const {
-        return (data_ / "volumes" / name).native();
-    }
-    [[nodiscard]] std::string out(const char* name) const { return (directory_ / name).native(); }
-
     // The first bytes of a volume, as of one that the radar is still making.
     [[nodiscard]] std::string cut_volume(const char* name, std::size_t bytes) const {
         std::ifstream whole(volume(name), std::ios::binary);
@@ -47,21 +32,6 @@ class Ppi : public ::testing::Test {
         EXPECT_EQ(ran.status, 0) << ran.err;
         return ran.status == 0 ? nlohmann::json::parse(ran.out) : nlohmann::json{};
     }
-
-    // As the daemon does: the raw file to catalog and cache.
-    void ingest(const std::string& file) {
-        fs::create_directories(directory_ / "drop");
-        fs::copy_file(file, directory_ / "drop" / fs::path(file).filename());
-        testing::RunningProgram daemon(STORMCELLARD, {"--config", out("config.toml")});
-        ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
-            return fs::is_directory(directory_ / "cache") &&
-                   run({"cache", "list", "--cache", out("cache")}).status == 0;
-        })) << daemon.err();
-        EXPECT_EQ(daemon.end(SIGTERM), 0);
-    }
-
-    testing::TemporaryDirectory directory_;
-    fs::path data_;
 };
 
 TEST_F(Ppi, SaysWhichSweepsThereAre) {

@@ -24,8 +24,10 @@ class RowSink final : public Sink {
         return Taken{};
     }
     Result<int> mark_missing(const OnStep& /*step*/) override {
-        while (hold)
+        while (hold) {
+            is_held = true;
             std::this_thread::sleep_for(milliseconds{1});
+        }
         if (throws) throw std::runtime_error("no memory");
         ++looks;
         return 0;
@@ -36,7 +38,7 @@ class RowSink final : public Sink {
         return 12;
     }
     std::atomic<int> looks{0}, deletions{0};
-    std::atomic<bool> hold{false}, throws{false};
+    std::atomic<bool> hold{false}, is_held{false}, throws{false};
     std::atomic<milliseconds> kept{};
 };
 
@@ -105,6 +107,9 @@ TEST_F(RowKeeperTest, ForgetsOnceAnHour) {
 TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
     sink_.hold = true;
     keeper_.look(now_, {});
+    // The time of the look counts from here: the system may start its thread late.
+    while (!sink_.is_held)
+        std::this_thread::sleep_for(milliseconds{1});
     std::this_thread::sleep_for(milliseconds{200});
     keeper_.look(now_ + seconds{60}, {});
     sink_.hold = false;

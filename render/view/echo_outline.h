@@ -1,0 +1,66 @@
+// render/view/echo_outline.h -- where echo stands in a grid, or in all grids of a loop: for each
+// small square of columns how many reach each of some thresholds, and how high the tops are.
+//
+// Threads   An EchoOutline may be used by one thread at a time.
+// Errors    None.
+// Cost      Reads the codes of every second column in each direction of bricks with values, once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/level2/moment.h"
+
+namespace stormcellar::render {
+
+class EchoOutline {
+  public:
+    static constexpr int tile_columns = 4;
+    static constexpr std::array<double, 5> thresholds_dbz = {40, 35, 30, 20, 5};
+    // Counts of columns have a place for each threshold, then one for all columns with a value.
+    static constexpr std::size_t all_columns = thresholds_dbz.size();
+
+    EchoOutline() = default;
+    EchoOutline(const grid::BrickView& view, level2::Moment moment) { add(view, moment); }
+    // Adds a grid. One that does not lie where the first one lies is left out.
+    void add(const grid::BrickView& view, level2::Moment moment);
+
+    // A square of columns: how many reach each threshold, how many have a value, and the height of
+    // the highest cell that counts as a top, above sea level.
+    struct Tile {
+        std::array<std::int32_t, all_columns + 1> columns{};
+        float top_m = 0;
+    };
+    [[nodiscard]] bool empty() const { return tiles_.empty(); }
+    [[nodiscard]] int across() const { return across_; }
+    [[nodiscard]] int up() const { return up_; }
+    [[nodiscard]] const Tile& tile(int x, int y) const {
+        return tiles_[static_cast<std::size_t>(x) * static_cast<std::size_t>(up_) +
+                      static_cast<std::size_t>(y)];
+    }
+    [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
+    // The edges of a tile, in meters from the grid's middle; those of a number past the last one
+    // are the edges of the grid.
+    [[nodiscard]] double west_m(int x) const;
+    [[nodiscard]] double south_m(int y) const;
+    // The area that each counted column stands for.
+    [[nodiscard]] double column_km2() const;
+    // The columns of all tiles together.
+    [[nodiscard]] std::array<double, all_columns + 1> columns() const;
+
+  private:
+    class Reader;
+    grid::GridSpec spec_;
+    int across_ = 0, up_ = 0;
+    std::vector<Tile> tiles_;
+};
+
+// Returns true if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less than 60 km2:
+// insects, birds, dust, the ground about the radar, light snow.
+[[nodiscard]] bool is_clear_air(const EchoOutline& outline);
+
+}  // namespace stormcellar::render
