@@ -36,9 +36,12 @@ const std::map<std::string, Rooms> allowed = {
     {"pipeline", {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache"}},
     {"daemon",
      {"base", "accuracy", "archive", "bunzip", "level2", "catalog", "grid", "cache", "pipeline"}},
+    {"web",
+     {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache", "render", "export",
+      "pipeline"}},
     {"cli",
      {"base", "accuracy", "archive", "bunzip", "fetch", "level2", "catalog", "grid", "cache",
-      "render", "synth", "export", "pipeline"}},
+      "render", "synth", "export", "pipeline", "web"}},
 };
 
 // Of the rooms inside a room, what each may include beside itself; the lowest ones first. A room
@@ -90,6 +93,12 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"loops", {"config", "log", "process", "queue", "status", "watch"}},
       {"care", {"log", "process", "queue", "status"}},
       {"service", {"care", "config", "log", "loops", "process", "queue", "status", "watch"}}}},
+    {"web",
+     {{"config", {}},
+      {"http", {}},
+      {"data", {"http"}},
+      {"doors", {"data", "http"}},
+      {"service", {"config", "data", "doors", "http"}}}},
     {"cli",
      {{"shared", {}},
       {"grid", {"shared"}},

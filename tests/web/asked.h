@@ -1,0 +1,19 @@
+// tests/web/asked.h -- asks doors without a server, and reads what they answer.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "web/http/door.h"
+
+namespace stormcellar::web {
+
+// A request for a path with a query, as the server would pass it on.
+[[nodiscard]] Request request_for(std::string_view target, Fields headers = {});
+// Asks as the server does: answer_at_once(), and answer() if that gives none.
+[[nodiscard]] Answer asked(Door& door, std::string_view target, Fields headers = {});
+[[nodiscard]] std::string body_of(const Answer& answer);
+// The first header of this name; empty if there is none.
+[[nodiscard]] std::string header_of(const Answer& answer, std::string_view name);
+
+}  // namespace stormcellar::web

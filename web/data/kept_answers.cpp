@@ -1,0 +1,86 @@
+#include "web/data/kept_answers.h"
+
+#include <utility>
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::uint64_t overhead_bytes = 256;
+
+std::uint64_t size_in_budget(const std::string& key, const Kept& value) {
+    return key.size() + value.bytes->size() + value.etag.size() + value.notes.size() +
+           overhead_bytes;
+}
+
+}  // namespace
+
+// A value that one thread makes while others wait for it.
+struct KeptAnswers::Making {
+    std::condition_variable done;
+    std::optional<Result<Kept>> result;
+};
+
+std::optional<Kept> KeptAnswers::find(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = by_key_.find(key);
+    if (found == by_key_.end()) return std::nullopt;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->value;
+}
+
+void KeptAnswers::keep(const std::string& key, const Kept& value) {
+    const std::uint64_t size = size_in_budget(key, value);
+    if (size > budget_bytes_ / 4 || by_key_.contains(key)) return;
+    entries_.push_front({key, value});
+    by_key_[key] = entries_.begin();
+    bytes_ += size;
+    while (bytes_ > budget_bytes_) {
+        const Entry& last = entries_.back();
+        bytes_ -= size_in_budget(last.key, last.value);
+        by_key_.erase(last.key);
+        entries_.pop_back();
+    }
+}
+
+Result<Kept> KeptAnswers::find_or_make(const std::string& key,
+                                       const std::function<Result<Kept>()>& make) {
+    if (auto kept = find(key)) return *std::move(kept);
+    std::unique_lock lock(mutex_);
+    // Another thread may have made it since.
+    if (const auto found = by_key_.find(key); found != by_key_.end()) return found->second->value;
+    if (const auto other = making_.find(key); other != making_.end()) {
+        const std::shared_ptr<Making> theirs = other->second;
+        theirs->done.wait(lock, [&] { return theirs->result.has_value(); });
+        return *theirs->result;
+    }
+    const auto ours = std::make_shared<Making>();
+    making_[key] = ours;
+    lock.unlock();
+    Result<Kept> made = make();
+    lock.lock();
+    if (made) keep(key, *made);
+    making_.erase(key);
+    ours->result = made;
+    ours->done.notify_all();
+    return made;
+}
+
+void KeptAnswers::forget(std::string_view prefix) {
+    const std::scoped_lock lock(mutex_);
+    for (auto entry = entries_.begin(); entry != entries_.end();) {
+        if (!entry->key.starts_with(prefix)) {
+            ++entry;
+            continue;
+        }
+        bytes_ -= size_in_budget(entry->key, entry->value);
+        by_key_.erase(entry->key);
+        entry = entries_.erase(entry);
+    }
+}
+
+std::uint64_t KeptAnswers::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace stormcellar::web

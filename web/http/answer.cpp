@@ -1,0 +1,130 @@
+#include "web/http/answer.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/printable.h"
+
+namespace stormcellar::web {
+
+std::uint64_t size_of(const Pieces& pieces) {
+    std::uint64_t size = 0;
+    for (const Piece& piece : pieces) {
+        if (const auto* text = std::get_if<Text>(&piece)) size += (*text)->size();
+        if (const auto* slice = std::get_if<FileSlice>(&piece)) size += slice->size;
+    }
+    return size;
+}
+
+Pieces part_of(const Pieces& pieces, std::uint64_t offset, std::uint64_t size) {
+    Pieces part;
+    for (const Piece& piece : pieces) {
+        const std::uint64_t length = size_of({piece});
+        const std::uint64_t skipped = std::min(offset, length);
+        const std::uint64_t taken = std::min(size, length - skipped);
+        offset -= skipped;
+        size -= taken;
+        if (taken == 0) continue;
+        if (taken == length) {
+            part.push_back(piece);
+        } else if (const auto* text = std::get_if<Text>(&piece)) {
+            part.emplace_back(text_of((*text)->substr(skipped, taken)));
+        } else if (const auto* slice = std::get_if<FileSlice>(&piece)) {
+            part.emplace_back(FileSlice{slice->file, slice->offset + skipped, taken});
+        }
+    }
+    return part;
+}
+
+Answer text_answer(unsigned status, std::string content_type, std::string body) {
+    Answer answer;
+    answer.status = status;
+    answer.with("Content-Type", std::move(content_type));
+    answer.body = Pieces{text_of(std::move(body))};
+    return answer;
+}
+
+Answer sentence(unsigned status, std::string_view text) {
+    return text_answer(status, "text/plain; charset=utf-8", std::string(text) + "\n");
+}
+
+Answer json_error(unsigned status, std::string_view text) {
+    const nlohmann::json error = {{"error", printable(text)}};
+    return text_answer(status, "application/json", error.dump() + "\n");
+}
+
+unsigned status_of(const Error& error) {
+    switch (error.code) {
+        case ErrorCode::not_found:
+            return 404;
+        case ErrorCode::bad_argument:
+            return 400;
+        case ErrorCode::busy:
+        case ErrorCode::exhausted:
+        case ErrorCode::over_budget:
+        case ErrorCode::no_space:
+        case ErrorCode::unmet:
+            return 503;
+        case ErrorCode::empty:
+        case ErrorCode::truncated:
+        case ErrorCode::corrupt:
+        case ErrorCode::unsupported:
+        case ErrorCode::not_level2:
+        case ErrorCode::not_a_file:
+        case ErrorCode::io:
+        case ErrorCode::permission:
+        case ErrorCode::internal:
+            return 500;
+    }
+    return 500;
+}
+
+Answer json_error(const Error& error) {
+    Answer answer = json_error(status_of(error), error.message);
+    if (answer.status == 503) answer.with("Retry-After", "5");
+    return answer;
+}
+
+Answer moved_to(const Request& request, std::string_view path) {
+    std::string target;
+    for (const std::string_view segment : segments_of(path)) target += "/" + encoded(segment);
+    if (target.empty() || path.back() == '/') target += '/';
+    return sentence(308, "This is at " + target).with("Location", request.base + target);
+}
+
+Answer come_back(std::chrono::seconds after, std::string_view text) {
+    return sentence(503, text).with("Retry-After", std::to_string(after.count()));
+}
+
+std::string xml_escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '&':
+                out += "&amp;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\'':
+                out += "&#39;";
+                break;
+            default:
+                if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+                    out += "\xEF\xBF\xBD";
+                else
+                    out += c;
+        }
+    }
+    return out;
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,141 @@
+#include "web/http/connection_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <linux/sockios.h>
+#include <linux/tcp.h>
+#include <netinet/in.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::chrono::milliseconds look_every{500};
+
+// The bytes that the other side has acknowledged since the connection was opened.
+std::uint64_t acknowledged_bytes(int descriptor) {
+    tcp_info info{};
+    socklen_t size = sizeof info;
+    if (::getsockopt(descriptor, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return 0;
+    return info.tcpi_bytes_acked;
+}
+
+bool has_unsent(int descriptor) {
+    int bytes = 0;
+    return ::ioctl(descriptor, SIOCOUTQ, &bytes) == 0 && bytes > 0;
+}
+
+}  // namespace
+
+ConnectionWatch::ConnectionWatch(ServerLimits limits, std::set<std::string> exempt)
+    : limits_(limits), exempt_(std::move(exempt)), thread_([this] {
+          std::unique_lock lock(mutex_);
+          while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; }))
+              look(std::chrono::steady_clock::now());
+      }) {}
+
+ConnectionWatch::~ConnectionWatch() {
+    {
+        const std::scoped_lock lock(mutex_);
+        is_stopping_ = true;
+    }
+    ends_.notify_all();
+    thread_.join();
+}
+
+bool ConnectionWatch::may_open(const std::string& client) const {
+    const std::scoped_lock lock(mutex_);
+    if (open_.size() >= limits_.most_connections) return false;
+    const auto theirs = by_client_.find(client);
+    return theirs == by_client_.end() || exempt_.contains(client) ||
+           theirs->second < limits_.most_connections_of_address;
+}
+
+void ConnectionWatch::opened(MHD_Connection* connection, int descriptor, std::string client) {
+    const std::scoped_lock lock(mutex_);
+    make_room();
+    ++by_client_[client];
+    open_[connection] = {.descriptor = descriptor,
+                         .client = std::move(client),
+                         .since = std::chrono::steady_clock::now()};
+}
+
+void ConnectionWatch::closed(MHD_Connection* connection) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = open_.find(connection);
+    if (found == open_.end()) return;
+    const auto theirs = by_client_.find(found->second.client);
+    if (--theirs->second == 0) by_client_.erase(theirs);
+    open_.erase(found);
+}
+
+void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = open_.find(connection);
+    if (found == open_.end()) return;
+    Open& open = found->second;
+    open.phase = phase;
+    open.since = std::chrono::steady_clock::now();
+    if (phase == Phase::body || phase == Phase::stream)
+        open.taken_bytes = acknowledged_bytes(open.descriptor);
+}
+
+void ConnectionWatch::request_arrived(MHD_Connection* connection) {
+    set_phase(connection, Phase::thinking);
+}
+
+void ConnectionWatch::sending(MHD_Connection* connection, bool is_stream) {
+    set_phase(connection, is_stream ? Phase::stream : Phase::body);
+}
+
+void ConnectionWatch::answered(MHD_Connection* connection) {
+    set_phase(connection, Phase::request);
+}
+
+std::size_t ConnectionWatch::count() const {
+    const std::scoped_lock lock(mutex_);
+    return open_.size();
+}
+
+bool ConnectionWatch::is_idle() const {
+    const std::scoped_lock lock(mutex_);
+    return std::all_of(open_.begin(), open_.end(),
+                       [](const auto& one) { return one.second.phase == Phase::request; });
+}
+
+void ConnectionWatch::cut(Open& open) {
+    ::shutdown(open.descriptor, SHUT_RDWR);
+    open.is_cut = true;
+}
+
+void ConnectionWatch::make_room() {
+    if (4 * open_.size() < 3 * std::size_t{limits_.most_connections}) return;
+    Open* oldest = nullptr;
+    for (auto& [connection, open] : open_) {
+        if (open.is_cut || open.phase != Phase::request) continue;
+        if (oldest == nullptr || open.since < oldest->since) oldest = &open;
+    }
+    if (oldest != nullptr) cut(*oldest);
+}
+
+bool ConnectionWatch::is_too_slow(Open& open, SteadyTime now) const {
+    if (open.phase == Phase::thinking) return false;
+    if (open.phase == Phase::request) return now - open.since > limits_.request_time;
+    if (now - open.since < limits_.rate_time) return false;
+    const std::uint64_t taken = acknowledged_bytes(open.descriptor);
+    const std::uint64_t wanted =
+        limits_.least_bytes_per_s * static_cast<std::uint64_t>(limits_.rate_time.count());
+    const bool is_slow = taken - open.taken_bytes < wanted && has_unsent(open.descriptor);
+    open.taken_bytes = taken;
+    open.since = now;
+    return is_slow;
+}
+
+void ConnectionWatch::look(SteadyTime now) {
+    for (auto& [connection, open] : open_)
+        if (!open.is_cut && is_too_slow(open, now)) cut(open);
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,74 @@
+// web/http/connection_watch.h -- cuts off connections that wait too long, and counts them.
+//
+// libmicrohttpd's own timeout is for inactivity: a client that sends one byte every few seconds
+// would hold a connection forever. This watch sets a total for the arrival of a request, and a
+// least rate for a body that a client takes. It ends a connection by shutdown(2); libmicrohttpd then
+// sees its end and closes it.
+//
+// Threads   Many threads may use it; a thread of its own looks twice a second.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "base/steady_time.h"
+#include "web/http/server_options.h"
+
+struct MHD_Connection;
+
+namespace stormcellar::web {
+
+class ConnectionWatch {
+  public:
+    ConnectionWatch(ServerLimits limits, std::set<std::string> exempt);
+    ConnectionWatch(const ConnectionWatch&) = delete;
+    ConnectionWatch& operator=(const ConnectionWatch&) = delete;
+    ~ConnectionWatch();
+
+    // Returns false if this client has too many connections, or all clients together.
+    [[nodiscard]] bool may_open(const std::string& client) const;
+    // If three quarters of the connections are open, the one that has waited longest for a request
+    // is ended.
+    void opened(MHD_Connection* connection, int descriptor, std::string client);
+    void closed(MHD_Connection* connection);
+    void request_arrived(MHD_Connection* connection);
+    // The answer goes out from now on. A stream may have nothing to send for long.
+    void sending(MHD_Connection* connection, bool is_stream);
+    void answered(MHD_Connection* connection);
+    [[nodiscard]] std::size_t count() const;
+    // Returns true if no answer is being made or sent.
+    [[nodiscard]] bool is_idle() const;
+
+  private:
+    enum class Phase { request, thinking, body, stream };
+    struct Open {
+        int descriptor = -1;
+        std::string client;
+        Phase phase = Phase::request;
+        SteadyTime since;             // of the phase, or of the last look at the rate
+        std::uint64_t taken_bytes = 0;  // what the client had acknowledged then
+        bool is_cut = false;
+    };
+    void look(SteadyTime now);
+    bool is_too_slow(Open& open, SteadyTime now) const;
+    void set_phase(MHD_Connection* connection, Phase phase);
+    void make_room();
+    static void cut(Open& open);
+
+    const ServerLimits limits_;
+    const std::set<std::string> exempt_;
+    mutable std::mutex mutex_;
+    std::condition_variable ends_;
+    bool is_stopping_ = false;
+    std::map<MHD_Connection*, Open> open_;
+    std::map<std::string, unsigned> by_client_;
+    std::thread thread_;
+};
+
+}  // namespace stormcellar::web

@@ -1,0 +1,24 @@
+#include "web/http/door.h"
+
+#include <algorithm>
+
+namespace stormcellar::web {
+
+void Doors::add(std::string prefix, std::shared_ptr<Door> door) {
+    while (!prefix.empty() && prefix.back() == '/') prefix.pop_back();
+    doors_.emplace_back(std::move(prefix), std::move(door));
+    std::stable_sort(doors_.begin(), doors_.end(), [](const auto& a, const auto& b) {
+        return a.first.size() > b.first.size();
+    });
+}
+
+std::shared_ptr<Door> Doors::find(std::string_view path) const {
+    for (const auto& [prefix, door] : doors_) {
+        if (path.starts_with(prefix) &&
+            (path.size() == prefix.size() || path[prefix.size()] == '/'))
+            return door;
+    }
+    return nullptr;
+}
+
+}  // namespace stormcellar::web

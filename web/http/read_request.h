@@ -1,0 +1,48 @@
+// web/http/read_request.h -- makes a Request of what libmicrohttpd read, or says why it is refused.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "stormcellar/base/result.h"
+#include "web/http/request.h"
+#include "web/http/server_options.h"
+
+namespace stormcellar::web {
+
+// What came from the network.
+struct RawRequest {
+    std::string method, target;  // as sent: the path with its query
+    bool is_http_1_0 = false;
+    Fields headers;
+    std::string client;  // the address at the other end
+};
+
+struct Refusal {
+    unsigned status = 400;
+    std::string reason;
+};
+
+// Which names and proxies are ours.
+struct Identity {
+    std::set<std::string> names;    // lower case, without ports; "*": any
+    std::set<std::string> proxies;  // addresses
+    std::string public_address, prefix;
+};
+[[nodiscard]] Identity identity_of(const ServerOptions& options);
+
+// Returns whether a Host field names us: a loopback name, or one of `names`, with any port.
+[[nodiscard]] bool names_us(std::string_view host, const Identity& identity);
+
+// Checks and decodes a request. The refusal is none if it may be answered.
+struct Reading {
+    Request request;
+    std::optional<Refusal> refusal;
+};
+[[nodiscard]] Reading read_request(const RawRequest& raw, const Identity& identity);
+
+}  // namespace stormcellar::web

@@ -1,0 +1,116 @@
+#include "web/http/response.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <microhttpd.h>
+#include <unistd.h>
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::size_t block_bytes = 64 * 1024;
+constexpr std::size_t stream_block_bytes = 8 * 1024;
+
+void let_text_go(void* text) { delete static_cast<Text*>(text); }
+
+Response response_of_text(const Text& text) {
+    auto held = std::make_unique<Text>(text);
+    // libmicrohttpd does not change the bytes; its interface is older than const.
+    Response response(MHD_create_response_from_buffer_with_free_callback_cls(
+        text->size(), const_cast<char*>(text->data()), &let_text_go, held.get()));
+    if (response != nullptr) (void)held.release();
+    return response;
+}
+
+Response response_of_file(const FileSlice& slice) {
+    const int copy = ::fcntl(slice.file->number(), F_DUPFD_CLOEXEC, 3);
+    if (copy < 0) return nullptr;
+    Response response(MHD_create_response_from_fd_at_offset64(slice.size, copy, slice.offset));
+    if (response == nullptr) ::close(copy);
+    return response;
+}
+
+// Reads pieces one after another. A file that became shorter ends the connection.
+ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::size_t most) {
+    const Pieces part = part_of(*static_cast<const Pieces*>(pieces), position, most);
+    std::size_t filled = 0;
+    for (const Piece& piece : part) {
+        if (const auto* text = std::get_if<Text>(&piece)) {
+            std::memcpy(buffer + filled, (*text)->data(), (*text)->size());
+            filled += (*text)->size();
+            continue;
+        }
+        const auto& slice = std::get<FileSlice>(piece);
+        const ssize_t count = ::pread(slice.file->number(), buffer + filled, slice.size,
+                                      static_cast<off_t>(slice.offset));
+        if (count <= 0) break;
+        filled += static_cast<std::size_t>(count);
+        if (static_cast<std::uint64_t>(count) < slice.size) break;
+    }
+    return filled > 0 ? static_cast<ssize_t>(filled) : MHD_CONTENT_READER_END_WITH_ERROR;
+}
+
+void let_pieces_go(void* pieces) { delete static_cast<Pieces*>(pieces); }
+
+Response response_of_pieces(const Pieces& pieces) {
+    if (pieces.empty())
+        return Response(MHD_create_response_from_buffer(0, nullptr, MHD_RESPMEM_PERSISTENT));
+    if (pieces.size() == 1) {
+        if (const auto* text = std::get_if<Text>(&pieces.front())) return response_of_text(*text);
+        return response_of_file(std::get<FileSlice>(pieces.front()));
+    }
+    auto held = std::make_unique<Pieces>(pieces);
+    Response response(MHD_create_response_from_callback(size_of(pieces), block_bytes, &read_pieces,
+                                                        held.get(), &let_pieces_go));
+    if (response != nullptr) (void)held.release();
+    return response;
+}
+
+using HeldFeed = std::shared_ptr<StreamFeed>;
+
+ssize_t read_feed(void* feed, std::uint64_t /*position*/, char* buffer, std::size_t most) {
+    return (*static_cast<HeldFeed*>(feed))->read(buffer, most);
+}
+
+void let_feed_go(void* feed) {
+    const std::unique_ptr<HeldFeed> held(static_cast<HeldFeed*>(feed));
+    (*held)->leave();
+}
+
+Response response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connection* connection,
+                            HeldFeed* feed) {
+    *feed = std::make_shared<StreamFeed>(stream, connection);
+    auto held = std::make_unique<HeldFeed>(*feed);
+    Response response(MHD_create_response_from_callback(
+        MHD_SIZE_UNKNOWN, stream_block_bytes, &read_feed, held.get(), &let_feed_go));
+    if (response == nullptr) return nullptr;
+    (void)held.release();
+    (*feed)->begin(*feed);
+    return response;
+}
+
+}  // namespace
+
+void ResponseDeleter::operator()(MHD_Response* response) const {
+    if (response != nullptr) MHD_destroy_response(response);
+}
+
+Response make_response(const Answer& answer, MHD_Connection* connection, HeldFeed* feed) {
+    Response response;
+    if (const auto* pieces = std::get_if<Pieces>(&answer.body)) {
+        response = response_of_pieces(*pieces);
+    } else {
+        response = response_of_stream(std::get<std::shared_ptr<Stream>>(answer.body), connection,
+                                      feed);
+    }
+    if (response == nullptr) return response;
+    for (const auto& [name, value] : answer.headers)
+        MHD_add_response_header(response.get(), name.c_str(), value.c_str());
+    if (answer.closes) MHD_add_response_header(response.get(), "Connection", "close");
+    return response;
+}
+
+}  // namespace stormcellar::web

@@ -1,0 +1,404 @@
+#include "web/http/server.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <microhttpd.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <pthread.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "base/system_error.h"
+#include "stormcellar/base/descriptor.h"
+#include "web/http/connection_watch.h"
+#include "web/http/read_request.h"
+#include "web/http/response.h"
+#include "web/http/work_queue.h"
+
+namespace stormcellar::web {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+// The address and port of a socket's other or own end.
+struct EndPoint {
+    std::string address;
+    int port = 0;
+};
+EndPoint end_point_of(const sockaddr* raw) {
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    if (raw->sa_family == AF_INET6) {
+        const auto* v6 = reinterpret_cast<const sockaddr_in6*>(raw);
+        ::inet_ntop(AF_INET6, &v6->sin6_addr, text.data(), text.size());
+        return {text.data(), ntohs(v6->sin6_port)};
+    }
+    const auto* v4 = reinterpret_cast<const sockaddr_in*>(raw);
+    ::inet_ntop(AF_INET, &v4->sin_addr, text.data(), text.size());
+    return {text.data(), ntohs(v4->sin_port)};
+}
+
+// What no page and no answer of ours needs, a browser must not do with it.
+const Fields& security_headers() {
+    static const Fields headers = {
+        {"X-Content-Type-Options", "nosniff"},
+        {"Content-Security-Policy",
+         "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src "
+         "'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "
+         "frame-ancestors 'none'; form-action 'none'"},
+        {"Cross-Origin-Opener-Policy", "same-origin"},
+        {"Cross-Origin-Embedder-Policy", "require-corp"},
+        {"Referrer-Policy", "no-referrer"},
+    };
+    return headers;
+}
+
+MHD_Result take_header(void* headers, MHD_ValueKind, const char* name, const char* value) {
+    static_cast<Fields*>(headers)->emplace_back(name == nullptr ? "" : name,
+                                                value == nullptr ? "" : value);
+    return MHD_YES;
+}
+
+// SIGPIPE is blocked while libmicrohttpd starts its thread, which inherits that: sendfile(2) to a
+// client that is gone would otherwise end the program.
+class WithoutBrokenPipes {
+  public:
+    WithoutBrokenPipes() {
+        sigset_t pipe;
+        ::sigemptyset(&pipe);
+        ::sigaddset(&pipe, SIGPIPE);
+        ::pthread_sigmask(SIG_BLOCK, &pipe, &before_);
+    }
+    WithoutBrokenPipes(const WithoutBrokenPipes&) = delete;
+    WithoutBrokenPipes& operator=(const WithoutBrokenPipes&) = delete;
+    ~WithoutBrokenPipes() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  private:
+    sigset_t before_{};
+};
+
+Result<Descriptor> listen_at(const ListenAddress& where) {
+    const bool is_v6 = where.address.find(':') != std::string::npos;
+    sockaddr_storage storage{};
+    socklen_t size = 0;
+    bool is_address = false;
+    if (is_v6) {
+        auto* v6 = reinterpret_cast<sockaddr_in6*>(&storage);
+        v6->sin6_family = AF_INET6;
+        v6->sin6_port = htons(static_cast<std::uint16_t>(where.port));
+        is_address = ::inet_pton(AF_INET6, where.address.c_str(), &v6->sin6_addr) == 1;
+        size = sizeof(sockaddr_in6);
+    } else {
+        auto* v4 = reinterpret_cast<sockaddr_in*>(&storage);
+        v4->sin_family = AF_INET;
+        v4->sin_port = htons(static_cast<std::uint16_t>(where.port));
+        is_address = ::inet_pton(AF_INET, where.address.c_str(), &v4->sin_addr) == 1;
+        size = sizeof(sockaddr_in);
+    }
+    if (!is_address || where.port < 0 || where.port > 65535) {
+        return fail(ErrorCode::bad_argument, "{}:{} is not an address of a network interface",
+                    where.address, where.port);
+    }
+    Descriptor socket(::socket(is_v6 ? AF_INET6 : AF_INET,
+                               SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    const int on = 1;
+    ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
+    if (!socket.is_open() ||
+        ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
+        ::listen(socket.number(), 1024) != 0) {
+        const int reason = errno;
+        const std::string what = fmt::format("cannot listen on {}:{}", where.address, where.port);
+        if (reason == EADDRINUSE) return fail(ErrorCode::busy, "{}: another program does", what);
+        return system_failure(what, reason);
+    }
+    return socket;
+}
+
+// One request, from its first line to the end of its answer.
+struct Exchange {
+    RawRequest raw;
+    Request request;
+    std::shared_ptr<Door> door;
+    std::optional<Answer> answer;
+    std::shared_ptr<StreamFeed> feed;
+    SteadyClock::time_point began = SteadyClock::now();
+    bool has_begun = false;
+};
+
+}  // namespace
+
+struct Server::Impl {
+    Impl(ServerOptions given, std::shared_ptr<const Doors> opened)
+        : options(std::move(given)),
+          doors(std::move(opened)),
+          identity(identity_of(options)),
+          watch(options.limits, identity.proxies),
+          queue(options.limits.workers, options.limits.most_waiting) {}
+
+    struct Listener {
+        MHD_Daemon* daemon = nullptr;
+        std::string url;
+    };
+
+    Status listen(const ListenAddress& where);
+    MHD_Result handle(MHD_Connection* connection, const char* method, const char* version,
+                      Exchange& exchange);
+    // Returns false if a worker makes the answer; libmicrohttpd then asks again.
+    bool begin(MHD_Connection* connection, const char* method, const char* version,
+               Exchange& exchange);
+    bool let_work(MHD_Connection* connection, Exchange& exchange);
+    MHD_Result send(MHD_Connection* connection, Exchange& exchange);
+    void finish(Answer& answer, const Request& request) const;
+    void stop();
+
+    static void* first_line(void* self, const char* uri, MHD_Connection* connection);
+    static MHD_Result request(void* self, MHD_Connection* connection, const char* url,
+                              const char* method, const char* version, const char* data,
+                              std::size_t* data_size, void** exchange);
+    static void completed(void* self, MHD_Connection* connection, void** exchange,
+                          MHD_RequestTerminationCode why);
+    static MHD_Result accepts(void* self, const sockaddr* address, socklen_t size);
+    static void connection(void* self, MHD_Connection* connection, void** of_connection,
+                           MHD_ConnectionNotificationCode what);
+
+    const ServerOptions options;
+    const std::shared_ptr<const Doors> doors;
+    const Identity identity;
+    ConnectionWatch watch;
+    std::mutex feeds_mutex;
+    std::set<std::shared_ptr<StreamFeed>> feeds;
+    std::atomic<bool> is_stopping = false;
+    std::vector<Listener> listeners;
+    WorkQueue queue;
+};
+
+// libmicrohttpd gives what this returns to the functions below as the request's own.
+void* Server::Impl::first_line(void* /*self*/, const char* uri, MHD_Connection* /*connection*/) {
+    auto exchange = std::make_unique<Exchange>();
+    exchange->raw.target = uri;
+    return exchange.release();
+}
+
+MHD_Result Server::Impl::request(void* self, MHD_Connection* connection, const char* /*url*/,
+                                 const char* method, const char* version, const char* /*data*/,
+                                 std::size_t* data_size, void** exchange) {
+    if (*exchange == nullptr) return MHD_NO;
+    *data_size = 0;
+    return static_cast<Impl*>(self)->handle(connection, method, version,
+                                            *static_cast<Exchange*>(*exchange));
+}
+
+void Server::Impl::completed(void* self, MHD_Connection* connection, void** exchange,
+                             MHD_RequestTerminationCode /*why*/) {
+    auto* impl = static_cast<Impl*>(self);
+    const std::unique_ptr<Exchange> ended(static_cast<Exchange*>(*exchange));
+    *exchange = nullptr;
+    impl->watch.answered(connection);
+    if (ended == nullptr || ended->feed == nullptr) return;
+    const std::scoped_lock lock(impl->feeds_mutex);
+    impl->feeds.erase(ended->feed);
+}
+
+MHD_Result Server::Impl::accepts(void* self, const sockaddr* address, socklen_t /*size*/) {
+    return static_cast<Impl*>(self)->watch.may_open(end_point_of(address).address) ? MHD_YES
+                                                                                   : MHD_NO;
+}
+
+void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*of_connection*/,
+                              MHD_ConnectionNotificationCode what) {
+    auto* impl = static_cast<Impl*>(self);
+    if (what == MHD_CONNECTION_NOTIFY_CLOSED) {
+        impl->watch.closed(connection);
+        return;
+    }
+    const auto* socket = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+    const auto* client = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    if (socket == nullptr || client == nullptr) return;
+    impl->watch.opened(connection, socket->connect_fd, end_point_of(client->client_addr).address);
+}
+
+MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method,
+                                const char* version, Exchange& exchange) {
+    if (!exchange.has_begun) {
+        exchange.has_begun = true;
+        watch.request_arrived(connection);
+        if (!begin(connection, method, version, exchange)) return MHD_YES;
+    }
+    return send(connection, exchange);
+}
+
+bool Server::Impl::begin(MHD_Connection* connection, const char* method, const char* version,
+                         Exchange& exchange) {
+    RawRequest& raw = exchange.raw;
+    raw.method = method;
+    raw.is_http_1_0 = std::string_view{version} == "HTTP/1.0";
+    MHD_get_connection_values(connection, MHD_HEADER_KIND, &take_header, &raw.headers);
+    const auto* client = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    if (client != nullptr) raw.client = end_point_of(client->client_addr).address;
+    Reading reading = read_request(raw, identity);
+    exchange.request = std::move(reading.request);
+    if (reading.refusal) {
+        exchange.answer = sentence(reading.refusal->status, reading.refusal->reason);
+        if (reading.refusal->status == 405) exchange.answer->with("Allow", "GET, HEAD, OPTIONS");
+        exchange.answer->closes = true;
+        return true;
+    }
+    if (exchange.request.verb == Verb::options) {
+        exchange.answer.emplace();
+        exchange.answer->status = 204;
+        exchange.answer->with("Allow", "GET, HEAD, OPTIONS");
+        return true;
+    }
+    exchange.door = doors->find(exchange.request.path);
+    exchange.answer = exchange.door == nullptr
+                          ? sentence(404, "There is nothing at this address.")
+                          : exchange.door->answer_at_once(exchange.request);
+    return exchange.answer || let_work(connection, exchange);
+}
+
+// Holds the connection still until a worker has made the answer. From the moment at which the work
+// is added, the exchange is the worker's, until it resumes the connection.
+bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
+    MHD_suspend_connection(connection);
+    const bool is_added = queue.add([connection, &exchange](bool is_ending) {
+        exchange.answer = is_ending ? come_back(std::chrono::seconds{5}, "The server is stopping.")
+                                    : exchange.door->answer(exchange.request);
+        MHD_resume_connection(connection);
+    });
+    if (is_added) return false;
+    exchange.answer = come_back(std::chrono::seconds{2},
+                                "More is asked than this server can make at a time; ask again.");
+    MHD_resume_connection(connection);
+    return false;
+}
+
+// What every answer has.
+void Server::Impl::finish(Answer& answer, const Request& request) const {
+    for (const auto& [name, value] : security_headers()) answer.with(name, value);
+    answer.with("Cross-Origin-Resource-Policy",
+                options.any_origin ? "cross-origin" : "same-origin");
+    if (options.any_origin) {
+        answer.with("Access-Control-Allow-Origin", "*");
+        answer.with("Access-Control-Expose-Headers",
+                    "Accept-Ranges, Content-Length, Content-Range, ETag, Last-Modified, Retry-After");
+        if (request.verb == Verb::options) {
+            answer.with("Access-Control-Allow-Methods", "GET, HEAD, OPTIONS");
+            answer.with("Access-Control-Allow-Headers", "Range, If-None-Match, Last-Event-ID");
+            answer.with("Access-Control-Max-Age", "86400");
+        }
+    }
+    if (is_stopping) answer.closes = true;
+}
+
+MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
+    Answer& answer = *exchange.answer;
+    finish(answer, exchange.request);
+    const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
+    const Response response = make_response(answer, connection, &exchange.feed);
+    if (response == nullptr) return MHD_NO;
+    if (exchange.feed != nullptr) {
+        const std::scoped_lock lock(feeds_mutex);
+        feeds.insert(exchange.feed);
+        if (is_stopping) exchange.feed->end();
+    }
+    if (options.on_answer) {
+        const std::uint64_t bytes = is_stream ? 0 : size_of(std::get<Pieces>(answer.body));
+        options.on_answer({&exchange.request, answer.status, bytes,
+                           SteadyClock::now() - exchange.began});
+    }
+    watch.sending(connection, is_stream);
+    return MHD_queue_response(connection, answer.status, response.get());
+}
+
+Status Server::Impl::listen(const ListenAddress& where) {
+    Result<Descriptor> socket = listen_at(where);
+    if (!socket) return tl::unexpected(socket.error());
+    sockaddr_storage bound{};
+    socklen_t size = sizeof bound;
+    ::getsockname(socket->number(), reinterpret_cast<sockaddr*>(&bound), &size);
+    const EndPoint end = end_point_of(reinterpret_cast<const sockaddr*>(&bound));
+    const WithoutBrokenPipes blocked;
+    // Paths and queries are decoded by read_request(), which refuses what libmicrohttpd would take.
+    const auto undecoded = +[](void*, MHD_Connection*, char* text) {
+        return std::char_traits<char>::length(text);
+    };
+    MHD_Daemon* daemon = MHD_start_daemon(
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, &Impl::accepts, this,
+        &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, socket->number(),
+        MHD_OPTION_CONNECTION_LIMIT, options.limits.most_connections + 1,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, options.limits.header_bytes,
+        MHD_OPTION_URI_LOG_CALLBACK, &Impl::first_line, this, MHD_OPTION_UNESCAPE_CALLBACK,
+        undecoded, nullptr, MHD_OPTION_NOTIFY_COMPLETED, &Impl::completed, this,
+        MHD_OPTION_NOTIFY_CONNECTION, &Impl::connection, this, MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1,
+        MHD_OPTION_END);
+    if (daemon == nullptr) return fail(ErrorCode::io, "libmicrohttpd cannot begin");
+    (void)socket->release();
+    const bool is_v6 = end.address.find(':') != std::string::npos;
+    listeners.push_back({daemon, is_v6 ? fmt::format("http://[{}]:{}/", end.address, end.port)
+                                       : fmt::format("http://{}:{}/", end.address, end.port)});
+    return {};
+}
+
+// libmicrohttpd must not be stopped while a connection is held still.
+void Server::Impl::stop() {
+    is_stopping = true;
+    for (const Listener& listener : listeners) {
+        const int socket = MHD_quiesce_daemon(listener.daemon);
+        if (socket >= 0) ::close(socket);
+    }
+    queue.stop();
+    {
+        const std::scoped_lock lock(feeds_mutex);
+        for (const auto& feed : feeds) feed->end();
+    }
+    // What is on its way gets a moment to arrive.
+    const auto until = SteadyClock::now() + std::chrono::seconds{2};
+    while (SteadyClock::now() < until) {
+        if (watch.is_idle()) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    for (const Listener& listener : listeners) MHD_stop_daemon(listener.daemon);
+    listeners.clear();
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Server::~Server() { impl_->stop(); }
+
+Result<std::unique_ptr<Server>> Server::open(ServerOptions options,
+                                             std::shared_ptr<const Doors> doors) {
+    auto impl = std::make_unique<Impl>(std::move(options), std::move(doors));
+    std::unique_ptr<Server> server(new Server(std::move(impl)));
+    for (const ListenAddress& where : server->impl_->options.listen) {
+        if (const Status listening = server->impl_->listen(where); !listening)
+            return tl::unexpected(listening.error());
+    }
+    return server;
+}
+
+std::vector<std::string> Server::addresses() const {
+    std::vector<std::string> urls;
+    for (const Impl::Listener& listener : impl_->listeners) urls.push_back(listener.url);
+    return urls;
+}
+
+ServerFacts Server::facts() const {
+    ServerFacts facts{.connections = impl_->watch.count(),
+                      .waiting = impl_->queue.waiting(),
+                      .working = impl_->queue.working()};
+    const std::scoped_lock lock(impl_->feeds_mutex);
+    facts.streams = impl_->feeds.size();
+    return facts;
+}
+
+}  // namespace stormcellar::web
