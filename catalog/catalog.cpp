@@ -91,13 +91,13 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     return CatalogWriter(std::make_unique<Impl>(std::move(directory), std::move(options), true));
 }
 
-Result<CatalogReader> CatalogReader::open(fs::path directory) {
+Result<CatalogReader> CatalogReader::open(fs::path directory, std::size_t most_open) {
     std::error_code ignored;
     if (!fs::is_directory(directory, ignored)) {
         return fail(ErrorCode::not_found, "{}: there is no catalog here", directory.native());
     }
     CatalogOptions options;
-    options.most_open = CatalogOptions::most_open_of_reader;
+    options.most_open = most_open;
     return CatalogReader(std::make_unique<Impl>(std::move(directory), std::move(options), false));
 }
 
@@ -348,6 +348,23 @@ Result<std::optional<CatalogEntry>> CatalogReader::latest(std::string_view stati
 
 Result<std::optional<CatalogEntry>> CatalogReader::oldest(std::string_view station) const {
     return ask(station, [](StationDatabase& database) { return database.first(false); });
+}
+
+Result<std::vector<CatalogEntry>> CatalogReader::list_stretch(std::string_view station,
+                                                              const Stretch& stretch) const {
+    return ask(station, [&](StationDatabase& database) { return database.list_stretch(stretch); });
+}
+
+Result<std::optional<UtcTime>> CatalogReader::oldest_kept(std::string_view station) const {
+    return ask(station, [](StationDatabase& database) { return database.oldest_kept(); });
+}
+
+Result<std::vector<CatalogEntry>> CatalogReader::files_with_prefix(std::string_view station,
+                                                                   std::string_view prefix,
+                                                                   std::size_t most) const {
+    return ask(station, [&](StationDatabase& database) {
+        return database.files_with_prefix(prefix, most);
+    });
 }
 
 Result<std::optional<CatalogEntry>> CatalogReader::find_file(std::string_view station,

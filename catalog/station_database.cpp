@@ -49,6 +49,9 @@ std::optional<int> optional_int(const SQLite::Column& column) {
     return column.getInt();
 }
 
+// A stretch has no more, whatever the caller asks for.
+constexpr std::size_t most_listed = 1'000'000;
+
 constexpr const char* entry_columns =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, v.start_ms, v.end_ms, "
     "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation, f.modified_ns, "
@@ -402,6 +405,62 @@ std::optional<CatalogEntry> StationDatabase::first(bool latest) {
         if (!found.empty()) return std::move(found.front());
     }
     return std::nullopt;
+}
+
+// CROSS JOIN fixes the order of the tables, so that the index of volumes gives the order of rows and
+// the query stops at its limit.
+std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) {
+    static const auto text = [](const char* order) {
+        return std::string{entry_columns} +
+               "FROM volume v CROSS JOIN part p ON p.volume_id = v.id "
+               "CROSS JOIN file f ON f.id = p.file_id "
+               "WHERE v.start_ms BETWEEN ? AND ? AND p.ordinal = 0 "
+               "AND (? OR f.state <> 'gone') ORDER BY v.start_ms " +
+               order + " LIMIT ?";
+    };
+    static const std::string ascending = text(""), descending = text("DESC");
+    LentStatement rows = prepared((stretch.newest_first ? descending : ascending).c_str());
+    rows->bind(1, milliseconds(stretch.from).value_or(std::numeric_limits<std::int64_t>::min()));
+    rows->bind(2, milliseconds(stretch.to).value_or(std::numeric_limits<std::int64_t>::max()));
+    rows->bind(3, stretch.with_gone ? 1 : 0);
+    rows->bind(4, static_cast<std::int64_t>(std::min<std::size_t>(stretch.most, most_listed)));
+    return entries(*rows);
+}
+
+std::optional<UtcTime> StationDatabase::oldest_kept() {
+    constexpr std::int64_t most_tried = 500;
+    {
+        LentStatement oldest = prepared(
+            "SELECT f.state <> 'gone', v.start_ms FROM volume v "
+            "CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id "
+            "ORDER BY v.start_ms LIMIT ?");
+        oldest->bind(1, most_tried);
+        std::int64_t tried = 0;
+        for (; oldest->executeStep(); ++tried) {
+            if (oldest->getColumn(0).getInt() != 0) return time_of(oldest->getColumn(1).getInt64());
+        }
+        if (tried < most_tried) return std::nullopt;
+    }
+    // Whoever deletes old files leaves few: the table of files is read, and their volumes looked up.
+    LentStatement kept = prepared(
+        "SELECT min(v.start_ms) FROM file f CROSS JOIN part p ON p.file_id = f.id "
+        "CROSS JOIN volume v ON v.id = p.volume_id WHERE f.state <> 'gone'");
+    kept->executeStep();
+    return optional_time(kept->getColumn(0));
+}
+
+std::vector<CatalogEntry> StationDatabase::files_with_prefix(std::string_view prefix,
+                                                             std::size_t most) {
+    static const std::string text =
+        std::string{columns_without_volume} + "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
+    // The bound above all paths with the prefix: the byte 0xFF is in no UTF-8, and a name that has
+    // it right behind the prefix is no chunk's.
+    const std::string behind = std::string{prefix} + '\xFF';
+    LentStatement rows = prepared(text.c_str());
+    rows->bind(1, prefix.data(), static_cast<int>(prefix.size()));
+    rows->bind(2, behind.data(), static_cast<int>(behind.size()));
+    rows->bind(3, static_cast<std::int64_t>(std::min<std::size_t>(most, most_listed)));
+    return entries(*rows);
 }
 
 }  // namespace stormcellar::catalog

@@ -103,6 +103,9 @@ class StationDatabase {
     std::optional<CatalogEntry> find_file(const std::filesystem::path& path);
     std::vector<CatalogEntry> list(const Query& query);
     std::optional<CatalogEntry> first(bool latest);
+    std::vector<CatalogEntry> list_stretch(const Stretch& stretch);
+    std::optional<UtcTime> oldest_kept();
+    std::vector<CatalogEntry> files_with_prefix(std::string_view prefix, std::size_t most);
 
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
