@@ -19,8 +19,12 @@ Result<FlatField> still_field(const StillMap& map, int threads) {
 }
 
 Rgba8 overlay_colour(const FlatField& field, std::size_t place, const ColourTable& table) {
+    return overlay_colour(field.status[place], field.values[place], table);
+}
+
+Rgba8 overlay_colour(grid::CellStatus status, float value, const ColourTable& table) {
     constexpr Rgba8 clear = {0, 0, 0, 0};
-    switch (field.status[place]) {
+    switch (status) {
         case grid::CellStatus::not_seen:
             return unseen_veil;
         case grid::CellStatus::no_echo:
@@ -28,7 +32,7 @@ Rgba8 overlay_colour(const FlatField& field, std::size_t place, const ColourTabl
         case grid::CellStatus::range_folded:
             return table.range_folded;
         case grid::CellStatus::value:
-            return colour_of(table, field.values[place]).value_or(clear);
+            return colour_of(table, value).value_or(clear);
     }
     return clear;
 }

@@ -17,6 +17,7 @@ namespace stormcellar::render {
 // what was not seen is a thin gray veil, which no echo looks like.
 [[nodiscard]] Rgba8 overlay_colour(const FlatField& field, std::size_t place,
                                    const ColourTable& table);
+[[nodiscard]] Rgba8 overlay_colour(grid::CellStatus status, float value, const ColourTable& table);
 
 inline constexpr Rgba8 unseen_veil = {96, 100, 108, 72};
 

@@ -1,0 +1,20 @@
+#include "web/data/render_gate.h"
+
+namespace stormcellar::web {
+
+std::optional<RenderGate::Pass> RenderGate::enter() {
+    std::unique_lock lock(mutex_);
+    if (!left_.wait_for(lock, patience_, [this] { return free_ > 0; })) return std::nullopt;
+    --free_;
+    return Pass(this);
+}
+
+void RenderGate::leave() {
+    {
+        const std::scoped_lock lock(mutex_);
+        ++free_;
+    }
+    left_.notify_one();
+}
+
+}  // namespace stormcellar::web
