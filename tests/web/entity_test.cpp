@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <fcntl.h>
 #include <fstream>
 #include <sstream>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
 
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
@@ -62,9 +62,13 @@ TEST(Entity, SeveralRanges) {
     const std::string boundary = type.substr(type.find('=') + 1);
     EXPECT_EQ(type, "multipart/byteranges; boundary=" + boundary);
     EXPECT_EQ(body_of(answer),
-              "\r\n--" + boundary + "\r\nContent-Type: text/x-ten\r\nContent-Range: bytes 1-2/10\r\n\r\n12"
-              "\r\n--" + boundary + "\r\nContent-Type: text/x-ten\r\nContent-Range: bytes 8-9/10\r\n\r\n89"
-              "\r\n--" + boundary + "--\r\n");
+              "\r\n--" + boundary +
+                  "\r\nContent-Type: text/x-ten\r\nContent-Range: bytes 1-2/10\r\n\r\n12"
+                  "\r\n--" +
+                  boundary +
+                  "\r\nContent-Type: text/x-ten\r\nContent-Range: bytes 8-9/10\r\n\r\n89"
+                  "\r\n--" +
+                  boundary + "--\r\n");
 }
 
 TEST(Entity, RangesThatTheBytesDoNotHave) {
@@ -77,11 +81,13 @@ TEST(Entity, RangesThatTheBytesDoNotHave) {
 
 TEST(Entity, RangesThatMakeNoSenseAreIgnored) {
     std::string many = "bytes=0-0";
-    for (int i = 0; i < 17; ++i) many += ",1-1";
+    for (int i = 0; i < 17; ++i)
+        many += ",1-1";
     for (const std::string& range :
          {std::string{"bytes=3-2"}, std::string{"bytes=a-b"}, std::string{"bytes="},
           std::string{"bytes=-"}, std::string{"lines=1-2"}, std::string{"bytes=1"},
-          std::string{"bytes=0-9,0-9"}, std::string{"bytes=--1"}, std::string{"bytes=+1-2"}, many}) {
+          std::string{"bytes=0-9,0-9"}, std::string{"bytes=--1"}, std::string{"bytes=+1-2"},
+          many}) {
         const Answer answer = ten_bytes_asked({{"Range", range}});
         EXPECT_EQ(answer.status, 200u) << range;
         EXPECT_EQ(body_of(answer), "0123456789");
@@ -142,8 +148,9 @@ TEST(HttpDate, IsWrittenAndRead) {
     EXPECT_EQ(parse_http_date("Thu, 17 Mar 2022 00:08:42 GMT"), seconds);
     EXPECT_EQ(parse_http_date("Sun, 06 Nov 1994 08:49:37 GMT"),
               parse_http_date("Sunday, 06-Nov-94 08:49:37 GMT"));
-    for (const char* text : {"", "now", "Thu, 17 Mar 2022 25:08:42 GMT", "Thu, 31 Feb 2022 00:00:00 GMT",
-                             "Thu, 17 Mar 2022 00:08:42 GMTx", "Thu, 17 Xyz 2022 00:08:42 GMT"})
+    for (const char* text :
+         {"", "now", "Thu, 17 Mar 2022 25:08:42 GMT", "Thu, 31 Feb 2022 00:00:00 GMT",
+          "Thu, 17 Mar 2022 00:08:42 GMTx", "Thu, 17 Xyz 2022 00:08:42 GMT"})
         EXPECT_EQ(parse_http_date(text), std::nullopt) << text;
 }
 

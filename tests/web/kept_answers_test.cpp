@@ -9,7 +9,9 @@
 namespace stormcellar::web {
 namespace {
 
-Kept kept_bytes(std::size_t size) { return {text_of(std::string(size, 'x')), "\"e\"", {}}; }
+Kept kept_bytes(std::size_t size) {
+    return {text_of(std::string(size, 'x')), "\"e\"", {}};
+}
 
 TEST(KeptAnswers, DropTheLeastRecentlyUsed) {
     KeptAnswers kept(4 * 1300);
@@ -56,7 +58,8 @@ TEST(KeptAnswers, AreMadeOnceForAllWhoWait) {
         });
     }
     go_on.set_value();
-    for (std::thread& thread : threads) thread.join();
+    for (std::thread& thread : threads)
+        thread.join();
     EXPECT_EQ(made, 1);
     EXPECT_EQ(right, 8);
 }

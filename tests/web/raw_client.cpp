@@ -13,7 +13,8 @@ namespace stormcellar::web {
 RawClient::RawClient(int port, int receive_buffer)
     : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     if (receive_buffer > 0)
-        ::setsockopt(socket_.number(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+        ::setsockopt(socket_.number(), SOL_SOCKET, SO_RCVBUF, &receive_buffer,
+                     sizeof receive_buffer);
     sockaddr_in to{};
     to.sin_family = AF_INET;
     to.sin_port = htons(static_cast<std::uint16_t>(port));
@@ -24,8 +25,7 @@ RawClient::RawClient(int port, int receive_buffer)
 
 bool RawClient::send(std::string_view bytes) {
     while (!bytes.empty()) {
-        const ssize_t count =
-            ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        const ssize_t count = ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (count <= 0) return false;
         bytes.remove_prefix(static_cast<std::size_t>(count));
     }

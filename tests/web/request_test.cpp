@@ -32,14 +32,13 @@ TEST(DecodedPath, RefusesEverySpellingOfTheDirectoryAbove) {
           "/..%2fetc", "/..%5cetc", "/a%2F..%2Fb", "/..\\b", "/a\\..\\b"}) {
         EXPECT_EQ(decoded_path(path), std::nullopt) << path;
     }
-    EXPECT_EQ(decoded_path("/...") , "/...") << "three dots are a name";
+    EXPECT_EQ(decoded_path("/..."), "/...") << "three dots are a name";
 }
 
 TEST(DecodedPath, RefusesWhatIsNoText) {
-    for (const char* path :
-         {"/a%00b", "/%0d%0aX: y", "/%7f", "/%1b[31m", "/%", "/%4", "/%zz", "a", "",
-          "/%c0%af", "/%c0%ae%c0%ae/b", "/%e0%80%af", "/%f0%80%80%af", "/%ed%a0%80", "/%f4%90%80%80",
-          "/%ff", "/%80", "/%c3", "/%c2%80"}) {
+    for (const char* path : {"/a%00b", "/%0d%0aX: y", "/%7f", "/%1b[31m", "/%", "/%4", "/%zz", "a",
+                             "", "/%c0%af", "/%c0%ae%c0%ae/b", "/%e0%80%af", "/%f0%80%80%af",
+                             "/%ed%a0%80", "/%f4%90%80%80", "/%ff", "/%80", "/%c3", "/%c2%80"}) {
         EXPECT_EQ(decoded_path(path), std::nullopt) << path;
     }
 }
@@ -61,7 +60,8 @@ TEST(Encoded, IsUndoneByDecoded) {
 TEST(Request, FindsParametersAndHeaders) {
     Request request;
     request.query = {{"stn", "KTLX"}, {"stn", "KOKX"}};
-    request.headers = {{"accept-encoding", "br;q=1.0, gzip;q=0.8"}, {"Accept-Encoding", "zstd;q=0"}};
+    request.headers = {{"accept-encoding", "br;q=1.0, gzip;q=0.8"},
+                       {"Accept-Encoding", "zstd;q=0"}};
     EXPECT_EQ(request.parameter("stn"), "KTLX");
     EXPECT_EQ(request.parameters("stn"), (std::vector<std::string_view>{"KTLX", "KOKX"}));
     EXPECT_EQ(request.parameter("time"), std::nullopt);
@@ -129,8 +129,9 @@ TEST(ReadRequest, BelievesForwardedFieldsOfTrustedProxiesAlone) {
     reading = read_request(raw_get("/", headers), identity_of(options));
     EXPECT_EQ(reading.request.client, "198.51.100.9") << "the one that the proxy itself saw";
     EXPECT_EQ(reading.request.base, "https://radar.example.org");
-    const Fields forwarded = {{"Host", "localhost"},
-                              {"Forwarded", "for=1.2.3.4, for=\"5.6.7.8\";proto=https;host=evil.example"}};
+    const Fields forwarded = {
+        {"Host", "localhost"},
+        {"Forwarded", "for=1.2.3.4, for=\"5.6.7.8\";proto=https;host=evil.example"}};
     reading = read_request(raw_get("/", forwarded), identity_of(options));
     EXPECT_EQ(reading.request.client, "5.6.7.8");
     EXPECT_EQ(reading.request.base, "https://localhost") << "a name that is not ours is not taken";

@@ -30,8 +30,12 @@ class FunctionDoor : public Door {
 // A stream into which a test puts lines.
 class TestStream : public Stream {
   public:
-    void put(std::string_view line) { change([&] { waiting_ += line; }); }
-    void end() { change([&] { has_ended_ = true; }); }
+    void put(std::string_view line) {
+        change([&] { waiting_ += line; });
+    }
+    void end() {
+        change([&] { has_ended_ = true; });
+    }
     [[nodiscard]] bool is_left() const {
         const std::scoped_lock lock(mutex_);
         return is_left_;
@@ -82,7 +86,8 @@ class WebServer : public ::testing::Test {
         return RawClient::get(port_, target, headers);
     }
     static bool wait_for(const std::function<bool()>& condition) {
-        for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(10ms);
+        for (int i = 0; i < 1000 && !condition(); ++i)
+            std::this_thread::sleep_for(10ms);
         return condition();
     }
 
@@ -118,8 +123,9 @@ TEST_F(WebServer, LetsOtherPagesReadIfThatWasChosen) {
 TEST_F(WebServer, KeepsConnectionsAndAnswersPipelinedRequestsInOrder) {
     start();
     RawClient client(port_);
-    client.send("GET /1 HTTP/1.1\r\nHost: localhost\r\n\r\nGET /2 HTTP/1.1\r\nHost: localhost\r\n\r\n"
-                "HEAD /3 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    client.send(
+        "GET /1 HTTP/1.1\r\nHost: localhost\r\n\r\nGET /2 HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        "HEAD /3 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     const std::string all = client.read_to_end();
     const std::size_t first = all.find("at /1"), second = all.find("at /2");
     EXPECT_LT(first, second);
@@ -146,8 +152,9 @@ TEST_F(WebServer, RefusesWhatItMustNotAnswer) {
     EXPECT_EQ(status_in(refused), 405);
     EXPECT_NE(refused.find("Allow: GET, HEAD, OPTIONS"), std::string::npos);
     RawClient smuggler(port_);
-    smuggler.send("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 40\r\n\r\n"
-                  "GET /inner HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    smuggler.send(
+        "GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 40\r\n\r\n"
+        "GET /inner HTTP/1.1\r\nHost: localhost\r\n\r\n");
     const std::string outer = smuggler.read_to_end();
     EXPECT_EQ(status_in(outer), 413);
     EXPECT_EQ(outer.find("/inner"), std::string::npos) << "a body is never read as a request";
@@ -159,7 +166,8 @@ TEST_F(WebServer, RefusesHeadersWithoutEnd) {
     client.send("GET / HTTP/1.1\r\nHost: localhost\r\nX: ");
     const std::string block(64 * 1024, 'x');
     std::size_t sent = 0;
-    while (sent < 100'000'000 && client.send(block)) sent += block.size();
+    while (sent < 100'000'000 && client.send(block))
+        sent += block.size();
     EXPECT_LT(sent, 10'000'000u) << "the connection is closed long before";
     EXPECT_EQ(status_in(get("/")), 200);
 }
@@ -167,8 +175,9 @@ TEST_F(WebServer, RefusesHeadersWithoutEnd) {
 TEST_F(WebServer, GarbageIsNoRequest) {
     start();
     for (const std::string& garbage :
-         {std::string{"\0\0\0\0\r\n\r\n", 8}, std::string{"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\r\n\r\n"},
-          std::string{"GET\r\n\r\n"}, std::string{"GET / HTTP/9.9\r\n\r\n"}, std::string{"\r\n\r\n"}}) {
+         {std::string{"\0\0\0\0\r\n\r\n", 8},
+          std::string{"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\r\n\r\n"}, std::string{"GET\r\n\r\n"},
+          std::string{"GET / HTTP/9.9\r\n\r\n"}, std::string{"\r\n\r\n"}}) {
         RawClient client(port_);
         client.send(garbage);
         const std::string answer = client.read_until("\r\n\r\n", 500ms);
@@ -256,21 +265,25 @@ TEST_F(WebServer, ConnectionsBeyondTheLimitAreClosedAndTheServerGoesOn) {
     options_.limits.request_time = 1s;
     start();
     std::vector<std::unique_ptr<RawClient>> idle;
-    for (int i = 0; i < 200; ++i) idle.push_back(std::make_unique<RawClient>(port_));
+    for (int i = 0; i < 200; ++i)
+        idle.push_back(std::make_unique<RawClient>(port_));
     EXPECT_TRUE(wait_for([&] { return server_->facts().connections <= 16; }));
     // The idle ones are ended in time, so that others find a place.
     EXPECT_TRUE(wait_for([&] { return status_in(get("/")) == 200; }));
-    for (const auto& client : idle) EXPECT_TRUE(client->is_closed(5s));
+    for (const auto& client : idle)
+        EXPECT_TRUE(client->is_closed(5s));
 }
 
 TEST_F(WebServer, OneAddressDoesNotTakeAllPlaces) {
     options_.limits.most_connections_of_address = 4;
     start();
     std::vector<std::unique_ptr<RawClient>> held;
-    for (int i = 0; i < 8; ++i) held.push_back(std::make_unique<RawClient>(port_));
+    for (int i = 0; i < 8; ++i)
+        held.push_back(std::make_unique<RawClient>(port_));
     EXPECT_TRUE(wait_for([&] { return server_->facts().connections == 4; }));
     int closed = 0;
-    for (const auto& client : held) closed += client->is_closed(200ms) ? 1 : 0;
+    for (const auto& client : held)
+        closed += client->is_closed(200ms) ? 1 : 0;
     EXPECT_EQ(closed, 4);
 }
 

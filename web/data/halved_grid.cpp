@@ -22,9 +22,9 @@ class BrickCodes {
                 codes_.fill(static_cast<std::uint16_t>(entry.uniform_status));
                 return;
             case BrickKind::status_only:
-                read_states(view.states.subspan(
-                    std::size_t{entry.status_index} * (grid::brick_cells / 4),
-                    grid::brick_cells / 4));
+                read_states(
+                    view.states.subspan(std::size_t{entry.status_index} * (grid::brick_cells / 4),
+                                        grid::brick_cells / 4));
                 return;
             case BrickKind::stored:
                 for (std::size_t i = 0; i < grid::brick_cells; ++i)

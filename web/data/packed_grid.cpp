@@ -45,8 +45,8 @@ PackedHeader header_of(const PackedSource& source) {
     header.end_time_ms = packed_time(description.end_time);
     header.halved = source.halved;
     header.halved_by = source.halved_by;
-    header.flags = (description.provenance.partial ? 1U : 0U) |
-                   (description.provenance.provisional ? 2U : 0U);
+    header.flags =
+        (description.provenance.partial ? 1U : 0U) | (description.provenance.provisional ? 2U : 0U);
     return header;
 }
 
@@ -179,8 +179,7 @@ std::uint64_t bytes_of_places(const PackedSource& source) {
 
 Result<std::string> pack_whole(const PackedSource& source) {
     const std::size_t bricks = source.view.bricks.size();
-    const std::uint64_t size =
-        bytes_of_places(source) + bytes_of_blocks(source.view, 0, bricks);
+    const std::uint64_t size = bytes_of_places(source) + bytes_of_blocks(source.view, 0, bricks);
     if (size > most_packed_bytes) {
         return fail(ErrorCode::bad_argument,
                     "the grid takes {} bytes, at most {} are sent at once: ask for part=table, and "

@@ -24,7 +24,7 @@
 
 namespace stormcellar::web {
 
-inline constexpr std::array<unsigned char, 8> packed_magic = {0x89, 'S', 'C', 'P',
+inline constexpr std::array<unsigned char, 8> packed_magic = {0x89, 'S',  'C',  'P',
                                                               '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t packed_version = 1;
 
@@ -53,11 +53,11 @@ struct PackedHeader {
     std::uint32_t brick_edge = grid::brick_edge;
     std::uint32_t bricks_x = 0, bricks_y = 0, bricks_z = 0;
     std::int64_t time_ms = 0, start_time_ms = 0, end_time_ms = 0;
-    std::uint32_t part = 0;    // PackedPart
-    std::uint32_t halved = 0;  // how often columns and rows were halved
+    std::uint32_t part = 0;       // PackedPart
+    std::uint32_t halved = 0;     // how often columns and rows were halved
     std::uint32_t halved_by = 0;  // 0 not halved, 1 maximum, 2 mean
-    std::uint32_t flags = 0;   // bit 0: the volume is partial; bit 1: the grid is provisional
-    std::uint32_t first_brick = 0, end_brick = 0;  // the bricks whose states and codes follow
+    std::uint32_t flags = 0;      // bit 0: the volume is partial; bit 1: the grid is provisional
+    std::uint32_t first_brick = 0, end_brick = 0;      // the bricks whose states and codes follow
     std::uint32_t first_states = 0, states_count = 0;  // numbers as in the table
     std::uint32_t first_codes = 0, codes_count = 0;
     std::uint32_t site_count = 0, table_count = 0;

@@ -151,9 +151,8 @@ Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
                                                           std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = number_of<std::uint32_t>(text.substr(0, dash));
-    const auto last = dash == std::string_view::npos
-                          ? first
-                          : number_of<std::uint32_t>(text.substr(dash + 1));
+    const auto last =
+        dash == std::string_view::npos ? first : number_of<std::uint32_t>(text.substr(dash + 1));
     if (!first || !last || *first > *last) {
         return fail(ErrorCode::bad_argument, "{}: FIRST-LAST, not '{}'", name, shown(text));
     }
@@ -209,8 +208,7 @@ Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call) {
 
 Answer json_answer(const Request& request, const ApiJson& document) {
     // Names in files may be any bytes.
-    std::string body =
-        document.dump(-1, ' ', false, ApiJson::error_handler_t::replace) + "\n";
+    std::string body = document.dump(-1, ' ', false, ApiJson::error_handler_t::replace) + "\n";
     Entity entity;
     entity.etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(body))));
     entity.bytes = {text_of(std::move(body))};

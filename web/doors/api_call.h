@@ -32,8 +32,8 @@ using ApiJson = nlohmann::ordered_json;
 
 // Where the API finds what it serves.
 struct ApiSources {
-    std::shared_ptr<Grids> grids;      // null: no cache is served
-    std::filesystem::path catalog;     // empty: no catalog is served
+    std::shared_ptr<Grids> grids;   // null: no cache is served
+    std::filesystem::path catalog;  // empty: no catalog is served
     std::shared_ptr<KeptAnswers> kept;
     // How many answers that take long may be in the making: more are asked to come back.
     int most_computations = 2;

@@ -15,9 +15,8 @@ constexpr std::array stations_parameters{
 constexpr std::array volumes_parameters{
     from_time, to_time,
     ApiParameter{"limit", "the newest so many, 1 to 10000; default 100", ApiKind::whole}};
-constexpr std::array gates_parameters{
-    ApiParameter{"kind", "which kind of gates, if a sweep has several of a moment; default 0",
-                 ApiKind::whole}};
+constexpr std::array gates_parameters{ApiParameter{
+    "kind", "which kind of gates, if a sweep has several of a moment; default 0", ApiKind::whole}};
 constexpr std::array grids_parameters{
     ApiParameter{"domain", "name of one domain; default: all"}, one_moment, from_time, to_time,
     ApiParameter{"limit", "the newest so many, 1 to 10000; default 100", ApiKind::whole}};
@@ -41,8 +40,9 @@ constexpr std::array map_parameters{
     ApiParameter{"east", "degrees", ApiKind::number, true},
     ApiParameter{"north", "degrees", ApiKind::number, true},
     ApiParameter{"detail", "0 (fine) to 2 (coarse); default 1", ApiKind::whole},
-    ApiParameter{"kinds", "county, state, lake, country, coast, city, with commas; default: all "
-                          "but county"}};
+    ApiParameter{"kinds",
+                 "county, state, lake, country, coast, city, with commas; default: all "
+                 "but county"}};
 
 constexpr std::array<unsigned, 0> no_errors{};
 constexpr std::array bad_request{400U};
@@ -56,26 +56,44 @@ constexpr std::string_view bytes_type = "application/octet-stream";
 
 constexpr auto operations_table = std::to_array<ApiOperation>({
     {"index", "/api/v1", "What the API does: this table.", {}, json_type, no_errors, api_index},
-    {"openapi", "/api/v1/openapi.json", "This table as OpenAPI 3.1.", {}, json_type, no_errors,
+    {"openapi",
+     "/api/v1/openapi.json",
+     "This table as OpenAPI 3.1.",
+     {},
+     json_type,
+     no_errors,
      api_openapi},
     {"stations", "/api/v1/stations",
      "The stations that have volumes or grids: place, newest volume, newest grid, ages.",
      stations_parameters, json_type, bad_request, api_stations},
-    {"volumes", "/api/v1/stations/{station}/volumes",
-     "The raw volumes of a station, oldest first.", volumes_parameters, json_type, catalog_errors,
-     api_volumes},
-    {"sweeps", "/api/v1/stations/{station}/volumes/{time}/sweeps",
-     "The sweeps of a volume and their moments.", {}, json_type, volume_errors, api_sweeps},
+    {"volumes", "/api/v1/stations/{station}/volumes", "The raw volumes of a station, oldest first.",
+     volumes_parameters, json_type, catalog_errors, api_volumes},
+    {"sweeps",
+     "/api/v1/stations/{station}/volumes/{time}/sweeps",
+     "The sweeps of a volume and their moments.",
+     {},
+     json_type,
+     volume_errors,
+     api_sweeps},
     {"gates", "/api/v1/stations/{station}/volumes/{time}/sweeps/{sweep}/{moment}",
      "The gates of a moment of a sweep, packed.", gates_parameters, bytes_type, volume_errors,
      api_gates},
-    {"domains", "/api/v1/domains", "The domains of the cache: moments, counts, newest grids.", {},
-     json_type, no_errors, api_domains},
+    {"domains",
+     "/api/v1/domains",
+     "The domains of the cache: moments, counts, newest grids.",
+     {},
+     json_type,
+     no_errors,
+     api_domains},
     {"grids", "/api/v1/grids", "The grids of the cache, oldest first.", grids_parameters, json_type,
      bad_request, api_grids},
-    {"grid", "/api/v1/grids/{domain}/{moment}/{time}",
-     "What a grid is and how it was made: cells, provenance, predicted error, audit.", {},
-     json_type, grid_errors, api_grid},
+    {"grid",
+     "/api/v1/grids/{domain}/{moment}/{time}",
+     "What a grid is and how it was made: cells, provenance, predicted error, audit.",
+     {},
+     json_type,
+     grid_errors,
+     api_grid},
     {"packed", "/api/v1/grids/{domain}/{moment}/{time}/packed",
      "The grid in its packed form, whole or in parts.", packed_parameters, bytes_type,
      computed_errors, api_packed},
@@ -88,11 +106,20 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
     {"netcdf", "/api/v1/grids/{domain}/{moment}/{time}/netcdf",
      "The grid as CF netCDF, as stormcellar grid writes it.", netcdf_parameters,
      "application/x-netcdf", computed_errors, api_netcdf},
-    {"file", "/api/v1/grids/{domain}/{moment}/{time}/file",
-     "The grid's own file (.scg), with ranges.", {}, bytes_type, grid_errors, api_grid_file},
-    {"between", "/api/v1/between/{domain}/{moment}/{time}",
-     "A grid for an instant between volumes, made when it is asked for, in the packed form.", {},
-     bytes_type, computed_errors, api_between},
+    {"file",
+     "/api/v1/grids/{domain}/{moment}/{time}/file",
+     "The grid's own file (.scg), with ranges.",
+     {},
+     bytes_type,
+     grid_errors,
+     api_grid_file},
+    {"between",
+     "/api/v1/between/{domain}/{moment}/{time}",
+     "A grid for an instant between volumes, made when it is asked for, in the packed form.",
+     {},
+     bytes_type,
+     computed_errors,
+     api_between},
     {"map", "/api/v1/map", "Coasts, borders, lakes and cities of an area.", map_parameters,
      json_type, bad_request, api_map},
 });
@@ -163,8 +190,7 @@ ApiJson responses_json(const ApiOperation& operation) {
     for (const unsigned status : operation.errors) {
         all[std::to_string(status)] = {
             {"description", status_text(status)},
-            {"content",
-             {{json_type, {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
+            {"content", {{json_type, {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
     }
     return all;
 }

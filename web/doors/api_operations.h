@@ -23,8 +23,8 @@ struct ApiParameter {
 
 struct ApiOperation {
     std::string_view name;
-    std::string_view path;  // "{domain}" stands for any segment
-    std::string_view what;  // a sentence
+    std::string_view path;                     // "{domain}" stands for any segment
+    std::string_view what;                     // a sentence
     std::span<const ApiParameter> parameters;  // of the query
     std::string_view content_type;
     std::span<const unsigned> errors;

@@ -89,7 +89,8 @@ Answer json_error(const Error& error) {
 
 Answer moved_to(const Request& request, std::string_view path) {
     std::string target;
-    for (const std::string_view segment : segments_of(path)) target += "/" + encoded(segment);
+    for (const std::string_view segment : segments_of(path))
+        target += "/" + encoded(segment);
     if (target.empty() || path.back() == '/') target += '/';
     return sentence(308, "This is at " + target).with("Location", request.base + target);
 }

@@ -2,8 +2,8 @@
 //
 // libmicrohttpd's own timeout is for inactivity: a client that sends one byte every few seconds
 // would hold a connection forever. This watch sets a total for the arrival of a request, and a
-// least rate for a body that a client takes. It ends a connection by shutdown(2); libmicrohttpd then
-// sees its end and closes it.
+// least rate for a body that a client takes. It ends a connection by shutdown(2); libmicrohttpd
+// then sees its end and closes it.
 //
 // Threads   Many threads may use it; a thread of its own looks twice a second.
 #pragma once
@@ -51,7 +51,7 @@ class ConnectionWatch {
         int descriptor = -1;
         std::string client;
         Phase phase = Phase::request;
-        SteadyTime since;             // of the phase, or of the last look at the rate
+        SteadyTime since;               // of the phase, or of the last look at the rate
         std::uint64_t taken_bytes = 0;  // what the client had acknowledged then
         bool is_cut = false;
     };

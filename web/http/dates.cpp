@@ -23,8 +23,7 @@ std::optional<UtcTime> time_of(const DateParts& parts) {
     unsigned month = 0;
     for (unsigned i = 0; i < month_names.size(); ++i)
         if (month_names[i] == parts.month.data()) month = i + 1;
-    const std::chrono::year_month_day date{std::chrono::year{parts.year},
-                                           std::chrono::month{month},
+    const std::chrono::year_month_day date{std::chrono::year{parts.year}, std::chrono::month{month},
                                            std::chrono::day{static_cast<unsigned>(parts.day)}};
     const bool fits = parts.hour >= 0 && parts.hour < 24 && parts.minute >= 0 &&
                       parts.minute < 60 && parts.second >= 0 && parts.second <= 60;
@@ -39,12 +38,11 @@ std::string http_date(UtcTime time) {
     const auto day = std::chrono::floor<std::chrono::days>(time);
     const std::chrono::year_month_day date{day};
     const std::chrono::hh_mm_ss clock{std::chrono::floor<std::chrono::seconds>(time - day)};
-    return fmt::format("{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT",
-                       week_days[std::chrono::weekday{day}.c_encoding()],
-                       static_cast<unsigned>(date.day()),
-                       month_names[static_cast<unsigned>(date.month()) - 1],
-                       static_cast<int>(date.year()), clock.hours().count(),
-                       clock.minutes().count(), clock.seconds().count());
+    return fmt::format(
+        "{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT",
+        week_days[std::chrono::weekday{day}.c_encoding()], static_cast<unsigned>(date.day()),
+        month_names[static_cast<unsigned>(date.month()) - 1], static_cast<int>(date.year()),
+        clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
 std::optional<UtcTime> parse_http_date(std::string_view text) {

@@ -5,11 +5,11 @@
 namespace stormcellar::web {
 
 void Doors::add(std::string prefix, std::shared_ptr<Door> door) {
-    while (!prefix.empty() && prefix.back() == '/') prefix.pop_back();
+    while (!prefix.empty() && prefix.back() == '/')
+        prefix.pop_back();
     doors_.emplace_back(std::move(prefix), std::move(door));
-    std::stable_sort(doors_.begin(), doors_.end(), [](const auto& a, const auto& b) {
-        return a.first.size() > b.first.size();
-    });
+    std::stable_sort(doors_.begin(), doors_.end(),
+                     [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
 }
 
 std::shared_ptr<Door> Doors::find(std::string_view path) const {

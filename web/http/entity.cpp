@@ -12,8 +12,10 @@ namespace {
 constexpr std::size_t most_ranges = 16;
 
 std::string_view without_spaces(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+        text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+        text.remove_suffix(1);
     return text;
 }
 
@@ -33,8 +35,7 @@ bool names_tag(std::string_view list, std::string_view etag, bool weakly) {
         if (weakly && item.starts_with("W/")) item.remove_prefix(2);
         std::string_view ours = etag;
         if (weakly && ours.starts_with("W/")) ours.remove_prefix(2);
-        if (item == "*" || (item == ours && !item.empty() && !item.starts_with("W/")))
-            found = true;
+        if (item == "*" || (item == ours && !item.empty() && !item.starts_with("W/"))) found = true;
     });
     return found;
 }
@@ -110,7 +111,8 @@ Ranges parse_ranges(std::string_view header, std::uint64_t size) {
             (first && last && *first > *last)) {
             ranges.makes_sense = false;
         } else if (!has_first) {
-            if (*last > 0 && size > 0) ranges.parts.push_back({size - std::min(*last, size), size - 1});
+            if (*last > 0 && size > 0)
+                ranges.parts.push_back({size - std::min(*last, size), size - 1});
         } else if (*first < size) {
             ranges.parts.push_back({*first, std::min(last.value_or(size - 1), size - 1)});
         }
@@ -129,7 +131,8 @@ void add_common(Answer& answer, const Entity& entity) {
     }
     answer.with("Cache-Control", caching);
     if (entity.varies) answer.with("Vary", "Accept-Encoding");
-    for (const auto& [name, value] : entity.headers) answer.with(name, value);
+    for (const auto& [name, value] : entity.headers)
+        answer.with(name, value);
 }
 
 Answer several_parts(const Entity& entity, const std::vector<ByteRange>& ranges) {
@@ -140,9 +143,9 @@ Answer several_parts(const Entity& entity, const std::vector<ByteRange>& ranges)
     answer.with("Content-Type", fmt::format("multipart/byteranges; boundary={}", boundary));
     Pieces body;
     for (const ByteRange& range : ranges) {
-        body.emplace_back(
-            text_of(fmt::format("\r\n--{}\r\nContent-Type: {}\r\nContent-Range: bytes {}-{}/{}\r\n\r\n",
-                                boundary, entity.content_type, range.first, range.last, size)));
+        body.emplace_back(text_of(
+            fmt::format("\r\n--{}\r\nContent-Type: {}\r\nContent-Range: bytes {}-{}/{}\r\n\r\n",
+                        boundary, entity.content_type, range.first, range.last, size)));
         for (Piece& piece : part_of(entity.bytes, range.first, range.size()))
             body.push_back(std::move(piece));
     }
@@ -154,7 +157,8 @@ Answer several_parts(const Entity& entity, const std::vector<ByteRange>& ranges)
 // Ranges that together ask for more than the whole are an attack or a mistake: the whole is sent.
 bool asks_too_much(const std::vector<ByteRange>& ranges, std::uint64_t size) {
     std::uint64_t sum = 0;
-    for (const ByteRange& range : ranges) sum += range.size();
+    for (const ByteRange& range : ranges)
+        sum += range.size();
     return sum > size;
 }
 

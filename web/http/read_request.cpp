@@ -40,9 +40,11 @@ std::string forwarded_value(std::string_view field, std::string_view name) {
         const std::size_t end = std::min(last.find(';'), last.size());
         std::string_view pair = last.substr(0, end);
         last.remove_prefix(std::min(end + 1, last.size()));
-        while (pair.starts_with(' ')) pair.remove_prefix(1);
+        while (pair.starts_with(' '))
+            pair.remove_prefix(1);
         const std::size_t equals = pair.find('=');
-        if (equals == std::string_view::npos || lower_case(pair.substr(0, equals)) != name) continue;
+        if (equals == std::string_view::npos || lower_case(pair.substr(0, equals)) != name)
+            continue;
         std::string_view value = pair.substr(equals + 1);
         if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
             value = value.substr(1, value.size() - 2);
@@ -54,8 +56,10 @@ std::string forwarded_value(std::string_view field, std::string_view name) {
 std::string last_of(std::string_view list) {
     const std::size_t comma = list.rfind(',');
     if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
-    while (list.starts_with(' ')) list.remove_prefix(1);
-    while (list.ends_with(' ')) list.remove_suffix(1);
+    while (list.starts_with(' '))
+        list.remove_prefix(1);
+    while (list.ends_with(' '))
+        list.remove_suffix(1);
     return std::string(list);
 }
 
@@ -81,18 +85,16 @@ ForwardedFacts forwarded_facts(const Request& request) {
 }
 
 bool is_safe_host(std::string_view host) {
-    return !host.empty() && host.size() <= 255 &&
-           std::all_of(host.begin(), host.end(), [](char c) {
-               return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-                      std::string_view{".-:[]_"}.find(c) != std::string_view::npos;
-           });
+    return !host.empty() && host.size() <= 255 && std::all_of(host.begin(), host.end(), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               std::string_view{".-:[]_"}.find(c) != std::string_view::npos;
+    });
 }
 
 std::size_t count_of(const Fields& headers, std::string_view name) {
     return static_cast<std::size_t>(
-        std::count_if(headers.begin(), headers.end(), [&](const auto& field) {
-            return lower_case(field.first) == name;
-        }));
+        std::count_if(headers.begin(), headers.end(),
+                      [&](const auto& field) { return lower_case(field.first) == name; }));
 }
 
 std::optional<Refusal> check_host(const RawRequest& raw, const Request& request,
@@ -105,9 +107,10 @@ std::optional<Refusal> check_host(const RawRequest& raw, const Request& request,
         return Refusal{400, "The request has no Host field."};
     }
     if (!names_us(*request.header("Host"), identity)) {
-        return Refusal{421,
-                       "This server does not answer under the name in the Host field. Its owner can "
-                       "add the name to [web] names, or with --name."};
+        return Refusal{
+            421,
+            "This server does not answer under the name in the Host field. Its owner can "
+            "add the name to [web] names, or with --name."};
     }
     return std::nullopt;
 }
@@ -129,7 +132,8 @@ std::string base_of(const RawRequest& raw, const Request& request, const Identit
 
 Identity identity_of(const ServerOptions& options) {
     Identity identity;
-    for (const std::string& name : options.names) identity.names.insert(lower_case(name));
+    for (const std::string& name : options.names)
+        identity.names.insert(lower_case(name));
     for (const ListenAddress& listen : options.listen) {
         const bool is_v6 = listen.address.find(':') != std::string::npos;
         identity.names.insert(
@@ -137,9 +141,11 @@ Identity identity_of(const ServerOptions& options) {
     }
     identity.proxies = {options.trusted_proxies.begin(), options.trusted_proxies.end()};
     identity.public_address = options.public_address;
-    while (identity.public_address.ends_with('/')) identity.public_address.pop_back();
+    while (identity.public_address.ends_with('/'))
+        identity.public_address.pop_back();
     identity.prefix = options.prefix;
-    while (identity.prefix.ends_with('/')) identity.prefix.pop_back();
+    while (identity.prefix.ends_with('/'))
+        identity.prefix.pop_back();
     // The host of the public address is ours, too.
     const std::size_t scheme = identity.public_address.find("://");
     if (scheme != std::string::npos) {
@@ -204,8 +210,8 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
     if (!path) return refuse(400, "The path of the request is not a plain one.");
     auto query = decoded_query(target.substr(std::min(mark + 1, target.size())));
     if (!query) return refuse(400, "The query of the request cannot be read.");
-    if (!identity.prefix.empty() && (*path == identity.prefix ||
-                                     path->starts_with(identity.prefix + "/"))) {
+    if (!identity.prefix.empty() &&
+        (*path == identity.prefix || path->starts_with(identity.prefix + "/"))) {
         path->erase(0, identity.prefix.size());
         if (path->empty()) *path = "/";
     }

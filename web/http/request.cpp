@@ -13,8 +13,10 @@ bool is_name(std::string_view text, std::string_view name) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+        text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+        text.remove_suffix(1);
     return text;
 }
 
@@ -51,7 +53,8 @@ bool is_plain(std::string_view text) {
         const auto first = static_cast<unsigned char>(text[0]);
         if (first < 0x20 || first == 0x7F) return false;
         // U+0080 to U+009F are control characters, too.
-        if (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0) return false;
+        if (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0)
+            return false;
         text.remove_prefix(length);
     }
     return true;

@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t block_bytes = 64 * 1024;
 constexpr std::size_t stream_block_bytes = 8 * 1024;
 
-void let_text_go(void* text) { delete static_cast<Text*>(text); }
+void let_text_go(void* text) {
+    delete static_cast<Text*>(text);
+}
 
 Response response_of_text(const Text& text) {
     auto held = std::make_unique<Text>(text);
@@ -53,7 +55,9 @@ ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::siz
     return filled > 0 ? static_cast<ssize_t>(filled) : MHD_CONTENT_READER_END_WITH_ERROR;
 }
 
-void let_pieces_go(void* pieces) { delete static_cast<Pieces*>(pieces); }
+void let_pieces_go(void* pieces) {
+    delete static_cast<Pieces*>(pieces);
+}
 
 Response response_of_pieces(const Pieces& pieces) {
     if (pieces.empty())
@@ -84,8 +88,8 @@ Response response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connectio
                             HeldFeed* feed) {
     *feed = std::make_shared<StreamFeed>(stream, connection);
     auto held = std::make_unique<HeldFeed>(*feed);
-    Response response(MHD_create_response_from_callback(
-        MHD_SIZE_UNKNOWN, stream_block_bytes, &read_feed, held.get(), &let_feed_go));
+    Response response(MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block_bytes,
+                                                        &read_feed, held.get(), &let_feed_go));
     if (response == nullptr) return nullptr;
     (void)held.release();
     (*feed)->begin(*feed);
@@ -103,8 +107,8 @@ Response make_response(const Answer& answer, MHD_Connection* connection, HeldFee
     if (const auto* pieces = std::get_if<Pieces>(&answer.body)) {
         response = response_of_pieces(*pieces);
     } else {
-        response = response_of_stream(std::get<std::shared_ptr<Stream>>(answer.body), connection,
-                                      feed);
+        response =
+            response_of_stream(std::get<std::shared_ptr<Stream>>(answer.body), connection, feed);
     }
     if (response == nullptr) return response;
     for (const auto& [name, value] : answer.headers)

@@ -11,9 +11,9 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <linux/tcp.h>
 #include <microhttpd.h>
 #include <netinet/in.h>
-#include <linux/tcp.h>
 #include <pthread.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -108,8 +108,8 @@ Result<Descriptor> listen_at(const ListenAddress& where) {
         return fail(ErrorCode::bad_argument, "{}:{} is not an address of a network interface",
                     where.address, where.port);
     }
-    Descriptor socket(::socket(is_v6 ? AF_INET6 : AF_INET,
-                               SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    Descriptor socket(
+        ::socket(is_v6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const int on = 1;
     ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
@@ -227,8 +227,8 @@ void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*o
     impl->watch.opened(connection, socket->connect_fd, end_point_of(client->client_addr).address);
 }
 
-MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method,
-                                const char* version, Exchange& exchange) {
+MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method, const char* version,
+                                Exchange& exchange) {
     if (!exchange.has_begun) {
         exchange.has_begun = true;
         watch.request_arrived(connection);
@@ -260,9 +260,8 @@ bool Server::Impl::begin(MHD_Connection* connection, const char* method, const c
         return true;
     }
     exchange.door = doors->find(exchange.request.path);
-    exchange.answer = exchange.door == nullptr
-                          ? sentence(404, "There is nothing at this address.")
-                          : exchange.door->answer_at_once(exchange.request);
+    exchange.answer = exchange.door == nullptr ? sentence(404, "There is nothing at this address.")
+                                               : exchange.door->answer_at_once(exchange.request);
     return exchange.answer || let_work(connection, exchange);
 }
 
@@ -284,13 +283,15 @@ bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
 
 // What every answer has.
 void Server::Impl::finish(Answer& answer, const Request& request) const {
-    for (const auto& [name, value] : security_headers()) answer.with(name, value);
+    for (const auto& [name, value] : security_headers())
+        answer.with(name, value);
     answer.with("Cross-Origin-Resource-Policy",
                 options.any_origin ? "cross-origin" : "same-origin");
     if (options.any_origin) {
         answer.with("Access-Control-Allow-Origin", "*");
-        answer.with("Access-Control-Expose-Headers",
-                    "Accept-Ranges, Content-Length, Content-Range, ETag, Last-Modified, Retry-After");
+        answer.with(
+            "Access-Control-Expose-Headers",
+            "Accept-Ranges, Content-Length, Content-Range, ETag, Last-Modified, Retry-After");
         if (request.verb == Verb::options) {
             answer.with("Access-Control-Allow-Methods", "GET, HEAD, OPTIONS");
             answer.with("Access-Control-Allow-Headers", "Range, If-None-Match, Last-Event-ID");
@@ -313,8 +314,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     }
     if (options.on_answer) {
         const std::uint64_t bytes = is_stream ? 0 : size_of(std::get<Pieces>(answer.body));
-        options.on_answer({&exchange.request, answer.status, bytes,
-                           SteadyClock::now() - exchange.began});
+        options.on_answer(
+            {&exchange.request, answer.status, bytes, SteadyClock::now() - exchange.began});
     }
     watch.sending(connection, is_stream);
     return MHD_queue_response(connection, answer.status, response.get());
@@ -329,9 +330,8 @@ Status Server::Impl::listen(const ListenAddress& where) {
     const EndPoint end = end_point_of(reinterpret_cast<const sockaddr*>(&bound));
     const WithoutBrokenPipes blocked;
     // Paths and queries are decoded by read_request(), which refuses what libmicrohttpd would take.
-    const auto undecoded = +[](void*, MHD_Connection*, char* text) {
-        return std::char_traits<char>::length(text);
-    };
+    const auto undecoded =
+        +[](void*, MHD_Connection*, char* text) { return std::char_traits<char>::length(text); };
     MHD_Daemon* daemon = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, &Impl::accepts, this,
         &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, socket->number(),
@@ -359,7 +359,8 @@ void Server::Impl::stop() {
     queue.stop();
     {
         const std::scoped_lock lock(feeds_mutex);
-        for (const auto& feed : feeds) feed->end();
+        for (const auto& feed : feeds)
+            feed->end();
     }
     // What is on its way gets a moment to arrive.
     const auto until = SteadyClock::now() + std::chrono::seconds{2};
@@ -367,13 +368,16 @@ void Server::Impl::stop() {
         if (watch.is_idle()) break;
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
     }
-    for (const Listener& listener : listeners) MHD_stop_daemon(listener.daemon);
+    for (const Listener& listener : listeners)
+        MHD_stop_daemon(listener.daemon);
     listeners.clear();
 }
 
 Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
-Server::~Server() { impl_->stop(); }
+Server::~Server() {
+    impl_->stop();
+}
 
 Result<std::unique_ptr<Server>> Server::open(ServerOptions options,
                                              std::shared_ptr<const Doors> doors) {
@@ -388,7 +392,8 @@ Result<std::unique_ptr<Server>> Server::open(ServerOptions options,
 
 std::vector<std::string> Server::addresses() const {
     std::vector<std::string> urls;
-    for (const Impl::Listener& listener : impl_->listeners) urls.push_back(listener.url);
+    for (const Impl::Listener& listener : impl_->listeners)
+        urls.push_back(listener.url);
     return urls;
 }
 

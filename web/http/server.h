@@ -2,8 +2,8 @@
 //
 // One thread for each address that is listened on serves all of its connections. Answers that take
 // time are made by a bounded number of workers. GET, HEAD and OPTIONS are answered, and nothing
-// else; the Host field is checked before anything else, since a page of the web could otherwise read
-// what is served on loopback (DNS rebinding).
+// else; the Host field is checked before anything else, since a page of the web could otherwise
+// read what is served on loopback (DNS rebinding).
 //
 // Threads   Many threads may use it. Doors are called from many threads.
 // Errors    busy: an address is in use; bad_argument: it is no address; io.
@@ -31,8 +31,8 @@ class Server {
                                                 std::shared_ptr<const Doors> doors);
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
-    // Stops: streams end, requests that wait for a worker get 503, answers under way are finished as
-    // far as that takes no longer than two seconds.
+    // Stops: streams end, requests that wait for a worker get 503, answers under way are finished
+    // as far as that takes no longer than two seconds.
     ~Server();
 
     // "http://127.0.0.1:8090/", one for each address, with the port that it has.

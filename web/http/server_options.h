@@ -24,13 +24,13 @@ struct ServerLimits {
     // Of one client's address. Trusted proxies may have all.
     unsigned most_connections_of_address = 256;
     std::size_t header_bytes = 32 * 1024;  // request line and headers together
-    // From the opening of a connection, or the end of the previous answer, to the end of a request's
-    // headers.
+    // From the opening of a connection, or the end of the previous answer, to the end of a
+    // request's headers.
     std::chrono::seconds request_time{20};
     // A client that takes less than this of a waiting body, on the mean of such a time, is cut off.
     std::uint64_t least_bytes_per_s = 1000;
     std::chrono::seconds rate_time{30};
-    unsigned workers = 4;        // threads that make answers
+    unsigned workers = 4;           // threads that make answers
     std::size_t most_waiting = 64;  // requests that wait for a worker; beyond: 503
 };
 
@@ -38,13 +38,14 @@ struct ServerLimits {
 struct Served {
     const Request* request = nullptr;  // null if it could not be read
     unsigned status = 0;
-    std::uint64_t bytes = 0;  // of the body; 0 for streams
+    std::uint64_t bytes = 0;                   // of the body; 0 for streams
     std::chrono::duration<double> seconds{0};  // until the answer was made
 };
 
 struct ServerOptions {
     std::vector<ListenAddress> listen = {{}};
-    // Host fields that are answered beside the loopback names and the addresses of `listen`. "*": any.
+    // Host fields that are answered beside the loopback names and the addresses of `listen`. "*":
+    // any.
     std::vector<std::string> names;
     // The address under which clients reach the server; empty: what Host says.
     std::string public_address;

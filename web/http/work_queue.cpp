@@ -6,10 +6,13 @@
 namespace stormcellar::web {
 
 WorkQueue::WorkQueue(unsigned workers, std::size_t most_waiting) : most_waiting_(most_waiting) {
-    for (unsigned i = 0; i < std::max(1u, workers); ++i) threads_.emplace_back([this] { run(); });
+    for (unsigned i = 0; i < std::max(1u, workers); ++i)
+        threads_.emplace_back([this] { run(); });
 }
 
-WorkQueue::~WorkQueue() { stop(); }
+WorkQueue::~WorkQueue() {
+    stop();
+}
 
 void WorkQueue::stop() {
     {

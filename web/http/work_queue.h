@@ -1,4 +1,5 @@
-// web/http/work_queue.h -- a bounded number of threads that make answers, and of requests that wait.
+// web/http/work_queue.h -- a bounded number of threads that make answers, and of requests that
+// wait.
 //
 // Threads   Many threads may add work.
 #pragma once

@@ -1,0 +1,226 @@
+// The packed form over HTTP: whole grids, parts of large ones, halved ones, and grids between
+// volumes.
+#include "base/checksum.h"
+#include "pipeline/mosaic/between_grids.h"
+#include "web/data/compressed.h"
+#include "web/data/halved_grid.h"
+#include "web/data/packed_grid.h"
+#include "web/doors/api_door.h"
+#include "web/doors/api_operations.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::chrono::seconds a_year{31'536'000};
+constexpr int threads_of_a_computation = 1;
+
+// What of a grid is asked for.
+struct PackedRequest {
+    PackedPart part = PackedPart::whole;
+    std::size_t first = 0, end = 0;  // of `bricks`
+    int half = 0;
+    std::optional<HalvedBy> by;
+    std::optional<std::string> id;
+    Coding coding = Coding::identity;
+
+    // Names the answer among those of the same grid.
+    [[nodiscard]] std::string text() const {
+        return fmt::format("{}-{}-{}-{}{}{}{}", static_cast<unsigned>(part), first, end, half,
+                           by ? halved_by_name(*by) : "", coding == Coding::identity ? "" : "-",
+                           coding_name(coding));
+    }
+};
+
+Status read_part(const ApiCall& call, PackedRequest& wanted) {
+    const auto part = call.request.parameter("part");
+    const auto bricks = call.request.parameter("bricks");
+    if (part && bricks) {
+        return fail(ErrorCode::bad_argument, "part and bricks cannot be asked for at once");
+    }
+    if (part && *part == "table") {
+        wanted.part = PackedPart::table;
+    } else if (part && *part != "whole") {
+        return fail(ErrorCode::bad_argument, "part: whole or table");
+    }
+    if (!bricks) return {};
+    const auto range = range_of_text("bricks", *bricks);
+    if (!range) return pass_on(range);
+    wanted.part = PackedPart::bricks;
+    wanted.first = range->first;
+    wanted.end = range->second + 1;
+    return {};
+}
+
+Result<PackedRequest> read_request(const ApiCall& call) {
+    PackedRequest wanted;
+    if (Status read = read_part(call, wanted); !read) return pass_on(read);
+    const auto half = whole_parameter(call, "half", 0, most_halvings, 0);
+    if (!half) return pass_on(half);
+    wanted.half = static_cast<int>(*half);
+    if (const auto by = call.request.parameter("by")) {
+        wanted.by = halved_by_from_name(*by);
+        if (!wanted.by) return fail(ErrorCode::bad_argument, "by: maximum or mean");
+    }
+    if ((wanted.half > 0) != wanted.by.has_value()) {
+        return fail(ErrorCode::bad_argument,
+                    "half and by go together: cells are halved by maximum or mean");
+    }
+    if (const auto id = call.request.parameter("id")) wanted.id = std::string(*id);
+    wanted.coding = coding_for(call.request);
+    return wanted;
+}
+
+std::string key_of(const OpenGrid& grid, const PackedRequest& wanted) {
+    return fmt::format("packed/{}/{}/{}/{}/{}", grid.domain, level2::moment_name(grid.moment),
+                       format_utc(grid.time), grid.id, wanted.text());
+}
+
+Result<std::string> pack(const PackedSource& source, const PackedRequest& wanted) {
+    switch (wanted.part) {
+        case PackedPart::table:
+            return pack_table(source);
+        case PackedPart::bricks:
+            return pack_bricks(source, wanted.first, wanted.end);
+        case PackedPart::whole:
+            break;
+    }
+    return pack_whole(source);
+}
+
+Result<Kept> compress_packed(const Result<std::string>& bytes, Coding coding, std::string etag) {
+    if (!bytes) return pass_on(bytes);
+    auto sent = compressed(*bytes, coding);
+    if (!sent) return pass_on(sent);
+    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+}
+
+Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,
+                                       const PackedRequest& wanted) {
+    const std::string key =
+        fmt::format("{}/{}/{}/{}/{}/{}", grid.domain, level2::moment_name(grid.moment),
+                    format_utc(grid.time), grid.id, wanted.half, halved_by_name(*wanted.by));
+    if (auto kept = state.find_halved(key)) return kept;
+    auto made = halved(grid.file.view(), grid.moment, wanted.half, *wanted.by);
+    if (made) state.keep_halved(key, *made);
+    return made;
+}
+
+Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequest& wanted) {
+    PackedSource source{&grid.file.description(), grid.file.view(), grid.file.checksum()};
+    ApiState::Halved half;
+    if (wanted.half > 0) {
+        auto made = find_or_halve(state, grid, wanted);
+        if (!made) return pass_on(made);
+        half = std::move(*made);
+        source.view = half->view();
+        source.halved = static_cast<std::uint32_t>(wanted.half);
+        source.halved_by = static_cast<std::uint32_t>(*wanted.by);
+    }
+    const auto bytes = pack(source, wanted);
+    // Codes that were cut meanwhile read as zeros, which are not seen.
+    if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
+    return compress_packed(bytes, wanted.coding, fmt::format("\"{}-{}\"", grid.id, wanted.text()));
+}
+
+Answer packed_answer(const Request& request, const Kept& kept, bool never_changes) {
+    Entity entity;
+    entity.bytes = {kept.bytes};
+    entity.content_type = "application/octet-stream";
+    entity.etag = kept.etag;
+    entity.coding = kept.notes;
+    entity.varies = true;
+    if (never_changes) {
+        entity.max_age = a_year;
+        entity.never_changes = true;
+    }
+    return answer_with(request, std::move(entity));
+}
+
+Answer other_id(const OpenGrid& grid) {
+    return json_error(410, "the grid was made again; its id is now " + grid.id);
+}
+
+Result<Kept> make_between(const ApiCall& call, const NamedGrid& named, Coding coding) {
+    const auto store = cache::StoreReader::open(call.grids().cache());
+    if (!store) return pass_on(store);
+    pipeline::BetweenOptions options;
+    options.from = options.to = named.time;
+    options.threads = threads_of_a_computation;
+    std::vector<std::string> problems;
+    auto between =
+        pipeline::BetweenGrids::open(*store, named.domain, named.moment, options, problems);
+    if (!between) return pass_on(between);
+    const auto frame = between->at(named.time);
+    if (!frame) return pass_on(frame);
+    if (!*frame) {
+        return fail(ErrorCode::not_found, "there is no volume near {} in {}",
+                    format_utc(named.time), named.domain);
+    }
+    PackedSource source{&(*frame)->description, (*frame)->mosaic.cells.view()};
+    auto bytes = pack_whole(source);
+    if (!bytes) return pass_on(bytes);
+    // The id is of the bytes, since there is no file.
+    const std::uint64_t id = xxh3_64(std::as_bytes(std::span(*bytes)));
+    std::memcpy(bytes->data() + offsetof(PackedHeader, id), &id, sizeof id);
+    return compress_packed(bytes, coding, fmt::format("\"{:016x}-{}\"", id, coding_name(coding)));
+}
+
+}  // namespace
+
+std::optional<Answer> packed_at_once(const ApiCall& call) {
+    const auto named = named_grid(call);
+    if (!named) return std::nullopt;
+    const auto grid = call.grids().find_if_open(named->domain, named->moment, named->time);
+    const auto wanted = read_request(call);
+    if (!grid || !wanted) return std::nullopt;
+    if (wanted->id && *wanted->id != grid->id) return other_id(*grid);
+    const auto kept = call.state.sources().kept->find(key_of(*grid, *wanted));
+    if (!kept) return std::nullopt;
+    return packed_answer(call.request, *kept, wanted->id.has_value());
+}
+
+Answer api_packed(const ApiCall& call) {
+    const auto wanted = read_request(call);
+    if (!wanted) return json_error(wanted.error());
+    const auto grid = find_grid(call);
+    if (!grid) return grid.error();
+    if (wanted->id && *wanted->id != (*grid)->id) return other_id(**grid);
+    KeptAnswers& answers = *call.state.sources().kept;
+    const std::string key = key_of(**grid, *wanted);
+    auto kept = answers.find(key);
+    if (!kept) {
+        std::optional<ApiState::Slot> slot;
+        if (wanted->half > 0 && !(slot = call.state.take_slot())) return come_back_later();
+        auto made =
+            answers.find_or_make(key, [&] { return make_packed(call.state, **grid, *wanted); });
+        if (!made) return json_error(made.error());
+        kept = std::move(*made);
+    }
+    return packed_answer(call.request, *kept, wanted->id.has_value());
+}
+
+Answer api_between(const ApiCall& call) {
+    const auto named = named_grid(call);
+    if (!named) return named.error();
+    const std::string_view group = cache::group_of(named->domain);
+    if (!cache::is_domain_name(named->domain) || call.grids().moments(named->domain).empty()) {
+        return json_error(404, "there is no such domain");
+    }
+    const Coding coding = coding_for(call.request);
+    // It may become another one as soon as anything in the domain changes.
+    const std::string key =
+        fmt::format("between/{}/{}/{}/{}/{}", named->domain, level2::moment_name(named->moment),
+                    format_utc(named->time), call.grids().changes_of(group), coding_name(coding));
+    KeptAnswers& answers = *call.state.sources().kept;
+    auto kept = answers.find(key);
+    if (!kept) {
+        const auto slot = call.state.take_slot();
+        if (!slot) return come_back_later();
+        auto made = answers.find_or_make(key, [&] { return make_between(call, *named, coding); });
+        if (!made) return json_error(made.error());
+        kept = std::move(*made);
+    }
+    return packed_answer(call.request, *kept, false);
+}
+
+}  // namespace stormcellar::web

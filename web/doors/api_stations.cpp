@@ -1,0 +1,142 @@
+// Stations, and their raw volumes.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "stormcellar/base/station_table.h"
+#include "web/doors/api_operations.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr std::int64_t most_volumes_listed = 10000;
+constexpr std::int64_t usual_volumes_listed = 100;
+
+ApiJson age_json(UtcTime time, UtcTime now) {
+    return std::floor(seconds_between(time, now));
+}
+
+// What the newest of something is, and how old.
+ApiJson newest_json(std::optional<UtcTime> time, UtcTime now) {
+    if (!time) return nullptr;
+    return {{"time", format_utc(*time)}, {"age_s", age_json(*time, now)}};
+}
+
+ApiJson station_place_json(const std::string& icao) {
+    ApiJson json{{"station", icao}};
+    const auto station = find_station(icao);
+    if (!station) return json;
+    json["name"] = station->name;
+    json["state"] = station->state;
+    json["kind"] = station->kind == RadarKind::nexrad ? "nexrad" : "tdwr";
+    json["latitude_deg"] = station->latitude_deg;
+    json["longitude_deg"] = station->longitude_deg;
+    json["antenna_altitude_m"] = station->antenna_altitude_m;
+    return json;
+}
+
+// Stations that have volumes or grids of their own, or all that are known.
+std::set<std::string> station_names(const ApiCall& call, const catalog::CatalogReader* catalog,
+                                    bool known) {
+    std::set<std::string> names;
+    if (catalog != nullptr) {
+        if (const auto stations = catalog->station_names()) {
+            std::copy_if(stations->begin(), stations->end(), std::inserter(names, names.end()),
+                         [](const std::string& name) { return !name.empty(); });
+        }
+    }
+    if (call.state.sources().grids) {
+        for (const std::string& domain : call.grids().domains()) {
+            if (is_icao(domain)) names.insert(domain);
+        }
+    }
+    if (known) {
+        for (const Station& station : all_stations())
+            names.emplace(station.icao);
+    }
+    return names;
+}
+
+ApiJson station_json(const ApiCall& call, const catalog::CatalogReader* catalog,
+                     const std::string& icao, UtcTime now) {
+    ApiJson json = station_place_json(icao);
+    json["newest_volume"] = nullptr;
+    if (catalog != nullptr) {
+        const auto latest = catalog->latest(icao);
+        if (latest && *latest) {
+            json["newest_volume"] = newest_json((*latest)->volume.start_time, now);
+        }
+    }
+    std::optional<UtcTime> newest;
+    ApiJson moments = ApiJson::array();
+    if (call.state.sources().grids) {
+        for (const level2::Moment moment : call.grids().moments(icao)) {
+            const auto time = call.grids().newest(icao, moment);
+            if (!time) continue;
+            newest = newest ? std::max(*newest, *time) : *time;
+            moments.push_back(level2::moment_name(moment));
+        }
+    }
+    json["newest_grid"] = newest_json(newest, now);
+    json["moments"] = moments;
+    return json;
+}
+
+}  // namespace
+
+Answer api_stations(const ApiCall& call) {
+    const auto known = whole_parameter(call, "known", 0, 1, 0);
+    if (!known) return json_error(known.error());
+    const auto catalog = call.state.catalog();
+    const catalog::CatalogReader* reader = catalog ? catalog->get() : nullptr;
+    std::set<std::string> names = station_names(call, reader, *known == 1);
+    if (const auto one = call.request.parameter("station")) {
+        const auto icao = icao_of(*one);
+        if (!icao) return json_error(400, "station: four letters or digits, like KTLX");
+        std::erase_if(names, [&](const std::string& name) { return name != *icao; });
+    }
+    const UtcTime now = now_utc();
+    ApiJson list = ApiJson::array();
+    for (const std::string& name : names)
+        list.push_back(station_json(call, reader, name, now));
+    return json_answer(call.request, {{"time", format_utc(now)}, {"stations", list}});
+}
+
+Answer api_volumes(const ApiCall& call) {
+    const auto from = time_parameter(call, "from");
+    if (!from) return json_error(from.error());
+    const auto to = time_parameter(call, "to");
+    if (!to) return json_error(to.error());
+    const auto limit = whole_parameter(call, "limit", 1, most_volumes_listed, usual_volumes_listed);
+    if (!limit) return json_error(limit.error());
+    const auto icao = icao_of(call.path_value("station"));
+    if (!icao) return json_error(404, "there is no such station");
+    const auto catalog = call.state.catalog();
+    if (!catalog) return json_error(catalog.error());
+    const auto entries = (*catalog)->list(*icao, {*from, *to, false});
+    if (!entries) return json_error(entries.error());
+    const auto count = static_cast<std::size_t>(*limit);
+    const std::size_t skipped = entries->size() > count ? entries->size() - count : 0;
+    ApiJson list = ApiJson::array();
+    for (std::size_t i = skipped; i < entries->size(); ++i) {
+        const catalog::CatalogEntry& entry = (*entries)[i];
+        const catalog::VolumeFacts& volume = entry.volume;
+        const auto time_json = [](std::optional<UtcTime> time) {
+            return time ? ApiJson(format_utc(*time)) : ApiJson();
+        };
+        list.push_back({{"name", entry.path.filename().string()},
+                        {"time", time_json(volume.start_time)},
+                        {"end_time", time_json(volume.end_time)},
+                        {"state", catalog::file_state_name(entry.state)},
+                        {"bytes", entry.size_bytes},
+                        {"vcp", volume.vcp ? ApiJson(*volume.vcp) : ApiJson()},
+                        {"sweeps", volume.sweep_count},
+                        {"complete", volume.complete},
+                        {"generation", entry.generation}});
+    }
+    return json_answer(call.request,
+                       {{"station", *icao}, {"volumes", list}, {"more", skipped > 0}});
+}
+
+}  // namespace stormcellar::web
