@@ -49,7 +49,10 @@ class ApiState {
       public:
         explicit Slot(std::atomic<int>& used) : used_(&used) {}
         Slot(Slot&& other) noexcept : used_(std::exchange(other.used_, nullptr)) {}
-        Slot& operator=(Slot&&) = delete;
+        Slot& operator=(Slot&& other) noexcept {
+            std::swap(used_, other.used_);
+            return *this;
+        }
         Slot(const Slot&) = delete;
         Slot& operator=(const Slot&) = delete;
         ~Slot() {
