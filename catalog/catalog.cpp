@@ -362,9 +362,8 @@ Result<std::optional<UtcTime>> CatalogReader::oldest_kept(std::string_view stati
 Result<std::vector<CatalogEntry>> CatalogReader::files_with_prefix(std::string_view station,
                                                                    std::string_view prefix,
                                                                    std::size_t most) const {
-    return ask(station, [&](StationDatabase& database) {
-        return database.files_with_prefix(prefix, most);
-    });
+    return ask(station,
+               [&](StationDatabase& database) { return database.files_with_prefix(prefix, most); });
 }
 
 Result<std::optional<CatalogEntry>> CatalogReader::find_file(std::string_view station,

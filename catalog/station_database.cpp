@@ -407,8 +407,8 @@ std::optional<CatalogEntry> StationDatabase::first(bool latest) {
     return std::nullopt;
 }
 
-// CROSS JOIN fixes the order of the tables, so that the index of volumes gives the order of rows and
-// the query stops at its limit.
+// CROSS JOIN fixes the order of the tables, so that the index of volumes gives the order of rows
+// and the query stops at its limit.
 std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) {
     static const auto text = [](const char* order) {
         return std::string{entry_columns} +
@@ -441,7 +441,8 @@ std::optional<UtcTime> StationDatabase::oldest_kept() {
         }
         if (tried < most_tried) return std::nullopt;
     }
-    // Whoever deletes old files leaves few: the table of files is read, and their volumes looked up.
+    // Whoever deletes old files leaves few: the table of files is read, and their volumes looked
+    // up.
     LentStatement kept = prepared(
         "SELECT min(v.start_ms) FROM file f CROSS JOIN part p ON p.file_id = f.id "
         "CROSS JOIN volume v ON v.id = p.volume_id WHERE f.state <> 'gone'");
@@ -451,8 +452,8 @@ std::optional<UtcTime> StationDatabase::oldest_kept() {
 
 std::vector<CatalogEntry> StationDatabase::files_with_prefix(std::string_view prefix,
                                                              std::size_t most) {
-    static const std::string text =
-        std::string{columns_without_volume} + "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
+    static const std::string text = std::string{columns_without_volume} +
+                                    "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
     // The bound above all paths with the prefix: the byte 0xFF is in no UTF-8, and a name that has
     // it right behind the prefix is no chunk's.
     const std::string behind = std::string{prefix} + '\xFF';

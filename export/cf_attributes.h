@@ -1,4 +1,5 @@
-// export/cf_attributes.h -- what the variables of a grid are called and said to be, in the terms of CF; internal.
+// export/cf_attributes.h -- what the variables of a grid are called and said to be, in the terms of
+// CF; internal.
 //
 // This is the one table of these texts. NetCDF files (export/grid_netcdf.h) and Zarr arrays
 // (docs/web/zarr.md) are written from it, so that a reader finds the same in both.

@@ -75,8 +75,7 @@ Result<std::unique_ptr<ScratchCellar>> ScratchCellar::make(int threads) {
     options.drop = "/";
     auto catalog = catalog::CatalogWriter::open(scratch->path() / "catalog", options);
     if (!catalog) return pass_on(catalog);
-    auto store = cache::StoreWriter::open(real_file_system(), scratch->path() / "cache",
-                                           false);
+    auto store = cache::StoreWriter::open(real_file_system(), scratch->path() / "cache", false);
     if (!store) return pass_on(store);
     return std::unique_ptr<ScratchCellar>(
         new ScratchCellar(std::move(*scratch), std::move(*catalog), std::move(*store), threads));

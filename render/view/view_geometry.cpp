@@ -248,7 +248,8 @@ void ViewGeometry::ground_of_row(int y, GroundRow& row) const {
     if (drop_per_m2_ == 0) return flat_ground_of_row(first, row);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t x = 0; x < width; ++x) {
-        const auto at = ground({static_cast<double>(x) + 0.5, first.y}).value_or(GroundPoint{nan, nan});
+        const auto at =
+            ground({static_cast<double>(x) + 0.5, first.y}).value_or(GroundPoint{nan, nan});
         row.x_m[x] = at.x_m;
         row.y_m[x] = at.y_m;
     }

@@ -105,8 +105,8 @@ std::shared_ptr<EventHub::Listener> EventHub::listen(EventFilter filter,
         const auto last = parse_event_id(*id);
         if (!last || last->run != run_ || last->number >= next_) {
             ++resets_;
-            listener->unsent_ += event_frame(reset_event("the server was started anew"), run_,
-                                             next_ - 1);
+            listener->unsent_ +=
+                event_frame(reset_event("the server was started anew"), run_, next_ - 1);
         } else if (last->number + 1 < first_number()) {
             ++resets_;
             listener->unsent_ +=
@@ -172,8 +172,8 @@ void EventHub::Listener::gather(std::size_t most) {
     if (next_ < first) {
         ++hub_->resets_;
         next_ = hub_->next_;
-        unsent_ += event_frame(reset_event("the events were not read in time"), hub_->run_,
-                               next_ - 1);
+        unsent_ +=
+            event_frame(reset_event("the events were not read in time"), hub_->run_, next_ - 1);
     }
     for (; next_ < hub_->next_ && unsent_.size() < most; ++next_) {
         const Numbered& numbered = hub_->ring_[next_ - first];
@@ -183,8 +183,8 @@ void EventHub::Listener::gather(std::size_t most) {
     // The heartbeat carries the newest id: a client whose station was quiet for long must not be
     // told, when it comes back, that events were lost.
     if (unsent_.empty() && beat_due_) {
-        unsent_ = fmt::format(": heartbeat\nid: {}\n\n",
-                              event_id_text(hub_->run_, hub_->next_ - 1));
+        unsent_ =
+            fmt::format(": heartbeat\nid: {}\n\n", event_id_text(hub_->run_, hub_->next_ - 1));
     }
 }
 

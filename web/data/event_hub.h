@@ -28,8 +28,8 @@
 namespace stormcellar::web {
 
 struct EventHubOptions {
-    std::size_t kept = 4096;          // events in the ring
-    unsigned heartbeat_ticks = 15;    // a listener hears something at least so often
+    std::size_t kept = 4096;         // events in the ring
+    unsigned heartbeat_ticks = 15;   // a listener hears something at least so often
     std::optional<std::string> run;  // for tests; none: drawn at random
 };
 
@@ -71,7 +71,7 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
 
     const std::size_t kept_;
     const std::string run_;
-    mutable std::mutex mutex_;  // of everything below, and of the places of listeners
+    mutable std::mutex mutex_;   // of everything below, and of the places of listeners
     std::deque<Numbered> ring_;  // the numbers first_number() to next_ - 1
     std::uint64_t next_ = 1;
     std::unordered_map<std::string, Group> groups_;

@@ -1,5 +1,5 @@
-// web/data/flat_map.h -- a 2D product of a grid, made once, with smaller forms of it for looking from
-// afar.
+// web/data/flat_map.h -- a 2D product of a grid, made once, with smaller forms of it for looking
+// from afar.
 //
 // Level 0 has a cell for each column of the grid; each further level has half as many columns and
 // rows, until neither is above 32. A cell of a level stands for the four below it (fewer at an edge
@@ -17,11 +17,11 @@
 // Errors    See each function.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
-#include <condition_variable>
 #include <set>
 #include <string>
 #include <vector>
@@ -47,8 +47,8 @@ class FlatMaps {
   public:
     explicit FlatMaps(std::uint64_t budget_bytes) : budget_bytes_(budget_bytes) {}
 
-    // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that was
-    // cut while it was read.
+    // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that
+    // was cut while it was read.
     [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const OpenGrid& grid,
                                                                       const render::Scene& scene,
                                                                       int threads);

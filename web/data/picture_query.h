@@ -5,7 +5,8 @@
 // (threads) are no parameters, and colors are taken by name only: a query never names a file.
 //
 // Threads   Pure functions.
-// Errors    bad_argument, naming the parameter, for one that is not known, is given twice, is longer
+// Errors    bad_argument, naming the parameter, for one that is not known, is given twice, is
+// longer
 //           than 256 bytes or has a value that makes no sense.
 #pragma once
 

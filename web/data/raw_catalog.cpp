@@ -69,8 +69,7 @@ class CatalogRawFiles final : public RawFiles {
     Result<std::vector<RawStation>> stations() override;
     Result<std::vector<RawVolume>> list(std::string_view station, const RawRange& range) override;
     OpenedOrMissing open(std::string_view station, std::string_view name) override;
-    std::optional<OpenedVolume> open_kept(std::string_view station,
-                                          std::string_view name) override;
+    std::optional<OpenedVolume> open_kept(std::string_view station, std::string_view name) override;
 
   private:
     struct KeptOpen {
@@ -169,7 +168,8 @@ Result<std::vector<CatalogEntry>> CatalogRawFiles::rows_of(const CatalogReader& 
     }
     auto rows = catalog.list_stretch(station, stretch);
     if (rows && rows->size() == stretch.most) {
-        // Other files of the last name may come behind the limit; the name comes with the next list.
+        // Other files of the last name may come behind the limit; the name comes with the next
+        // list.
         const std::string last = format_compact(*rows->back().volume.start_time);
         const auto first_of_last = std::ranges::find_if(*rows, [&](const CatalogEntry& row) {
             return format_compact(*row.volume.start_time) == last;
@@ -256,7 +256,8 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
     if (found) return found;
     auto own = find_by_own_name(catalog, station, name);
     if (!own || !*own || (*own)->volume.start_time) return own;
-    // The row of a path has no volume. Its file is one that was not cataloged as a volume's, or it is.
+    // The row of a path has no volume. Its file is one that was not cataloged as a volume's, or it
+    // is.
     if (!member_names_in((*own)->path).empty()) return std::optional<CatalogEntry>{};
     return own;
 }
@@ -320,9 +321,8 @@ std::optional<OpenedVolume> CatalogRawFiles::open_kept(std::string_view station,
     const auto known = open_.find(key);
     if (known == open_.end()) return std::nullopt;
     const KeptOpen& kept = known->second;
-    const auto* const slice = kept.volume.bytes.empty()
-                                  ? nullptr
-                                  : std::get_if<FileSlice>(&kept.volume.bytes.front());
+    const auto* const slice =
+        kept.volume.bytes.empty() ? nullptr : std::get_if<FileSlice>(&kept.volume.bytes.front());
     struct stat now {};
     const bool is_same = slice != nullptr && ::fstat(slice->file->number(), &now) == 0 &&
                          now.st_size == kept.facts.st_size && now.st_nlink == kept.facts.st_nlink &&

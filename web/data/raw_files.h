@@ -1,10 +1,10 @@
 // web/data/raw_files.h -- the raw volumes that can be given away, by station and time.
 //
 // Names are those of the public bucket, STATION, start and version, as in KTLX20220317_000842_V06,
-// whatever the file is called that was dropped (web/data/raw_name.h). open() also finds a volume by the name of its
-// file. A volume that came as chunks is one file: all chunks, in the order of their numbers. Of
-// several files of one name the best counts: one that exists, that was decoded, that is complete,
-// that was sent last.
+// whatever the file is called that was dropped (web/data/raw_name.h). open() also finds a volume by
+// the name of its file. A volume that came as chunks is one file: all chunks, in the order of their
+// numbers. Of several files of one name the best counts: one that exists, that was decoded, that is
+// complete, that was sent last.
 //
 // Volumes inside tar and zip archives are left out, because reading one means unpacking all that
 // stands before it.
@@ -51,7 +51,8 @@ struct RawVolume {
     // The following are set by open(), and by list() if RawRange::with_sizes is set.
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
-    std::string tag;  // an ETag with its quotes; it has a '-', so that no client takes it for an MD5
+    std::string
+        tag;  // an ETag with its quotes; it has a '-', so that no client takes it for an MD5
 };
 
 struct RawRange {
@@ -90,9 +91,9 @@ struct RawFilesOptions {
     std::filesystem::path catalog;
     // Joined chunks stand here, in files without a name. Empty: the system's temporary directory.
     std::filesystem::path scratch;
-    std::size_t most_joined = 16;     // joined volumes kept; each has at most 1 GiB, usually 10 MB
-    std::size_t most_open = 64;       // descriptors of volumes kept open, for two seconds
-    std::size_t most_databases = 256; // of the catalog, each with three descriptors
+    std::size_t most_joined = 16;      // joined volumes kept; each has at most 1 GiB, usually 10 MB
+    std::size_t most_open = 64;        // descriptors of volumes kept open, for two seconds
+    std::size_t most_databases = 256;  // of the catalog, each with three descriptors
 };
 
 class RawFiles {
@@ -106,12 +107,14 @@ class RawFiles {
     // Sorted by ICAO.
     [[nodiscard]] virtual Result<std::vector<RawStation>> stations() = 0;
     // Returns each name once. A station without volumes gives an empty list. Volumes whose file
-    // is gone are left out; files that came in the last 30 s and are older than all others may be, too.
+    // is gone are left out; files that came in the last 30 s and are older than all others may be,
+    // too.
     [[nodiscard]] virtual Result<std::vector<RawVolume>> list(std::string_view station,
                                                               const RawRange& range) = 0;
     // Opens a volume. It may compute the hash of a file.
     [[nodiscard]] virtual OpenedOrMissing open(std::string_view station, std::string_view name) = 0;
-    // Returns a volume that was opened in the last two seconds and did not change; takes microseconds.
+    // Returns a volume that was opened in the last two seconds and did not change; takes
+    // microseconds.
     [[nodiscard]] virtual std::optional<OpenedVolume> open_kept(std::string_view station,
                                                                 std::string_view name) = 0;
 

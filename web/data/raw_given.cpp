@@ -76,10 +76,10 @@ OpenedOrMissing GivenRawFiles::open_given(const std::string& name, const GivenVo
         }
         const auto size_bytes = static_cast<std::uint64_t>(facts.st_size);
         opened.volume.size_bytes += size_bytes;
-        opened.volume.modified = std::max(
-            opened.volume.modified,
-            UtcTime{std::chrono::seconds{facts.st_mtim.tv_sec} +
-                    std::chrono::milliseconds{facts.st_mtim.tv_nsec / 1'000'000}});
+        opened.volume.modified =
+            std::max(opened.volume.modified,
+                     UtcTime{std::chrono::seconds{facts.st_mtim.tv_sec} +
+                             std::chrono::milliseconds{facts.st_mtim.tv_nsec / 1'000'000}});
         tag += fmt::format("-{:x}.{:x}.{:x}{:x}", facts.st_ino, size_bytes, facts.st_mtim.tv_sec,
                            facts.st_mtim.tv_nsec);
         if (size_bytes > 0) opened.bytes.emplace_back(FileSlice{std::move(file), 0, size_bytes});
@@ -122,9 +122,8 @@ OpenedOrMissing GivenRawFiles::open(std::string_view station, std::string_view n
     const auto known = stations_.find(station);
     if (known != stations_.end()) {
         for (const auto& [own, given] : known->second) {
-            const bool is_named =
-                own == name ||
-                (given.paths.size() == 1 && given.paths.front().filename().native() == name);
+            const bool is_named = own == name || (given.paths.size() == 1 &&
+                                                  given.paths.front().filename().native() == name);
             if (is_named) return open_given(own, given);
         }
     }

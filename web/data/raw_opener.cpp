@@ -187,9 +187,9 @@ OpenedRawOrMissing RawOpener::open(const CatalogReader& catalog, const CatalogEn
         return missing(RawMissing::changed,
                        entry.path.native() + ": was cut, or has a second name, while it grows");
     }
-    return OpenedRaw{file, size_bytes, modified,
-                     fmt::format("\"{:x}-{:x}-{:x}\"", facts.st_ino, size_bytes,
-                                 modified_ns_of(facts))};
+    return OpenedRaw{
+        file, size_bytes, modified,
+        fmt::format("\"{:x}-{:x}-{:x}\"", facts.st_ino, size_bytes, modified_ns_of(facts))};
 }
 
 OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
@@ -259,7 +259,8 @@ Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const Catalog
     const bool grows = is_growing(entry);
     if (!pipeline::is_of_chunks(entry)) {
         RawFacts facts{entry.size_bytes, time_of_ns(entry.modified_ns), {}};
-        if (grows && entry.modified_ns == catalog::never_read_ns) facts.modified = entry.registered_time;
+        if (grows && entry.modified_ns == catalog::never_read_ns)
+            facts.modified = entry.registered_time;
         if (!grows) facts.tag = settled_tag(entry.content_hash, entry.size_bytes);
         return facts;
     }

@@ -56,8 +56,8 @@ Counters::PerDoor& Counters::door_of(const Request* request) {
     std::size_t length = 0;
     for (PerDoor& door : doors_) {
         // "/" is the index page alone: what no door knows must not hide among its requests.
-        const bool fits = door.prefix == "/" ? request->path == "/"
-                                             : lies_below(request->path, door.prefix);
+        const bool fits =
+            door.prefix == "/" ? request->path == "/" : lies_below(request->path, door.prefix);
         if (fits && door.prefix.size() > length) {
             longest = &door;
             length = door.prefix.size();
@@ -68,13 +68,11 @@ Counters::PerDoor& Counters::door_of(const Request* request) {
 
 void Counters::count(const Served& served) {
     PerDoor& door = door_of(served.request);
-    const auto status =
-        std::find(counted_statuses.begin(), counted_statuses.end(), served.status) -
-        counted_statuses.begin();
+    const auto status = std::find(counted_statuses.begin(), counted_statuses.end(), served.status) -
+                        counted_statuses.begin();
     const double seconds = std::max(served.seconds.count(), 0.0);
-    const auto bucket =
-        std::lower_bound(counted_seconds.begin(), counted_seconds.end(), seconds) -
-        counted_seconds.begin();
+    const auto bucket = std::lower_bound(counted_seconds.begin(), counted_seconds.end(), seconds) -
+                        counted_seconds.begin();
     ++door.statuses[static_cast<std::size_t>(status)];
     ++door.buckets[static_cast<std::size_t>(bucket)];
     door.bytes += served.bytes;
@@ -124,8 +122,8 @@ std::string Counters::text() const {
         const double sum = static_cast<double>(door->microseconds.load()) / 1e6;
         text += fmt::format("stormcellar_web_answer_seconds_sum{{door=\"{}\"}} {}\n", label,
                             metric_number(sum));
-        text += fmt::format("stormcellar_web_answer_seconds_count{{door=\"{}\"}} {}\n", label,
-                            count);
+        text +=
+            fmt::format("stormcellar_web_answer_seconds_count{{door=\"{}\"}} {}\n", label, count);
     }
     for (const Function& function : functions_) {
         begin_family(text, function.name, function.type, function.help);

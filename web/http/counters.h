@@ -1,11 +1,12 @@
 // web/http/counters.h -- what the server did, counted for /metrics.
 //
-// The server's `on_answer` (web/http/server_options.h) calls count(). A door is named by its prefix,
-// so that the labels are few whatever clients ask for. Other rooms add gauges and counters of their own
-// as functions, which are called when /metrics is asked.
+// The server's `on_answer` (web/http/server_options.h) calls count(). A door is named by its
+// prefix, so that the labels are few whatever clients ask for. Other rooms add gauges and counters
+// of their own as functions, which are called when /metrics is asked.
 //
 // Units     Seconds and bytes.
-// Threads   Doors, gauges and counters are added before the server starts. After that, many threads may use
+// Threads   Doors, gauges and counters are added before the server starts. After that, many threads
+// may use
 //           it; counting takes no lock.
 #pragma once
 
@@ -25,7 +26,8 @@ namespace stormcellar::web {
 
 // The statuses that the server sends; a status that is not among them counts as the last.
 inline constexpr std::array<unsigned, 22> counted_statuses = {
-    200, 204, 206, 301, 302, 304, 308, 400, 403, 404, 405, 406, 410, 412, 414, 416, 421, 429, 431, 500, 501, 503};
+    200, 204, 206, 301, 302, 304, 308, 400, 403, 404, 405,
+    406, 410, 412, 414, 416, 421, 429, 431, 500, 501, 503};
 // Upper bounds of the histogram of seconds, but for infinity.
 inline constexpr std::array<double, 9> counted_seconds = {0.0005, 0.002, 0.01, 0.05, 0.1,
                                                           0.5,    1,     5,    30};

@@ -108,8 +108,8 @@ struct Query {
     bool with_rejected = false;   // also files without a volume
 };
 
-// A stretch of a station's volumes, of which at most `most` are wanted. Only the first volume of each
-// file counts.
+// A stretch of a station's volumes, of which at most `most` are wanted. Only the first volume of
+// each file counts.
 struct Stretch {
     std::optional<UtcTime> from;  // inclusive, on the volume's start time
     std::optional<UtcTime> to;    // inclusive
@@ -172,9 +172,8 @@ Status admit_existing(const std::filesystem::path& directory, StationRule& rule)
 class CatalogReader {
   public:
     // Errors: not_found if the directory does not exist.
-    static Result<CatalogReader> open(
-        std::filesystem::path directory,
-        std::size_t most_open = CatalogOptions::most_open_of_reader);
+    static Result<CatalogReader> open(std::filesystem::path directory,
+                                      std::size_t most_open = CatalogOptions::most_open_of_reader);
     CatalogReader(CatalogReader&&) noexcept;
     CatalogReader& operator=(CatalogReader&&) noexcept;
     CatalogReader(const CatalogReader&) = delete;
@@ -211,15 +210,15 @@ class CatalogReader {
     // Returns the row of a file in the station's database, without a volume; none if it has no row.
     [[nodiscard]] Result<std::optional<CatalogEntry>> find_file(
         std::string_view station, const std::filesystem::path& path) const;
-    // Returns volumes by start time. It goes by the index and stops at `most`, so that it takes time for
-    // what it returns and for what it passes over, and not for all that the station has.
+    // Returns volumes by start time. It goes by the index and stops at `most`, so that it takes
+    // time for what it returns and for what it passes over, and not for all that the station has.
     [[nodiscard]] Result<std::vector<CatalogEntry>> list_stretch(std::string_view station,
                                                                  const Stretch& stretch) const;
     // Returns the start of the oldest volume whose file is not gone; none if there is none. If the
     // files of the oldest volumes are gone it reads the table of files once: 30 ms for 100,000.
     [[nodiscard]] Result<std::optional<UtcTime>> oldest_kept(std::string_view station) const;
-    // Returns the rows of files, without a volume, whose paths begin with these bytes, in any state,
-    // by path. It goes by the index.
+    // Returns the rows of files, without a volume, whose paths begin with these bytes, in any
+    // state, by path. It goes by the index.
     [[nodiscard]] Result<std::vector<CatalogEntry>> files_with_prefix(std::string_view station,
                                                                       std::string_view prefix,
                                                                       std::size_t most) const;
