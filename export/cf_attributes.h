@@ -1,8 +1,8 @@
 // export/cf_attributes.h -- what the variables of a grid are called and said to be, in the terms of
 // CF; internal.
 //
-// This is the one table of these texts. NetCDF files (export/grid_netcdf.h) and Zarr arrays
-// (docs/web/zarr.md) are written from it, so that a reader finds the same in both.
+// This is the one table of these texts. NetCDF files (export/grid_netcdf.h) are written from it,
+// and whatever else describes a grid in these terms.
 //
 // Units     CF units, named in the attributes.
 // Threads   Pure functions.

@@ -7,7 +7,7 @@ namespace {
 
 constexpr ApiParameter from_time{"from", "earliest time, inclusive: ISO 8601 in UTC, or -2h"};
 constexpr ApiParameter to_time{"to", "latest time, inclusive"};
-constexpr ApiParameter one_moment{"moment", "REF, VEL, SW, ZDR, PHI, RHO or CFP; default: all"};
+constexpr ApiParameter one_moment{"moment", "short name of a moment, in capitals; default: all"};
 
 constexpr std::array stations_parameters{
     ApiParameter{"station", "ICAO of one station"},
@@ -129,7 +129,7 @@ struct PathParameter {
 };
 constexpr auto path_parameters = std::to_array<PathParameter>({
     {"domain", "name of a domain: a station's ICAO, or that of a mosaic"},
-    {"moment", "REF, VEL, SW, ZDR, PHI, RHO or CFP"},
+    {"moment", "short name of a moment, in capitals"},
     {"time", "ISO 8601 in UTC with milliseconds where they are not 0, or latest"},
     {"station", "ICAO of a station"},
     {"sweep", "number of a sweep in its volume, from 0"},

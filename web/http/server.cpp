@@ -132,7 +132,8 @@ struct Exchange {
     std::optional<Answer> answer;
     std::shared_ptr<StreamFeed> feed;
     SteadyClock::time_point began = SteadyClock::now();
-    bool has_begun = false;
+    enum class Stage { first_line, headers, answer };  // what was seen of it
+    Stage stage = Stage::first_line;
 };
 
 }  // namespace
@@ -153,9 +154,10 @@ struct Server::Impl {
     Status listen(const ListenAddress& where);
     MHD_Result handle(MHD_Connection* connection, const char* method, const char* version,
                       Exchange& exchange);
+    bool is_refused(MHD_Connection* connection, const char* method, const char* version,
+                    Exchange& exchange) const;
     // Returns false if a worker makes the answer; libmicrohttpd then asks again.
-    bool begin(MHD_Connection* connection, const char* method, const char* version,
-               Exchange& exchange);
+    bool begin(MHD_Connection* connection, Exchange& exchange);
     bool let_work(MHD_Connection* connection, Exchange& exchange);
     MHD_Result send(MHD_Connection* connection, Exchange& exchange);
     void finish(Answer& answer, const Request& request) const;
@@ -227,18 +229,28 @@ void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*o
     impl->watch.opened(connection, socket->connect_fd, end_point_of(client->client_addr).address);
 }
 
+// libmicrohttpd calls this when the headers are there, again when the request has ended, and again
+// when a connection that was held still goes on. An answer to the first call ends the connection,
+// since the client may still be sending a body; so only refusals are given there.
 MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method, const char* version,
                                 Exchange& exchange) {
-    if (!exchange.has_begun) {
-        exchange.has_begun = true;
-        watch.request_arrived(connection);
-        if (!begin(connection, method, version, exchange)) return MHD_YES;
+    switch (exchange.stage) {
+        case Exchange::Stage::first_line:
+            exchange.stage = Exchange::Stage::headers;
+            watch.request_arrived(connection);
+            return is_refused(connection, method, version, exchange) ? send(connection, exchange)
+                                                                     : MHD_YES;
+        case Exchange::Stage::headers:
+            exchange.stage = Exchange::Stage::answer;
+            return begin(connection, exchange) ? send(connection, exchange) : MHD_YES;
+        case Exchange::Stage::answer:
+            return send(connection, exchange);
     }
-    return send(connection, exchange);
+    return MHD_NO;
 }
 
-bool Server::Impl::begin(MHD_Connection* connection, const char* method, const char* version,
-                         Exchange& exchange) {
+bool Server::Impl::is_refused(MHD_Connection* connection, const char* method, const char* version,
+                              Exchange& exchange) const {
     RawRequest& raw = exchange.raw;
     raw.method = method;
     raw.is_http_1_0 = std::string_view{version} == "HTTP/1.0";
@@ -247,12 +259,14 @@ bool Server::Impl::begin(MHD_Connection* connection, const char* method, const c
     if (client != nullptr) raw.client = end_point_of(client->client_addr).address;
     Reading reading = read_request(raw, identity);
     exchange.request = std::move(reading.request);
-    if (reading.refusal) {
-        exchange.answer = sentence(reading.refusal->status, reading.refusal->reason);
-        if (reading.refusal->status == 405) exchange.answer->with("Allow", "GET, HEAD, OPTIONS");
-        exchange.answer->closes = true;
-        return true;
-    }
+    if (!reading.refusal) return false;
+    exchange.answer = sentence(reading.refusal->status, reading.refusal->reason);
+    if (reading.refusal->status == 405) exchange.answer->with("Allow", "GET, HEAD, OPTIONS");
+    exchange.answer->closes = true;
+    return true;
+}
+
+bool Server::Impl::begin(MHD_Connection* connection, Exchange& exchange) {
     if (exchange.request.verb == Verb::options) {
         exchange.answer.emplace();
         exchange.answer->status = 204;

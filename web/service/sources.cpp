@@ -3,6 +3,11 @@
 #include <string>
 #include <utility>
 
+#include "web/data/kept_answers.h"
+#include "web/doors/api_door.h"
+#include "web/doors/polling.h"
+#include "web/doors/volumes.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -11,7 +16,9 @@ class PlainIndex final : public Door {
   public:
     std::optional<Answer> answer_at_once(const Request& request) override {
         if (request.path != "/") return sentence(404, "There is nothing at this address.");
-        return text_answer(200, "text/plain; charset=utf-8", "stormcellar: a data server\n");
+        return text_answer(200, "text/plain; charset=utf-8",
+                           "stormcellar: a data server\n"
+                           "/api/v1 lists what can be asked; docs/web.md explains it.\n");
     }
     Answer answer(const Request& request) override { return *answer_at_once(request); }
 };
@@ -36,9 +43,23 @@ Result<Sources> open_sources(WebSetup setup) {
     return sources;
 }
 
-std::shared_ptr<const Doors> doors_to(const Sources& /*sources*/) {
+std::shared_ptr<const Doors> doors_to(const Sources& sources) {
+    const WebSetup& setup = sources.setup;
+    const WebLimits& limits = setup.web.limits;
     auto doors = std::make_shared<Doors>();
     doors->add("/", std::make_shared<PlainIndex>());
+    const auto files = RawFiles::open_catalog({.catalog = setup.catalog, .scratch = {}});
+    if (setup.web.serves(WebPart::volumes))
+        doors->add("/volumes", std::make_shared<VolumesDoor>(files));
+    if (setup.web.serves(WebPart::polling))
+        doors->add("/nexrd2", std::make_shared<PollingDoor>(files));
+    if (setup.web.serves(WebPart::grids)) {
+        doors->add("/api/v1", std::make_shared<ApiDoor>(ApiSources{
+                                  .grids = sources.grids,
+                                  .catalog = setup.catalog,
+                                  .kept = std::make_shared<KeptAnswers>(limits.kept_bytes),
+                                  .most_computations = limits.renders}));
+    }
     return doors;
 }
 
