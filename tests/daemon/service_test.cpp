@@ -344,16 +344,17 @@ TEST_F(ServiceTest, AFileInPlaceOfTheDropDirectoryIsWaitedOutToo) {
 TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {
     for (int i = 0; i < 50; ++i)
         write_file(config_.fixed.paths.drop / std::to_string(i), "1");
-    // Both workers hold a file until the service says that it is stopping.
+    // Each worker holds its file until the service says that it is stopping. Files of no station
+    // may be held by one worker alone, which leaves the other for stations.
     std::atomic<int> held = 0;
     start([&](const auto&, bool) {
         ++held;
         wait_for_message("STOPPING=1");
         return outcome_of(IngestResult::gridded);
     });
-    ASSERT_TRUE(wait_for([&] { return held == 2; }));
+    ASSERT_TRUE(wait_for([&] { return held > 0; }));
     EXPECT_EQ(stop(), Stopped::cleanly);
-    EXPECT_EQ(sink_->calls().size(), 2U) << "a worker ends what it has, and begins nothing";
+    EXPECT_LE(sink_->calls().size(), 2U) << "a worker ends what it has, and begins nothing";
     EXPECT_EQ(status()["ingested"], sink_->calls().size()) << "what ended while stopping counts";
 }
 
