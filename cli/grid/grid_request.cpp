@@ -193,8 +193,7 @@ Status parse_moments(const GridOptions& options, GridRequest& request) {
             from = to + 1;
         }
         std::ranges::sort(moments);
-        const auto twice = std::ranges::unique(moments);
-        moments.erase(twice.begin(), twice.end());
+        moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     }
     request.moment = moments.front();
     request.more_moments.assign(moments.begin() + 1, moments.end());

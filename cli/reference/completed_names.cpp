@@ -87,7 +87,7 @@ std::vector<std::string> completed_names(std::string_view kind,
         return name.empty() || name.find_first_of(" \t\n\\'\"$`:") != std::string::npos;
     });
     std::ranges::sort(names);
-    names.erase(std::ranges::unique(names).begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
 }
 

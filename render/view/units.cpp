@@ -113,7 +113,8 @@ Result<Units> units_from_names(std::string_view names) {
         from = to + 1;
     }
     // A unit of several things takes what the others leave.
-    std::ranges::stable_partition(units, [](const UnitFacts* f) { return !is_of_several(*f); });
+    std::stable_partition(units.begin(), units.end(),
+                          [](const UnitFacts* f) { return !is_of_several(*f); });
     Named named{};
     for (const UnitFacts* facts : units) {
         if (Status fine = take(*facts, named); !fine) return pass_on(fine);

@@ -48,7 +48,8 @@ Bounds bounds_of(const grid::GridSpec& spec, const Scene& scene, int x, int y, i
 TEST(FittedCamera, ShowsAStormWhereverItIs) {
     const grid::GridSpec spec = small_spec(200, 32);
     for (const bool curved : {false, true}) {
-        for (const auto& [x, y] : {std::pair{40, 60}, {100, 100}, {170, 30}}) {
+        for (const auto& place : {std::pair{40, 60}, {100, 100}, {170, 30}}) {
+            const int x = place.first, y = place.second;
             const auto bricks = bricks_of(make_grid_of(
                 spec, [&](int ix, int iy, int iz) { return storm_at(ix, iy, iz, x, y, 15); }));
             Scene scene;

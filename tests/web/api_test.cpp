@@ -1,0 +1,237 @@
+// The API over grids, asked without a server.
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/web/served_grids.h"
+#include "web/data/packed_grid.h"
+
+namespace stormcellar::web {
+namespace {
+
+nlohmann::json json_of(const Answer& answer) {
+    EXPECT_EQ(answer.status, 200u) << body_of(answer);
+    return nlohmann::json::parse(body_of(answer));
+}
+
+class Api : public ::testing::Test {
+  protected:
+    ServedGrids served_;
+};
+
+TEST_F(Api, ListsDomainsAndGrids) {
+    const auto domains = json_of(served_.get("/api/v1/domains"))["domains"];
+    ASSERT_EQ(domains.size(), 1u);
+    EXPECT_EQ(domains[0]["domain"], "KBGM");
+    EXPECT_EQ(domains[0]["moments"][0]["grids"], 3);
+    EXPECT_EQ(domains[0]["moments"][0]["newest"], "2024-11-22T12:05:00Z");
+    const auto of = [&](const char* query) {
+        std::vector<std::string> times;
+        const auto answer = json_of(served_.get(std::string("/api/v1/grids") + query));
+        for (const auto& grid : answer["grids"])
+            times.push_back(grid["time"]);
+        return times;
+    };
+    using Times = std::vector<std::string>;
+    EXPECT_EQ(of(""),
+              (Times{"2005-08-22T02:44:14.123Z", "2024-11-22T12:00:00Z", "2024-11-22T12:05:00Z"}));
+    EXPECT_EQ(of("?limit=1"), (Times{"2024-11-22T12:05:00Z"})) << "the newest";
+    EXPECT_EQ(of("?from=2024-11-22T12:00&to=2024-11-22T12:04"), (Times{"2024-11-22T12:00:00Z"}));
+    EXPECT_EQ(of("?moment=VEL"), Times{});
+    EXPECT_EQ(of("?domain=KOKX"), Times{});
+}
+
+TEST_F(Api, DescribesAGridWithAllOfItsProvenance) {
+    const auto grid = json_of(served_.get(ServedGrids::small_path));
+    const std::string all = grid.dump();
+    for (const char* word :
+         {"position 714 m", "a note", "KBGM: standby, alarm 452", "frame: WGS84 table",
+          "column-linear", "4/3 earth", "KBGM20050822_024414.gz"})
+        EXPECT_NE(all.find(word), std::string::npos) << word;
+    EXPECT_EQ(grid["nx"], 40);
+    EXPECT_EQ(grid["levels_m"].size(), 18u);
+}
+
+TEST_F(Api, RefusesWhatMakesNoSense) {
+    const std::string grid = ServedGrids::small_path;
+    for (const std::string& target :
+         {std::string{"/api/v1/grids?limit=0"},
+          std::string{"/api/v1/grids?limit=99999999999999999999"},
+          std::string{"/api/v1/grids?limit=x"}, std::string{"/api/v1/grids?from=soon"},
+          std::string{"/api/v1/grids?moment=XYZ"}, std::string{"/api/v1/grids?colour=red"},
+          grid + "/probe", grid + "/probe?at=nan,0", grid + "/probe?at=91,0",
+          grid + "/probe?at=1e999,0", grid + "/probe?at=42", grid + "/profile?from=42,-76",
+          grid + "/packed?part=x", grid + "/packed?bricks=5-4",
+          grid + "/packed?bricks=0-99999999999", grid + "/packed?half=1",
+          grid + "/packed?half=99&by=mean", grid + "/packed?part=table&bricks=0-1"}) {
+        const Answer answer = served_.get(target);
+        EXPECT_EQ(answer.status, 400u) << target;
+        EXPECT_FALSE(nlohmann::json::parse(body_of(answer))["error"].get<std::string>().empty());
+    }
+}
+
+TEST_F(Api, KnowsWhatIsNotThere) {
+    for (const char* target :
+         {"/api/v1/nothing", "/api/v1/grids/KOKX/REF/latest", "/api/v1/grids/KBGM/VEL/latest",
+          "/api/v1/grids/KBGM/REF/2024-11-22T12:00:01Z", "/api/v1/grids/..KBGM/REF/latest",
+          "/api/v1/grids/KBGM/REF/latest/nothing"}) {
+        EXPECT_EQ(served_.get(target).status, 404u) << target;
+    }
+}
+
+TEST_F(Api, AnEvictedGridIsGone) {
+    EXPECT_EQ(served_.get(ServedGrids::noon_path).status, 200u);
+    const auto entries =
+        served_.store().list("KBGM", level2::Moment::ref, testing::noon, testing::noon);
+    ASSERT_EQ(entries->size(), 1u);
+    ASSERT_TRUE(served_.store().remove(entries->front()));
+    served_.grids().refresh();
+    EXPECT_EQ(served_.get(ServedGrids::noon_path).status, 410u);
+    EXPECT_EQ(served_.get(std::string(ServedGrids::noon_path) + "/packed").status, 410u);
+}
+
+TEST_F(Api, AGridThatIsMadeAgainHasAnotherTag) {
+    const std::string packed = std::string(ServedGrids::noon_path) + "/packed";
+    const Answer before = served_.get(packed);
+    const std::string etag = header_of(before, "ETag");
+    EXPECT_EQ(served_.get(packed, {{"If-None-Match", etag}}).status, 304u);
+    const std::string id = json_of(served_.get(ServedGrids::noon_path))["id"];
+    EXPECT_EQ(served_.get(packed + "?id=" + id).status, 200u);
+    ASSERT_TRUE(testing::commit_sized(served_.store(), "KBGM", testing::noon, 6, 1));
+    served_.grids().refresh();
+    const Answer after = served_.get(packed, {{"If-None-Match", etag}});
+    EXPECT_EQ(after.status, 200u);
+    EXPECT_NE(header_of(after, "ETag"), etag);
+    EXPECT_EQ(served_.get(packed + "?id=" + id).status, 410u) << "the bytes of that id are gone";
+}
+
+TEST_F(Api, ProbesGiveTheGridsOwnCells) {
+    const auto probe =
+        json_of(served_.get(std::string(ServedGrids::small_path) + "/probe?at=42.2,-75.98"));
+    const int x = probe["column"]["x"], y = probe["column"]["y"];
+    const grid::Grid& grid = served_.small();
+    ASSERT_EQ(probe["levels"].size(), grid.spec.levels_m.size());
+    int levels = 0;
+    for (const auto& level : probe["levels"]) {
+        const std::size_t at = grid.spec.index(x, y, levels);
+        EXPECT_EQ(level["height_m"], grid.spec.levels_m.at(static_cast<std::size_t>(levels)));
+        if (grid.status[at] == grid::CellStatus::value) {
+            EXPECT_EQ(level["state"], "value");
+            EXPECT_NEAR(level["value"], grid.values[at], 0.25);
+        } else {
+            EXPECT_TRUE(level["value"].is_null());
+            EXPECT_NE(level["state"], "value");
+        }
+        ++levels;
+    }
+}
+
+TEST_F(Api, TheOwnFileComesWithRanges) {
+    const std::string file = std::string(ServedGrids::noon_path) + "/file";
+    const std::string whole = body_of(served_.get(file));
+    const Answer part = served_.get(file, {{"Range", "bytes=0-7"}});
+    EXPECT_EQ(part.status, 206u);
+    EXPECT_EQ(body_of(part), whole.substr(0, 8));
+}
+
+TEST_F(Api, DescribesItself) {
+    const auto index = json_of(served_.get("/api/v1"));
+    const auto document = json_of(served_.get("/api/v1/openapi.json"));
+    EXPECT_TRUE(document["openapi"].get<std::string>().starts_with("3.1"));
+    EXPECT_GE(document["paths"].size(), 12u);
+    EXPECT_TRUE(document["paths"].contains("/api/v1/grids/{domain}/{moment}/{time}/packed"));
+    EXPECT_FALSE(index.empty());
+}
+
+// Reads the packed form as docs/web/packed-grid.md says, apart from what wrote it.
+class Unpacked {
+  public:
+    explicit Unpacked(std::string bytes) : bytes_(std::move(bytes)) {
+        EXPECT_EQ(bytes_.substr(0, 4), "\x89SCP");
+        EXPECT_EQ(number<std::uint64_t>(16), bytes_.size());
+    }
+    template <class Number>
+    [[nodiscard]] Number number(std::uint64_t offset) const {
+        Number read{};
+        std::memcpy(&read, bytes_.data() + offset, sizeof read);
+        return read;
+    }
+    [[nodiscard]] std::uint32_t u32(std::uint64_t offset) const {
+        return number<std::uint32_t>(offset);
+    }
+    // The code of a cell with a value; none for other states, which `state` tells.
+    [[nodiscard]] std::optional<std::uint16_t> code(int x, int y, int z, int& state) const {
+        const std::uint32_t bricks_y = u32(128), bricks_z = u32(132);
+        const auto brick = static_cast<std::uint32_t>(x / 16) * bricks_y * bricks_z +
+                           static_cast<std::uint32_t>(y / 16) * bricks_z +
+                           static_cast<std::uint32_t>(z / 16);
+        const std::uint64_t row = number<std::uint64_t>(224) + std::uint64_t{12} * brick;
+        const auto kind = number<std::uint8_t>(row);
+        const std::uint64_t block = u32(row + 8);
+        const auto cell = static_cast<std::uint64_t>((x % 16) * 256 + (y % 16) * 16 + z % 16);
+        if (kind == 0) {
+            state = number<std::uint8_t>(row + 1);
+            return std::nullopt;
+        }
+        if (kind == 1) {
+            const auto byte =
+                number<std::uint8_t>(number<std::uint64_t>(232) + 1024 * block + cell / 4);
+            state = byte >> (2 * (cell % 4)) & 3;
+            return std::nullopt;
+        }
+        const std::uint64_t size = u32(108);
+        const std::uint64_t at = number<std::uint64_t>(240) + (4096 * block + cell) * size;
+        const std::uint16_t found =
+            size == 1 ? number<std::uint8_t>(at) : number<std::uint16_t>(at);
+        if (found >= 3) return found;
+        state = found;
+        return std::nullopt;
+    }
+
+  private:
+    std::string bytes_;
+};
+
+TEST_F(Api, ThePackedFormHoldsEachCell) {
+    const Unpacked packed(body_of(served_.get(std::string(ServedGrids::small_path) + "/packed")));
+    const grid::Grid& grid = served_.small();
+    const auto bricks = grid::BrickGrid::from(grid, ServedGrids::quantization());
+    const grid::BrickView view = bricks.view();
+    EXPECT_EQ(packed.u32(36), 40u);
+    EXPECT_EQ(packed.u32(40), 24u);
+    EXPECT_EQ(packed.u32(44), 18u);
+    std::size_t values = 0;
+    for (int x = 0; x < 40; ++x) {
+        for (int y = 0; y < 24; ++y) {
+            for (int z = 0; z < 18; ++z) {
+                int state = -1;
+                const auto code = packed.code(x, y, z, state);
+                const grid::CellStatus status = view.status(x, y, z);
+                ASSERT_EQ(code.has_value(), status == grid::CellStatus::value);
+                if (!code) continue;
+                ++values;
+                const float value =
+                    packed.number<float>(112) +
+                    packed.number<float>(116) * static_cast<float>(*code - grid::first_value_code);
+                ASSERT_EQ(value, view.value(x, y, z));
+            }
+        }
+    }
+    EXPECT_GT(values, 100u);
+}
+
+TEST_F(Api, PackedAnswersAreCompressedAsTheClientTakesThem) {
+    const std::string packed = std::string(ServedGrids::small_path) + "/packed";
+    EXPECT_EQ(header_of(served_.get(packed), "Content-Encoding"), "");
+    const Answer gzip = served_.get(packed, {{"Accept-Encoding", "gzip, deflate"}});
+    EXPECT_EQ(header_of(gzip, "Content-Encoding"), "gzip");
+    EXPECT_EQ(header_of(gzip, "Vary"), "Accept-Encoding");
+    EXPECT_EQ(body_of(gzip).substr(0, 2), "\x1f\x8b");
+    const Answer zstd = served_.get(packed, {{"Accept-Encoding", "gzip, zstd"}});
+    EXPECT_EQ(header_of(zstd, "Content-Encoding"), "zstd");
+    EXPECT_EQ(body_of(zstd).substr(0, 4), "\x28\xb5\x2f\xfd");
+}
+
+}  // namespace
+}  // namespace stormcellar::web
