@@ -58,14 +58,12 @@ class WebBench {
     Status ask_first(const std::string& what, const std::vector<std::string>& paths,
                      const std::vector<std::string>& headers) {
         std::vector<double> times;
-        double bytes = 0;
         for (const std::string& path : paths) {
             const auto fetched = get(ours_.address() + path, headers, scratch_);
             if (!fetched) return pass_on(fetched);
             if (fetched->status != 200)
                 return fail(ErrorCode::internal, "{} answered {}", path, fetched->status);
             times.push_back(fetched->ms);
-            bytes += static_cast<double>(fetched->body.size());
         }
         if (times.empty()) return {};
         std::sort(times.begin(), times.end());

@@ -31,8 +31,8 @@ int free_port() {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
-        ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+    if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+        ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
         return 0;
     return ntohs(address.sin_port);
 }
@@ -43,8 +43,8 @@ bool answers(int port) {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     address.sin_port = htons(static_cast<std::uint16_t>(port));
-    return ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) ==
-           0;
+    return ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address),
+                     sizeof address) == 0;
 }
 
 std::string stormcellar_program() {
