@@ -186,7 +186,7 @@ std::vector<int> numbers_in(const std::string& text) {
 std::vector<fs::path> files_of(const Request& request) {
     if (!request.files.empty()) return request.files;
     for (const fs::path& file : request.volumes()) {
-        if (file.filename().native().starts_with("KTLX2013")) return {file};
+        if (file.filename().native().starts_with("KLBB2016")) return {file};
     }
     return {};
 }
