@@ -1,6 +1,7 @@
 // The whole data server, with every part on, asked by clients that mean harm or are broken
 // (docs/web.md). STORMCELLAR_WEB_CLIENTS and STORMCELLAR_WEB_REQUESTS make it longer (scripts/test
 // --web).
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <random>
@@ -83,7 +84,8 @@ TEST_F(HostileClients, IdleConnectionsBeyondTheLimitAreRefused) {
     ::getrlimit(RLIMIT_NOFILE, &files);
     files.rlim_cur = files.rlim_max;
     ::setrlimit(RLIMIT_NOFILE, &files);
-    if (files.rlim_cur < 2 * clients + 200) GTEST_SKIP() << "too few descriptors are allowed";
+    if (files.rlim_cur < clients + clients / 8 + 200)
+        GTEST_SKIP() << "too few descriptors are allowed";
     setup_.web.limits.connections = static_cast<int>(clients) / 8;
     setup_.web.limits.request = 3s;
     start();
@@ -212,6 +214,49 @@ TEST_F(HostileClients, ChangedRequestsDoNotHurt) {
         EXPECT_NE(status, 500) << text;
     }
     EXPECT_EQ(status_at(grid_path), 200);
+}
+
+// Many honest clients at once get the bytes that one gets, and memory stays within what
+// [web.limits] allows.
+TEST_F(HostileClients, ManyClientsGetTheBytesThatOneGets) {
+    constexpr std::size_t clients = 16;
+    const std::size_t requests = count_from_environment("STORMCELLAR_WEB_REQUESTS", 300);
+    start();
+    const std::string path = grid_path;
+    const std::vector<std::string> targets = {path,
+                                              path + "/packed",
+                                              path + "/packed?half=1&by=mean",
+                                              path + "/file",
+                                              path + "/netcdf",
+                                              path + "/probe?at=42.2,-75.98",
+                                              "/api/v1/domains",
+                                              "/api/v1/openapi.json"};
+    std::vector<std::string> expected;
+    for (const std::string& target : targets) {
+        expected.push_back(body_in(RawClient::get(port_, target)));
+        ASSERT_FALSE(expected.back().empty()) << target;
+    }
+    const double before_mib = resident_mib();
+    std::atomic<std::size_t> others = 0, told_to_come_back = 0;
+    std::vector<std::thread> threads;
+    for (std::size_t client = 0; client < clients; ++client) {
+        threads.emplace_back([&, client] {
+            for (std::size_t i = 0; i < requests / clients + 1; ++i) {
+                const std::size_t which = (i + client) % targets.size();
+                const std::string answer = RawClient::get(port_, targets[which]);
+                if (status_in(answer) == 503) {
+                    ++told_to_come_back;
+                } else if (body_in(answer) != expected[which]) {
+                    ++others;
+                }
+            }
+        });
+    }
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(others, 0u);
+    EXPECT_LT(told_to_come_back, requests / 2) << "only what is computed may be refused";
+    EXPECT_LE(resident_mib() - before_mib, 200);
 }
 
 TEST_F(HostileClients, AGridThatIsEvictedWhileItIsSentArrivesWhole) {
