@@ -180,6 +180,7 @@ void read_collection(TomlTable& table, ThreddsConfig& config) {
     ConfiguredCollection collection;
     collection.path = table.text("path").value_or("");
     collection.title = table.text("title").value_or(collection.path);
+    collection.files = table.text("files").value_or("");
     collection.variables = read_list(table, "variables").value_or(std::vector<std::string>{});
     collection.stations = read_list(table, "stations").value_or(std::vector<std::string>{});
     if (!table.has("path")) {
@@ -190,6 +191,10 @@ void read_collection(TomlTable& table, ThreddsConfig& config) {
                                   &ConfiguredCollection::path) > 0) {
         table.complain("path", fmt::format("{} is named twice", collection.path));
     }
+    if (!collection.files.empty() && !collection.files.is_absolute())
+        table.complain("files", "must be an absolute path");
+    if (!collection.files.empty() && collection.variables.empty())
+        table.complain("files", "needs variables, the products that the files have");
     if (collection.title.size() > longest_text) table.complain("title", "is too long");
     config.collections.push_back(std::move(collection));
 }
@@ -330,7 +335,7 @@ bool WebConfig::serves(WebPart part) const {
 }
 
 ThreddsConfig WebConfig::usual_thredds() {
-    return {{{"nexrad/level2/IDD", "NEXRAD Level II Radar from IDD", {}, {}}}, {}};
+    return {{{"nexrad/level2/IDD", "NEXRAD Level II Radar from IDD", {}, {}, {}}}, {}};
 }
 
 WebConfig read_web_config(TomlTable& root) {

@@ -6,6 +6,7 @@
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
 #include "web/doors/polling.h"
+#include "web/doors/thredds.h"
 #include "web/doors/volumes.h"
 
 namespace stormcellar::web {
@@ -53,6 +54,12 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
         doors->add("/volumes", std::make_shared<VolumesDoor>(files));
     if (setup.web.serves(WebPart::polling))
         doors->add("/nexrd2", std::make_shared<PollingDoor>(files));
+    if (setup.web.serves(WebPart::thredds))
+        doors->add("/thredds",
+                   std::make_shared<ThreddsDoor>(
+                       files, ThreddsOptions{.config = setup.web.thredds,
+                                             .most_results =
+                                                 static_cast<std::size_t>(limits.results)}));
     if (setup.web.serves(WebPart::grids)) {
         doors->add("/api/v1", std::make_shared<ApiDoor>(ApiSources{
                                   .grids = sources.grids,
