@@ -1,5 +1,6 @@
 #include "web/doors/w3c_times.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>

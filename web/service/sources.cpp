@@ -6,6 +6,7 @@
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
 #include "web/doors/polling.h"
+#include "web/doors/s3.h"
 #include "web/doors/thredds.h"
 #include "web/doors/volumes.h"
 
@@ -60,6 +61,8 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
                        files, ThreddsOptions{.config = setup.web.thredds,
                                              .most_results =
                                                  static_cast<std::size_t>(limits.results)}));
+    if (setup.web.serves(WebPart::s3))
+        doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
     if (setup.web.serves(WebPart::grids)) {
         doors->add("/api/v1", std::make_shared<ApiDoor>(ApiSources{
                                   .grids = sources.grids,
