@@ -82,7 +82,7 @@ struct ConfiguredCollection {
 
 struct ThreddsConfig {
     std::vector<ConfiguredCollection> collections;  // never empty
-    std::vector<std::string> denied;  // beginnings of paths below /thredds: 403
+    std::vector<std::string> denied;                // beginnings of paths below /thredds: 403
     bool operator==(const ThreddsConfig&) const = default;
 };
 

@@ -21,10 +21,7 @@ Answer s3_xml_answer(unsigned status, std::string text) {
 Answer s3_error(unsigned status, std::string_view code, std::string_view message,
                 const Request& request) {
     XmlWriter xml;
-    xml.open("Error")
-        .leaf("Code", code)
-        .leaf("Message", message)
-        .leaf("Resource", request.path);
+    xml.open("Error").leaf("Code", code).leaf("Message", message).leaf("Resource", request.path);
     Answer answer = s3_xml_answer(status, xml.take());
     if (status == 503) answer.with("Retry-After", "5");
     return answer;
@@ -53,9 +50,9 @@ Answer missing_object(const RawFailure& failure, const Request& request) {
 
 // Parameters that ask for something else than a list or the object's bytes.
 constexpr std::array<std::string_view, 20> other_resources = {
-    "accelerate", "acl",       "analytics", "attributes",   "cors",    "encryption", "inventory",
-    "lifecycle",  "logging",   "metrics",   "notification", "policy",  "replication", "tagging",
-    "torrent",    "uploadId",  "uploads",   "versions",     "website", "object-lock"};
+    "accelerate", "acl",      "analytics", "attributes",   "cors",    "encryption",  "inventory",
+    "lifecycle",  "logging",  "metrics",   "notification", "policy",  "replication", "tagging",
+    "torrent",    "uploadId", "uploads",   "versions",     "website", "object-lock"};
 
 std::optional<Answer> refused_resource(const Request& request) {
     for (const auto& [name, value] : request.query) {
@@ -155,8 +152,8 @@ Answer S3Door::object_answer(const Request& request, std::string_view text) cons
     if (!opened) return missing_object(opened.error(), request);
     Answer answer = answer_with(request, entity_of(*opened));
     if (answer.status == 416) {
-        Answer error = s3_error(416, "InvalidRange", "The object has no byte in this range.",
-                                request);
+        Answer error =
+            s3_error(416, "InvalidRange", "The object has no byte in this range.", request);
         return error.with("Content-Range", fmt::format("bytes */{}", opened->volume.size_bytes));
     }
     if (answer.status == 412)

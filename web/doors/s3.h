@@ -7,8 +7,8 @@
 //   /s3/BUCKET/YYYY/MM/DD/STATION/NAME GetObject, HeadObject
 //
 // Keys are those of the public bucket. Signatures are not looked at: who may ask is decided by who
-// reaches the server. Errors are XML, with the codes of S3. An ETag contains '-', so no client takes
-// it for the MD5 of the object.
+// reaches the server. Errors are XML, with the codes of S3. An ETag contains '-', so no client
+// takes it for the MD5 of the object.
 //
 // Threads   Many threads may use it.
 #pragma once

@@ -149,8 +149,7 @@ Result<S3ListOptions> read_s3_list_options(const Request& request) {
         options.most = std::min(options.most, most_keys);
     }
     if (const auto encoding = request.parameter("encoding-type"); encoding && !encoding->empty()) {
-        if (*encoding != "url")
-            return fail(ErrorCode::bad_argument, "encoding-type must be url.");
+        if (*encoding != "url") return fail(ErrorCode::bad_argument, "encoding-type must be url.");
         options.encodes_keys = true;
     }
     return options;
@@ -167,14 +166,13 @@ std::string s3_listing_xml(std::string_view bucket, const S3ListOptions& options
     xml.open("ListBucketResult", {{"xmlns", s3_namespace}});
     xml.leaf("Name", bucket);
     xml.leaf("Prefix", encoded_key(options.prefix, options));
-    if (!options.delimiter.empty())
-        xml.leaf("Delimiter", encoded_key(options.delimiter, options));
+    if (!options.delimiter.empty()) xml.leaf("Delimiter", encoded_key(options.delimiter, options));
     xml.leaf("MaxKeys", fmt::format("{}", options.most));
     if (options.encodes_keys) xml.leaf("EncodingType", "url");
     xml.leaf("IsTruncated", listing.next.empty() ? "false" : "true");
     if (options.is_version_2) {
-        xml.leaf("KeyCount", fmt::format("{}", listing.objects.size() +
-                                                   listing.common_prefixes.size()));
+        xml.leaf("KeyCount",
+                 fmt::format("{}", listing.objects.size() + listing.common_prefixes.size()));
         if (!options.token.empty()) xml.leaf("ContinuationToken", options.token);
         if (!options.start_after.empty())
             xml.leaf("StartAfter", encoded_key(options.start_after, options));

@@ -127,9 +127,9 @@ std::string thredds_dataset_xml(const Request& request, const ThreddsCollection&
     xml.empty("service", {{"name", "radarServer"},
                           {"serviceType", "DQC"},
                           {"base", path_for_clients(request, "/thredds/radarServer/")}});
-    xml.open("dataset", {{"name", collection.title()},
-                         {"ID", collection.path()},
-                         {"urlPath", collection.path()}});
+    xml.open(
+        "dataset",
+        {{"name", collection.title()}, {"ID", collection.path()}, {"urlPath", collection.path()}});
     xml.leaf("serviceName", "radarServer");
     xml.leaf("dataType", "RADIAL");
     xml.leaf("dataFormat", collection.format());
@@ -146,9 +146,8 @@ std::string thredds_stations_xml(const std::vector<ThreddsStation>& stations) {
     xml.open("stationsList");
     for (const ThreddsStation& station : stations) {
         if (!station.has_place) continue;
-        xml.open("station", {{"id", station.id},
-                             {"state", station.state},
-                             {"country", station.country}});
+        xml.open("station",
+                 {{"id", station.id}, {"state", station.state}, {"country", station.country}});
         xml.leaf("name", station.name.empty() ? station.id : station.name);
         xml.leaf("elevation", decimal_text(station.altitude_m));
         xml.leaf("latitude", decimal_text(station.latitude_deg));
@@ -165,14 +164,12 @@ std::string thredds_result_xml(const Request& request, const ThreddsCollection& 
     xml.open("service", {{"name", "RadarServices"}, {"serviceType", "Compound"}, {"base", ""}});
     const std::string base =
         path_for_clients(request, "/thredds/fileServer/" + collection.path() + "/");
-    xml.empty("service",
-              {{"name", "HTTPServer"}, {"serviceType", "HTTPServer"}, {"base", base}});
+    xml.empty("service", {{"name", "HTTPServer"}, {"serviceType", "HTTPServer"}, {"base", base}});
     xml.close();
-    xml.open("dataset",
-             {{"name", fmt::format("Radar {} datasets for available stations and times",
-                                   collection.title())},
-              {"collectionType", "TimeSeries"},
-              {"ID", asked}});
+    xml.open("dataset", {{"name", fmt::format("Radar {} datasets for available stations and times",
+                                              collection.title())},
+                         {"collectionType", "TimeSeries"},
+                         {"ID", asked}});
     xml.open("metadata", {{"inherited", "true"}});
     xml.leaf("serviceName", "RadarServices");
     xml.leaf("dataType", "RADIAL");

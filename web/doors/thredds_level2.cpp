@@ -129,8 +129,7 @@ bool Level2Collection::is_path(std::span<const std::string_view> path) const {
     if (path.size() != 3 || !has_station(path[0])) return false;
     const auto time = time_of_raw_name(path[0], path[2]);
     // A file may also be asked for by the name that it was dropped with, on any day.
-    return path[1].size() == digits_of_day &&
-           (!time || format_compact(*time).starts_with(path[1]));
+    return path[1].size() == digits_of_day && (!time || format_compact(*time).starts_with(path[1]));
 }
 
 Answer Level2Collection::file(const Request& request, std::span<const std::string_view> path) {

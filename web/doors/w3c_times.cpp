@@ -229,8 +229,8 @@ std::optional<W3cDuration> duration_of_schema(TimeText text) {
 UtcTime moved_by_months(UtcTime time, int months) {
     const auto day = std::chrono::floor<days>(time);
     const std::chrono::year_month_day date{day};
-    const auto month = std::chrono::year_month{date.year(), date.month()} +
-                       std::chrono::months{months};
+    const auto month =
+        std::chrono::year_month{date.year(), date.month()} + std::chrono::months{months};
     const std::chrono::year_month_day_last last{month.year(),
                                                 std::chrono::month_day_last{month.month()}};
     const std::chrono::year_month_day moved{month.year(), month.month(),
@@ -242,8 +242,7 @@ UtcTime moved_by_months(UtcTime time, int months) {
 
 Result<UtcTime> parse_w3c_time(std::string_view text, UtcTime now) {
     if (text == "present") return now;
-    const auto time =
-        text.size() <= longest_time_text ? time_of_w3c(TimeText{text}) : std::nullopt;
+    const auto time = text.size() <= longest_time_text ? time_of_w3c(TimeText{text}) : std::nullopt;
     if (time) return *time;
     return fail(ErrorCode::bad_argument,
                 "\"{}\" is not a time: give one such as 2022-03-17T00:08:00Z, or present.",

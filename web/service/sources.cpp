@@ -56,11 +56,11 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
     if (setup.web.serves(WebPart::polling))
         doors->add("/nexrd2", std::make_shared<PollingDoor>(files));
     if (setup.web.serves(WebPart::thredds))
-        doors->add("/thredds",
-                   std::make_shared<ThreddsDoor>(
-                       files, ThreddsOptions{.config = setup.web.thredds,
-                                             .most_results =
-                                                 static_cast<std::size_t>(limits.results)}));
+        doors->add(
+            "/thredds",
+            std::make_shared<ThreddsDoor>(
+                files, ThreddsOptions{.config = setup.web.thredds,
+                                      .most_results = static_cast<std::size_t>(limits.results)}));
     if (setup.web.serves(WebPart::s3))
         doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
     if (setup.web.serves(WebPart::grids)) {
