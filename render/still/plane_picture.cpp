@@ -104,15 +104,13 @@ void for_each_copy(const PlaneWindow& window, const EarthBox& box, const Work& w
 class PlaceColours {
   public:
     explicit PlaceColours(const PlaneMap& map)
-        : map_(map),
-          cells_(map.field),
-          per_column_(1.0 / static_cast<double>(1 << map.halvings)) {}
+        : map_(map), cells_(map.field), per_column_(1.0 / static_cast<double>(1 << map.halvings)) {}
 
     // The place must be on the grid.
     [[nodiscard]] Rgba8 at(double x, double y) {
         if (map_.smooth) {
-            const SmoothField::Place place = cells_.at((x + 0.5) * per_column_ - 0.5,
-                                                       (y + 0.5) * per_column_ - 0.5);
+            const SmoothField::Place place =
+                cells_.at((x + 0.5) * per_column_ - 0.5, (y + 0.5) * per_column_ - 0.5);
             return overlay_colour(place.status, place.value, map_.table);
         }
         const int column = static_cast<int>(x + 0.5) >> map_.halvings;
@@ -143,23 +141,21 @@ struct Mesh {
 class PlanePainter {
   public:
     PlanePainter(const PlaneMap& map, const PlaneWindow& window, Image& image)
-        : map_(map),
-          places_(window),
-          projection_(map.spec),
-          colours_(map),
-          image_(image) {}
+        : map_(map), places_(window), projection_(map.spec), colours_(map), image_(image) {}
 
     void draw(const PixelBox& pixels) {
         pixels_ = pixels;
         int side = largest_mesh;
-        while (side > 1 && side / 2 >= std::max(pixels.right - pixels.left,
-                                                pixels.bottom - pixels.top))
+        while (side > 1 &&
+               side / 2 >= std::max(pixels.right - pixels.left, pixels.bottom - pixels.top))
             side /= 2;
         std::vector<ColumnPoint> above = row_of(pixels.top, side);
         for (int top = pixels.top; top < pixels.bottom; top += side) {
             const std::vector<ColumnPoint> below = row_of(top + side, side);
             for (std::size_t i = 0; i + 1 < above.size(); ++i)
-                draw_mesh({pixels.left + static_cast<int>(i) * side, top, side,
+                draw_mesh({pixels.left + static_cast<int>(i) * side,
+                           top,
+                           side,
                            {above[i], above[i + 1], below[i], below[i + 1]}});
             above = below;
         }

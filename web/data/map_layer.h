@@ -44,8 +44,8 @@ struct MapStyle {
 // The options that a layer takes as parameters: colors, smooth, height-km, echo-top-dbz.
 [[nodiscard]] bool is_of_layers(const render::PictureOption& option);
 
-// Reads the options of a layer; `others` are parameters that the door itself reads. Without any, the
-// cells are shown as they are, in colors without classes. Errors: bad_argument.
+// Reads the options of a layer; `others` are parameters that the door itself reads. Without any,
+// the cells are shown as they are, in colors without classes. Errors: bad_argument.
 [[nodiscard]] Result<MapStyle> map_style(const MapLayer& layer, const Fields& query,
                                          std::span<const std::string_view> others);
 

@@ -22,7 +22,7 @@ namespace {
 constexpr int version_of_pictures = 1;
 constexpr double tolerated_octaves = 0.2;
 constexpr std::size_t most_boxes_known = 512;
-constexpr std::size_t longest_shown = 80;
+constexpr std::size_t longest_shown_domain = 80;
 
 std::string text_of_bytes(const std::vector<std::byte>& bytes) {
     std::string text(bytes.size(), '\0');
@@ -55,9 +55,10 @@ double pixel_height_m(const render::PlaneWindow& window, const grid::GridSpec& s
 }  // namespace
 
 std::string MapPicture::key() const {
-    std::string key = fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {}x{}", version_of_pictures,
-                                  static_cast<int>(window.plane), window.west, window.south,
-                                  window.east, window.north, window.width, window.height);
+    std::string key =
+        fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {}x{}", version_of_pictures,
+                    static_cast<int>(window.plane), window.west, window.south, window.east,
+                    window.north, window.width, window.height);
     if (ground) key += fmt::format(" {:02x}", fmt::join(*ground, ""));
     for (const PictureLayer& layer : layers)
         key += fmt::format("\n{}/{}", layer.grid->id, layer.style.key);
@@ -127,9 +128,8 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
 render::EarthBox MapPictures::box_of(const std::string& domain, const grid::GridSpec& spec) {
     {
         const std::scoped_lock lock(boxes_mutex_);
-        const auto known = std::ranges::find_if(boxes_, [&](const KnownBox& box) {
-            return box.domain == domain && box.spec == spec;
-        });
+        const auto known = std::ranges::find_if(
+            boxes_, [&](const KnownBox& box) { return box.domain == domain && box.spec == spec; });
         if (known != boxes_.end()) {
             boxes_.splice(boxes_.begin(), boxes_, known);
             return known->box;
@@ -156,7 +156,7 @@ Result<UtcTime> time_of_grid(const Grids& grids, std::string_view domain, level2
         const auto newest = grids.newest(domain, moment);
         if (newest) return *newest;
         return fail(ErrorCode::not_found, "there is no grid of {} in '{}'",
-                    level2::moment_name(moment), printable(domain.substr(0, longest_shown)));
+                    level2::moment_name(moment), printable(domain.substr(0, longest_shown_domain)));
     }
     return parse_utc(text, now_utc());
 }

@@ -4,8 +4,8 @@
 // A picture follows from the grid's bytes, the options and the rectangle alone, so its ETag is made
 // of these and is known before the picture is.
 //
-// Threads   Many threads may use it. If several want the same picture at the same time, one draws it.
-// Errors    See each function.
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+// it. Errors    See each function.
 #pragma once
 
 #include <chrono>
@@ -88,8 +88,8 @@ class MapPictures {
 };
 
 // How often a field is halved for pixels of this window: until a cell has at least 0.87 of the side
-// of a pixel, so that next to no cell falls between pixels, or there is no smaller form. It does not depend on where the window is, so that tiles fit
-// together.
+// of a pixel, so that next to no cell falls between pixels, or there is no smaller form. It does
+// not depend on where the window is, so that tiles fit together.
 [[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
                                std::size_t levels);
 

@@ -17,7 +17,7 @@ namespace {
 
 using TileJson = nlohmann::ordered_json;
 
-constexpr double most_latitude_deg = 85.0511;     // of Web Mercator's square
+constexpr double most_latitude_deg = 85.0511;  // of Web Mercator's square
 constexpr std::size_t segments_of_a_tile = 7;  // tiles, domain, layer, time, z, x, y.png
 
 std::optional<int> whole_below(std::string_view text, int end) {
@@ -119,7 +119,12 @@ render::PlaneWindow window_of(const TilePlace& place) {
     const double side_m = 2 * render::mercator_edge_m / (1 << place.zoom);
     const double west = place.column * side_m - render::mercator_edge_m;
     const double north = render::mercator_edge_m - place.row * side_m;
-    return {render::Plane::web_mercator, west, north - side_m, west + side_m, north, place.side,
+    return {render::Plane::web_mercator,
+            west,
+            north - side_m,
+            west + side_m,
+            north,
+            place.side,
             place.side};
 }
 
@@ -160,8 +165,8 @@ Answer TilesDoor::index(const Request& request) {
             layers.push_back(layer_json(request, domain, layer));
         domains.push_back({{"domain", domain}, {"layers", std::move(layers)}});
     }
-    return json_of_pictures(request, {{"options", parameters_for_help(is_of_layers)},
-                                      {"domains", std::move(domains)}});
+    return json_of_pictures(
+        request, {{"options", parameters_for_help(is_of_layers)}, {"domains", std::move(domains)}});
 }
 
 Answer TilesDoor::tilejson(const Request& request, const std::vector<std::string_view>& path) {
@@ -174,16 +179,15 @@ Answer TilesDoor::tilejson(const Request& request, const std::vector<std::string
     const grid::GridSpec& spec = (*grid)->file.description().spec;
     const render::EarthBox box = pictures_->box_of((*grid)->domain, spec);
     const int deepest = useful_zoom(spec);
-    const std::string tiles =
-        fmt::format("{}/tiles/{}/{}/{}/{{z}}/{{x}}/{{y}}.png{}", request.base, (*grid)->domain,
-                    layer->name(), path[3] == "latest" ? "latest" : format_utc((*grid)->time),
-                    query_text(request.query));
+    const std::string tiles = fmt::format(
+        "{}/tiles/{}/{}/{}/{{z}}/{{x}}/{{y}}.png{}", request.base, (*grid)->domain, layer->name(),
+        path[3] == "latest" ? "latest" : format_utc((*grid)->time), query_text(request.query));
     return json_of_pictures(
         request,
         {{"tilejson", "3.0.0"},
          {"name", fmt::format("{} {}", (*grid)->domain, layer->name())},
-         {"description", fmt::format("{}, {}", render::product_title(style->scene),
-                                     format_utc((*grid)->time))},
+         {"description",
+          fmt::format("{}, {}", render::product_title(style->scene), format_utc((*grid)->time))},
          {"scheme", "xyz"},
          {"tiles", TileJson::array({tiles})},
          {"minzoom", 0},

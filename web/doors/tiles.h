@@ -4,8 +4,8 @@
 //   /tiles/DOMAIN/LAYER/TIME/{z}/{x}/{y}.png            256 pixels, in Web Mercator; "@2x": 512
 //   /tiles/DOMAIN/LAYER/TIME/tilejson.json              TileJSON 3.0
 //
-// LAYER is that of web/data/map_layer.h, TIME "latest" or the instant of a grid. Options of the layer
-// are parameters.
+// LAYER is that of web/data/map_layer.h, TIME "latest" or the instant of a grid. Options of the
+// layer are parameters.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -40,7 +40,8 @@ class TilesDoor final : public Door {
 
   private:
     [[nodiscard]] Answer index(const Request& request);
-    [[nodiscard]] Answer tilejson(const Request& request, const std::vector<std::string_view>& path);
+    [[nodiscard]] Answer tilejson(const Request& request,
+                                  const std::vector<std::string_view>& path);
     [[nodiscard]] Answer tile(const Request& request, const std::vector<std::string_view>& path);
 
     std::shared_ptr<MapPictures> pictures_;

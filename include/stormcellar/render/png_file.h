@@ -25,8 +25,8 @@ enum class PngAlpha { when_needed, always };
     PngAlpha alpha = PngAlpha::when_needed);
 
 // The same pixels in few bytes and little time, for pictures of few colors such as tiles of a map:
-// an image of up to 256 colors becomes one with a palette (8 bits or fewer a pixel), any other RGBA.
-// Errors: those of encode_png().
+// an image of up to 256 colors becomes one with a palette (8 bits or fewer a pixel), any other
+// RGBA. Errors: those of encode_png().
 [[nodiscard]] Result<std::vector<std::byte>> encode_png_of_few_colours(const Image& image);
 
 }  // namespace stormcellar::render
