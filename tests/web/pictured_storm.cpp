@@ -20,7 +20,6 @@ pipeline::IngestOptions options_of_storm() {
     options.moments = {level2::Moment::ref, level2::Moment::vel};
     options.spacing_m = 2000;
     options.nx = options.ny = 230;
-    options.threads = 2;
     return options;
 }
 
