@@ -32,6 +32,7 @@ stormcellar_package(tomlplusplus::tomlplusplus find_package tomlplusplus REQUIRE
 stormcellar_package(date::date-tz find_package date REQUIRED)
 stormcellar_package(PkgConfig::xxhash pkg_check_modules xxhash REQUIRED IMPORTED_TARGET libxxhash)
 stormcellar_package(PkgConfig::lz4 pkg_check_modules lz4 REQUIRED IMPORTED_TARGET liblz4)
+stormcellar_package(PkgConfig::libdeflate pkg_check_modules libdeflate REQUIRED IMPORTED_TARGET libdeflate)
 stormcellar_package(PkgConfig::zstd pkg_check_modules zstd REQUIRED IMPORTED_TARGET libzstd)
 stormcellar_package(PkgConfig::libarchive pkg_check_modules libarchive REQUIRED IMPORTED_TARGET libarchive)
 stormcellar_package(PkgConfig::libcurl pkg_check_modules libcurl REQUIRED IMPORTED_TARGET libcurl)

@@ -75,5 +75,12 @@ TEST(Fuzz, GridFile) {
     check_seeds(grid_file_seeds(), 300, check_grid_file, mutate_grid_file);
 }
 
+TEST(Fuzz, Request) {
+    check_seeds(request_seeds(), 2000, check_request,
+                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
+                    return mutate(bytes, most);
+                });
+}
+
 }  // namespace
 }  // namespace stormcellar::fuzz

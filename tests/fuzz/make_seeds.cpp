@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
         write(directory / "archive", stormcellar::fuzz::archive_seeds());
         write(directory / "bunzip", stormcellar::fuzz::bunzip_seeds());
         write(directory / "grid_file", stormcellar::fuzz::grid_file_seeds());
+        write(directory / "request", stormcellar::fuzz::request_seeds());
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_seeds: %s\n", error.what());
         return 1;

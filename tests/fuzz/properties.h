@@ -57,4 +57,9 @@ void check_bunzip(std::span<const std::byte> choices);
 // same grid. A file that is cut under the map is an error.
 void check_grid_file(std::span<const std::byte> file);
 
+// A request of HTTP: its method and target, and a header in each further line. It is refused with a
+// reason, or its path and query are clean and lead nowhere else, and a file that it asks for
+// answers with exactly the bytes that the answer says.
+void check_request(std::span<const std::byte> input);
+
 }  // namespace stormcellar::fuzz

@@ -21,5 +21,6 @@ struct Seed {
 [[nodiscard]] std::vector<Seed> archive_seeds();
 [[nodiscard]] std::vector<Seed> bunzip_seeds();
 [[nodiscard]] std::vector<Seed> grid_file_seeds();
+[[nodiscard]] std::vector<Seed> request_seeds();
 
 }  // namespace stormcellar::fuzz

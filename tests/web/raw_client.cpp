@@ -10,11 +10,18 @@
 
 namespace stormcellar::web {
 
-RawClient::RawClient(int port, int receive_buffer)
+RawClient::RawClient(int port, int receive_buffer, const std::string& from)
     : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     if (receive_buffer > 0)
         ::setsockopt(socket_.number(), SOL_SOCKET, SO_RCVBUF, &receive_buffer,
                      sizeof receive_buffer);
+    if (!from.empty()) {
+        sockaddr_in own{};
+        own.sin_family = AF_INET;
+        ::inet_pton(AF_INET, from.c_str(), &own.sin_addr);
+        static_cast<void>(
+            ::bind(socket_.number(), reinterpret_cast<const sockaddr*>(&own), sizeof own));
+    }
     sockaddr_in to{};
     to.sin_family = AF_INET;
     to.sin_port = htons(static_cast<std::uint16_t>(port));

@@ -12,8 +12,9 @@ namespace stormcellar::web {
 
 class RawClient {
   public:
-    // Connects to 127.0.0.1. `receive_buffer` in bytes makes a client that takes little at a time.
-    explicit RawClient(int port, int receive_buffer = 0);
+    // Connects to 127.0.0.1. `receive_buffer` in bytes makes a client that takes little at a time;
+    // `from` is its own address, one of the loopback's.
+    explicit RawClient(int port, int receive_buffer = 0, const std::string& from = {});
     [[nodiscard]] bool is_connected() const { return socket_.is_open(); }
     bool send(std::string_view bytes);
     // Reads until the other side closes, or until nothing came for this long.

@@ -92,9 +92,9 @@ struct WebLimits {
     std::uint64_t least_bytes_per_second = 1'000;  // that a client must take of an answer
     int workers = 0;                               // 0: two for each processor
     int renders = 1;                               // pictures and grids computed at the same time
-    int waiting = 32;                        // requests that wait for one of these; beyond, 503
-    int results = 10'000;                    // rows of one query
-    std::uint64_t kept_bytes = 256'000'000;  // packed grids and lists kept in memory
+    int waiting = 32;                              // requests that wait for a render; beyond, 503
+    int results = 10'000;                          // rows of one query
+    std::uint64_t kept_bytes = 256'000'000;        // packed grids and lists kept in memory
     std::uint64_t kept_picture_bytes = 64'000'000;
     int open_grids = 64;
     bool operator==(const WebLimits&) const = default;

@@ -1,8 +1,8 @@
 #include "web/data/compressed.h"
 
-#include <limits>
+#include <memory>
 
-#include <zlib.h>
+#include <libdeflate.h>
 #include <zstd.h>
 
 namespace stormcellar::web {
@@ -37,26 +37,19 @@ Result<std::string> compressed(std::string_view bytes, Coding coding) {
 }
 
 Result<std::string> gzipped(std::string_view bytes, int level) {
-    if (bytes.size() > std::numeric_limits<uInt>::max()) {
-        return fail(ErrorCode::bad_argument, "{} bytes are too many to compress", bytes.size());
-    }
-    constexpr int window_with_gzip_header = 15 + 16;
-    constexpr int most_memory = 9;
-    z_stream stream{};
-    if (::deflateInit2(&stream, level, Z_DEFLATED, window_with_gzip_header, most_memory,
-                       Z_DEFAULT_STRATEGY) != Z_OK) {
-        return fail(ErrorCode::exhausted, "there is no memory to compress an answer");
-    }
-    std::string out(::deflateBound(&stream, bytes.size()), '\0');
-    // zlib does not change its input, but an old header says that it may.
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    const int done = ::deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    ::deflateEnd(&stream);
-    if (done != Z_STREAM_END) return fail(ErrorCode::internal, "zlib did not end its stream");
+    struct Free {
+        void operator()(libdeflate_compressor* compressor) const {
+            ::libdeflate_free_compressor(compressor);
+        }
+    };
+    const std::unique_ptr<libdeflate_compressor, Free> compressor(
+        ::libdeflate_alloc_compressor(level));
+    if (!compressor) return fail(ErrorCode::exhausted, "there is no memory to compress an answer");
+    std::string out(::libdeflate_gzip_compress_bound(compressor.get(), bytes.size()), '\0');
+    const std::size_t size = ::libdeflate_gzip_compress(compressor.get(), bytes.data(),
+                                                        bytes.size(), out.data(), out.size());
+    if (size == 0) return fail(ErrorCode::internal, "libdeflate did not end its stream");
+    out.resize(size);
     out.shrink_to_fit();
     return out;
 }

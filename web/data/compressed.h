@@ -20,7 +20,7 @@ enum class Coding { identity, gzip, zstd };
 [[nodiscard]] Coding coding_for(const Request& request);
 
 [[nodiscard]] Result<std::string> compressed(std::string_view bytes, Coding coding);
-inline constexpr int gzip_level = 4;
+inline constexpr int gzip_level = 5;
 inline constexpr int zstd_level = 3;
 // For measurements: with another level.
 [[nodiscard]] Result<std::string> gzipped(std::string_view bytes, int level);

@@ -62,7 +62,9 @@ ServerOptions server_options_of(const WebConfig& config) {
     options.limits.request_time = limits.request;
     options.limits.least_bytes_per_s = limits.least_bytes_per_second;
     options.limits.workers = workers_of(limits);
-    options.limits.most_waiting = static_cast<std::size_t>(limits.waiting);
+    // A connection has one request at a time, so its limit bounds the queue too. What takes long
+    // has limits of its own.
+    options.limits.most_waiting = static_cast<std::size_t>(limits.connections);
     options.on_answer = note_answer;
     return options;
 }

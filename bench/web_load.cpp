@@ -1,0 +1,177 @@
+#include "bench/web_load.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <thread>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "bench/measure.h"
+#include "stormcellar/base/descriptor.h"
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds step{10};
+constexpr int most_steps = 6000;
+constexpr int microseconds_in_a_millisecond = 1000;
+
+// A port that nobody listens on at the moment.
+int free_port() {
+    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+        ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+        return 0;
+    return ntohs(address.sin_port);
+}
+
+bool answers(int port) {
+    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    return ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address),
+                     sizeof address) == 0;
+}
+
+std::string stormcellar_program() {
+    std::error_code failed;
+    const auto own = fs::read_symlink("/proc/self/exe", failed);
+    return own.parent_path().parent_path() / "cli" / "stormcellar";
+}
+
+// Prints one line of figures at the end: requests and bytes, microseconds, latencies, failures.
+constexpr std::string_view report = R"(done = function(summary, latency, requests)
+  local e = summary.errors
+  io.write(string.format("figures %d %d %d %d %d %d\n", summary.requests, summary.bytes,
+    summary.duration, latency:percentile(50), latency:percentile(99),
+    e.connect + e.read + e.write + e.status + e.timeout))
+end
+)";
+
+int processor_of_load() {
+    return std::thread::hardware_concurrency() > 1 ? processor_of_servers + 1
+                                                   : processor_of_servers;
+}
+
+}  // namespace
+
+std::string WebServer::address() const {
+    return fmt::format("http://127.0.0.1:{}", port);
+}
+
+Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path& scratch) {
+    std::vector<std::string> arguments = {stormcellar_program(), "serve", "--listen",
+                                          "127.0.0.1:0"};
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    auto process =
+        ChildProcess::start(std::move(arguments), scratch / "serve", processor_of_servers);
+    if (!process) return pass_on(process);
+    constexpr std::string_view before = "listening on http://127.0.0.1:";
+    for (int i = 0; i < most_steps && process->is_running(); ++i) {
+        const std::string said = process->output();
+        const std::size_t at = said.find(before);
+        if (at != std::string::npos && said.find('\n', at) != std::string::npos) {
+            const long port = number_in(std::string_view{said}.substr(at + before.size()));
+            return WebServer{std::move(*process), static_cast<int>(port)};
+        }
+        std::this_thread::sleep_for(step);
+    }
+    return fail(ErrorCode::not_found, "stormcellar serve did not start: see {}.err",
+                (scratch / "serve").native());
+}
+
+Result<WebServer> serve_with_nginx(const fs::path& directory, const fs::path& scratch) {
+    const int port = free_port();
+    const fs::path file = scratch / "nginx.conf";
+    std::ofstream(file) << fmt::format(
+        "daemon off; master_process off; pid {0}/nginx.pid; error_log {0}/nginx.log;\n"
+        "events {{ worker_connections 4096; }}\n"
+        "http {{ access_log off; sendfile on; tcp_nopush on; keepalive_requests 1000000000;\n"
+        "client_body_temp_path {0}/body; proxy_temp_path {0}/proxy; fastcgi_temp_path {0}/fcgi;\n"
+        "uwsgi_temp_path {0}/uwsgi; scgi_temp_path {0}/scgi;\n"
+        "server {{ listen 127.0.0.1:{1}; root {2}; }} }}\n",
+        scratch.native(), port, directory.native());
+    auto process = ChildProcess::start({"nginx", "-p", scratch, "-c", file}, scratch / "nginx",
+                                       processor_of_servers);
+    if (!process) return pass_on(process);
+    for (int i = 0; i < most_steps && process->is_running(); ++i) {
+        if (answers(port)) return WebServer{std::move(*process), port};
+        std::this_thread::sleep_for(step);
+    }
+    return fail(ErrorCode::not_found, "nginx did not start (package nginx-light): see {}.err",
+                (scratch / "nginx").native());
+}
+
+Result<Fetched> get(const std::string& address, const std::vector<std::string>& headers,
+                    const fs::path& scratch) {
+    const fs::path body = scratch / "body";
+    std::vector<std::string> arguments = {"curl", "--silent",    "--output",
+                                          body,   "--write-out", "%{http_code} %{time_total}\n"};
+    for (const std::string& header : headers) {
+        arguments.emplace_back("--header");
+        arguments.push_back(header);
+    }
+    arguments.push_back(address);
+    auto curl = ChildProcess::start(std::move(arguments), scratch / "curl", processor_of_load());
+    if (!curl) return pass_on(curl);
+    if (!curl->wait()) return fail(ErrorCode::not_found, "curl could not get {}", address);
+    Fetched fetched;
+    double seconds = 0;
+    if (std::sscanf(curl->output().c_str(), "%d %lf", &fetched.status, &seconds) != 2)
+        return fail(ErrorCode::internal, "curl gave no figures of {}", address);
+    fetched.ms = 1e3 * seconds;
+    std::ifstream file(body, std::ios::binary);
+    fetched.body.assign(std::istreambuf_iterator<char>(file), {});
+    return fetched;
+}
+
+Result<Load> load(const WebServer& server, const std::string& path,
+                  const std::vector<std::string>& headers, int clients, std::chrono::seconds time,
+                  const fs::path& scratch) {
+    const fs::path script = scratch / "report.lua";
+    std::ofstream(script) << report;
+    std::vector<std::string> arguments = {
+        "wrk", "-t1", fmt::format("-c{}", clients), fmt::format("-d{}s", time.count()), "--latency",
+        "-s",  script};
+    for (const std::string& header : headers) {
+        arguments.emplace_back("-H");
+        arguments.push_back(header);
+    }
+    arguments.push_back(server.address() + path);
+    const double cpu_before = server.process.cpu_s();
+    auto wrk = ChildProcess::start(std::move(arguments), scratch / "wrk", processor_of_load());
+    if (!wrk) return pass_on(wrk);
+    if (!wrk->wait()) return fail(ErrorCode::not_found, "wrk could not be run (package wrk)");
+    const double cpu_s = server.process.cpu_s() - cpu_before;
+    const std::string said = wrk->output();
+    const std::size_t at = said.find("figures ");
+    double requests = 0, bytes = 0, duration_us = 0, p50_us = 0, p99_us = 0;
+    Load figures;
+    if (at == std::string::npos ||
+        std::sscanf(said.c_str() + at, "figures %lf %lf %lf %lf %lf %ld", &requests, &bytes,
+                    &duration_us, &p50_us, &p99_us, &figures.failed) != 6)
+        return fail(ErrorCode::internal, "wrk gave no figures of {}", path);
+    const double seconds = duration_us / 1e6;
+    figures.requests_per_s = requests / seconds;
+    figures.mb_per_s = bytes / 1e6 / seconds;
+    figures.p50_ms = p50_us / microseconds_in_a_millisecond;
+    figures.p99_ms = p99_us / microseconds_in_a_millisecond;
+    figures.cpu_cores = cpu_s / seconds;
+    return figures;
+}
+
+}  // namespace stormcellar::bench

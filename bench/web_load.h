@@ -1,0 +1,55 @@
+// bench/web_load.h -- servers of HTTP as children, and a load on them.
+//
+// The load generator is wrk, on another processor than the server's where there are two.
+//
+// Threads   One thread at a time.
+// Errors    not_found if wrk, nginx or stormcellar cannot be run; io.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/child_process.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::bench {
+
+inline constexpr int processor_of_servers = 0;
+
+// `stormcellar serve` of these files. Returns when it answers.
+struct WebServer {
+    ChildProcess process;
+    int port = 0;
+    // "http://127.0.0.1:PORT" without a slash at the end.
+    [[nodiscard]] std::string address() const;
+};
+[[nodiscard]] Result<WebServer> serve_files(const std::vector<std::filesystem::path>& files,
+                                            const std::filesystem::path& scratch);
+// nginx as one process that serves the files of a directory with sendfile, without a log.
+[[nodiscard]] Result<WebServer> serve_with_nginx(const std::filesystem::path& directory,
+                                                 const std::filesystem::path& scratch);
+
+// What one GET without a load gave: curl is the client.
+struct Fetched {
+    int status = 0;
+    std::string body;
+    double ms = 0;  // from the request to the last byte
+};
+[[nodiscard]] Result<Fetched> get(const std::string& address,
+                                  const std::vector<std::string>& headers,
+                                  const std::filesystem::path& scratch);
+
+struct Load {
+    double requests_per_s = 0, mb_per_s = 0;
+    double p50_ms = 0, p99_ms = 0;
+    double cpu_cores = 0;  // of the server
+    long failed = 0;       // requests that were not answered, or not with 200 to 399
+};
+[[nodiscard]] Result<Load> load(const WebServer& server, const std::string& path,
+                                const std::vector<std::string>& headers, int clients,
+                                std::chrono::seconds time, const std::filesystem::path& scratch);
+
+}  // namespace stormcellar::bench
