@@ -109,8 +109,7 @@ Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
     FileFacts facts = facts_unread(path, file.stamp, station);
     if (path == volume.first_file()) {
         if (const auto living = volume.living_facts()) facts.volumes = {*living};
-        const auto settled =
-            context_.catalog.is_settled(path, facts.size_bytes, facts.modified_ns);
+        const auto settled = context_.catalog.is_settled(path, facts.size_bytes, facts.modified_ns);
         if (!settled) return pass_on(settled);
         if (*settled && path != chunk_.path) return {};
     }
