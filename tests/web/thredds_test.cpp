@@ -204,7 +204,7 @@ TEST_F(Thredds, AnswersAreBounded) {
 }
 
 TEST_F(Thredds, NamesAndQueriesAreEscaped) {
-    configure({{{"nexrad/level2/IDD", "A <b> & \"c\"", {}, {}, {}}}, {}});
+    configure({{{"nexrad/level2/IDD", "A <b> & \"c\"", {}, {}, {}}}, {}, {}});
     const std::string xml = query("?stn=%3Cscript%3E&temporal=all&%22%26%3E='");
     EXPECT_EQ(xml.find("<script>"), xml.npos);
     EXPECT_NE(xml.find("ID=\"stn=&lt;script&gt;&amp;temporal=all&amp;&quot;&amp;&gt;=&#39;\""),
@@ -213,9 +213,23 @@ TEST_F(Thredds, NamesAndQueriesAreEscaped) {
     EXPECT_NE(xml.find("A &lt;b&gt; &amp; &quot;c&quot;"), xml.npos);
 }
 
+TEST_F(Thredds, PlacesOfTheConfigurationCountBeforeTheTable) {
+    ThreddsConfig config = WebConfig::usual_thredds();
+    config.collections[0].stations = {"KTLX", "KFTG"};
+    config.places = {{"KFTG", "DENVER/Boulder", "CO", 39.78, -104.53, 1675}};
+    configure(std::move(config));
+    const std::string xml = query("/stations.xml");
+    EXPECT_EQ(count_in(xml, "<station "), 2U);
+    const std::string kftg = text_between(xml, "id=\"KFTG\" state=\"CO\"", "</station>");
+    EXPECT_EQ(text_between(kftg, "<elevation>", "<"), "1675.0");
+    EXPECT_EQ(text_between(kftg, "<latitude>", "<"), "39.78");
+    EXPECT_EQ(text_between(kftg, "<longitude>", "<"), "-104.53");
+    EXPECT_EQ(count_in(query("?stn=KABR&temporal=all"), "urlPath"), 0U) << "it is not named";
+}
+
 TEST_F(Thredds, ADeniedBeginningIs403) {
     configure(
-        {WebConfig::usual_thredds().collections, {"aws", "fileServer/nexrad/level2/IDD/KTLX"}});
+        {WebConfig::usual_thredds().collections, {}, {"aws", "fileServer/nexrad/level2/IDD/KTLX"}});
     EXPECT_EQ(get("/thredds/aws/radarServer/catalog.xml").status, 403U);
     const std::string files = "/thredds/fileServer/nexrad/level2/IDD/";
     EXPECT_EQ(get(files + "KTLX/20170101/KTLX20170101_030027_V06").status, 403U);

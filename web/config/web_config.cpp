@@ -199,6 +199,24 @@ void read_collection(TomlTable& table, ThreddsConfig& config) {
     config.collections.push_back(std::move(collection));
 }
 
+void read_place(TomlTable& table, ThreddsConfig& config) {
+    ConfiguredPlace place;
+    place.id = table.text("id").value_or("");
+    place.name = table.text("name").value_or(place.id);
+    place.state = table.text("state").value_or("");
+    if (place.id.empty() ||
+        !std::ranges::all_of(place.id, [](char c) { return is_letter_or_digit(c); }))
+        table.complain("id", "must be the letters and digits of a station, such as KFTG or FTG");
+    const auto read = [&](std::string_view key, TomlRange range, double& value) {
+        if (!table.has(key)) return table.complain(key, "must be given");
+        if (const auto number = table.number(key, range)) value = *number;
+    };
+    read("latitude_deg", {-90, 90}, place.latitude_deg);
+    read("longitude_deg", {-180, 180}, place.longitude_deg);
+    read("altitude_m", {-500, 9000}, place.altitude_m);
+    config.places.push_back(std::move(place));
+}
+
 void read_thredds(TomlTable table, ThreddsConfig& config) {
     if (const auto denied = read_list(table, "denied")) {
         config.denied = *denied;
@@ -208,6 +226,10 @@ void read_thredds(TomlTable table, ThreddsConfig& config) {
                                                      "without a slash before and behind it",
                                                      printable(path)));
     }
+    for (TomlTable& place : table.tables("station"))
+        read_place(place, config);
+    if (config.places.size() > most_entries)
+        table.complain("station", fmt::format("at most {} can be given", most_entries));
     auto collections = table.tables("collection");
     if (collections.empty()) return;
     config.collections.clear();
@@ -335,7 +357,7 @@ bool WebConfig::serves(WebPart part) const {
 }
 
 ThreddsConfig WebConfig::usual_thredds() {
-    return {{{"nexrad/level2/IDD", "NEXRAD Level II Radar from IDD", {}, {}, {}}}, {}};
+    return {{{"nexrad/level2/IDD", "NEXRAD Level II Radar from IDD", {}, {}, {}}}, {}, {}};
 }
 
 WebConfig read_web_config(TomlTable& root) {

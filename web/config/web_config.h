@@ -80,9 +80,18 @@ struct ConfiguredCollection {
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
+// What the THREDDS radar server says of a station, instead of what the station table says.
+struct ConfiguredPlace {
+    std::string id;  // "KFTG", or "FTG" as in Level III
+    std::string name, state;
+    double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
+    bool operator==(const ConfiguredPlace&) const = default;
+};
+
 struct ThreddsConfig {
     std::vector<ConfiguredCollection> collections;  // never empty
-    std::vector<std::string> denied;                // beginnings of paths below /thredds: 403
+    std::vector<ConfiguredPlace> places;
+    std::vector<std::string> denied;  // beginnings of paths below /thredds: 403
     bool operator==(const ThreddsConfig&) const = default;
 };
 

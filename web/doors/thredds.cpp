@@ -68,7 +68,7 @@ std::string text_of_query(const Request& request) {
 ThreddsDoor::ThreddsDoor(const std::shared_ptr<RawFiles>& files, ThreddsOptions options)
     : options_(std::move(options)) {
     for (const ConfiguredCollection& configured : options_.config.collections)
-        collections_.push_back(make_collection(configured, files));
+        collections_.push_back(make_collection(configured, options_.config.places, files));
 }
 
 // The data set with the longest path counts, since a path may go on in another's.
@@ -112,7 +112,11 @@ Answer ThreddsDoor::answer(const Request& request) {
         return xml_answer(thredds_top_xml(request));
     if (segments.size() > 1) {
         const std::vector<std::string_view> rest(segments.begin() + 2, segments.end());
-        if (segments[1] == "radarServer") return radar_answer(request, rest);
+        if (segments[1] == "radarServer") {
+            Answer answer = radar_answer(request, rest);
+            answer.closes = true;
+            return answer;
+        }
         if (segments[1] == "fileServer") return file_answer(request, rest);
     }
     return sentence(404, "There are radarServer/catalog.xml and fileServer/ here.");

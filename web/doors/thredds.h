@@ -7,7 +7,8 @@
 //   /thredds/fileServer/{ds}/...                the bytes of a file
 //
 // A query that cannot be answered gets 200 and a sentence as text/plain, since clients of THREDDS
-// know errors by that. All else has real status codes.
+// know errors by that. All else has real status codes. Answers of radarServer end the connection:
+// Siphon opens one for each catalog and leaves it to Python's collector to close it.
 //
 // Threads   Many threads may use it.
 #pragma once

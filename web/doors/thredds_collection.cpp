@@ -1,5 +1,7 @@
 #include "web/doors/thredds_collection.h"
 
+#include <algorithm>
+
 #include "stormcellar/base/station_table.h"
 
 namespace stormcellar::web {
@@ -15,25 +17,39 @@ std::optional<Station> station_of_id(std::string_view id) {
     return std::nullopt;
 }
 
-}  // namespace
+// The table has two letters for states and the name of any other country.
+void set_state(ThreddsStation& station, std::string_view state) {
+    constexpr std::size_t letters_of_state = 2;
+    const bool is_state = state.size() == letters_of_state;
+    if (is_state) station.state = state;
+    if (!state.empty()) station.country = is_state ? "US" : std::string{state};
+}
 
-ThreddsStation thredds_station(std::string_view id) {
+ThreddsStation thredds_station(std::string_view id, const std::vector<ConfiguredPlace>& places) {
     ThreddsStation station;
     station.id = id;
+    const auto place = std::ranges::find(places, id, &ConfiguredPlace::id);
+    if (place != places.end()) {
+        station.name = place->name;
+        set_state(station, place->state);
+        station.has_place = true;
+        station.latitude_deg = place->latitude_deg;
+        station.longitude_deg = place->longitude_deg;
+        station.altitude_m = place->altitude_m;
+        return station;
+    }
     const auto known = station_of_id(id);
     if (!known) return station;
     station.name = known->name;
-    // The table has two letters for states and the name of any other country.
-    constexpr std::size_t letters_of_state = 2;
-    const bool has_state = known->state.size() == letters_of_state;
-    if (has_state) station.state = known->state;
-    if (!known->state.empty()) station.country = has_state ? "US" : std::string{known->state};
+    set_state(station, known->state);
     station.has_place = true;
     station.latitude_deg = known->latitude_deg;
     station.longitude_deg = known->longitude_deg;
     station.altitude_m = known->antenna_altitude_m;
     return station;
 }
+
+}  // namespace
 
 Result<std::vector<ThreddsStation>> ThreddsCollection::stations() {
     std::vector<std::string> ids = configured_.stations;
@@ -44,15 +60,16 @@ Result<std::vector<ThreddsStation>> ThreddsCollection::stations() {
     }
     std::vector<ThreddsStation> stations;
     for (const std::string& id : ids)
-        stations.push_back(thredds_station(id));
+        stations.push_back(thredds_station(id, places_));
     return stations;
 }
 
 std::shared_ptr<ThreddsCollection> make_collection(const ConfiguredCollection& configured,
+                                                   const std::vector<ConfiguredPlace>& places,
                                                    std::shared_ptr<RawFiles> files) {
-    const bool is_level3 = !configured.variables.empty() || !configured.files.empty();
-    return is_level3 ? make_level3_collection(configured)
-                     : make_level2_collection(configured, std::move(files));
+    return configured.variables.empty()
+               ? make_level2_collection(configured, places, std::move(files))
+               : make_level3_collection(configured, places);
 }
 
 }  // namespace stormcellar::web

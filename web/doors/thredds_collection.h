@@ -41,7 +41,8 @@ struct ThreddsFile {
 class ThreddsCollection {
   public:
     virtual ~ThreddsCollection() = default;
-    explicit ThreddsCollection(const ConfiguredCollection& configured) : configured_(configured) {}
+    ThreddsCollection(const ConfiguredCollection& configured, std::vector<ConfiguredPlace> places)
+        : configured_(configured), places_(std::move(places)) {}
 
     [[nodiscard]] const std::string& path() const { return configured_.path; }
     [[nodiscard]] const std::string& title() const { return configured_.title; }
@@ -79,19 +80,20 @@ class ThreddsCollection {
 
   private:
     const ConfiguredCollection configured_;
+    const std::vector<ConfiguredPlace> places_;
 };
 
-// A data set with `files` or `variables` is one of Level III; any other has the raw files.
+// A data set with `variables` is one of Level III; any other has the raw files. `places` say where
+// stations are, before the station table does.
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_collection(
-    const ConfiguredCollection& configured, std::shared_ptr<RawFiles> files);
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
+    std::shared_ptr<RawFiles> files);
 
 // The two kinds; make_collection() chooses.
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_level2_collection(
-    const ConfiguredCollection& configured, std::shared_ptr<RawFiles> files);
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
+    std::shared_ptr<RawFiles> files);
 [[nodiscard]] std::shared_ptr<ThreddsCollection> make_level3_collection(
-    const ConfiguredCollection& configured);
-
-// Returns what the table of stations says of a station of Level II ("KTLX") or III ("TLX").
-[[nodiscard]] ThreddsStation thredds_station(std::string_view id);
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places);
 
 }  // namespace stormcellar::web

@@ -21,8 +21,9 @@ ThreddsFile file_of(const RawVolume& volume) {
 
 class Level2Collection final : public ThreddsCollection {
   public:
-    Level2Collection(const ConfiguredCollection& configured, std::shared_ptr<RawFiles> files)
-        : ThreddsCollection(configured), files_(std::move(files)) {}
+    Level2Collection(const ConfiguredCollection& configured,
+                     const std::vector<ConfiguredPlace>& places, std::shared_ptr<RawFiles> files)
+        : ThreddsCollection(configured, places), files_(std::move(files)) {}
 
     std::string_view format() const override { return "NEXRAD2"; }
     bool needs_variable() const override { return false; }
@@ -145,9 +146,10 @@ std::optional<Answer> Level2Collection::file_at_once(const Request& request,
 
 }  // namespace
 
-std::shared_ptr<ThreddsCollection> make_level2_collection(const ConfiguredCollection& configured,
-                                                          std::shared_ptr<RawFiles> files) {
-    return std::make_shared<Level2Collection>(configured, std::move(files));
+std::shared_ptr<ThreddsCollection> make_level2_collection(
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places,
+    std::shared_ptr<RawFiles> files) {
+    return std::make_shared<Level2Collection>(configured, places, std::move(files));
 }
 
 }  // namespace stormcellar::web

@@ -209,8 +209,9 @@ Answer Level3Collection::file(const Request& request, std::span<const std::strin
 
 }  // namespace
 
-std::shared_ptr<ThreddsCollection> make_level3_collection(const ConfiguredCollection& configured) {
-    return std::make_shared<Level3Collection>(configured);
+std::shared_ptr<ThreddsCollection> make_level3_collection(
+    const ConfiguredCollection& configured, const std::vector<ConfiguredPlace>& places) {
+    return std::make_shared<Level3Collection>(configured, places);
 }
 
 }  // namespace stormcellar::web
