@@ -143,6 +143,30 @@ std::vector<fs::path> StationDatabase::register_files(const std::vector<FileFact
     return left_out;
 }
 
+// Returns true if the file's volumes are described as they are here. Those without a start have no
+// rows.
+bool StationDatabase::has_these_volumes(std::int64_t file_id,
+                                        const std::vector<VolumeFacts>& volumes) {
+    LentStatement rows = prepared(
+        "SELECT v.start_ms, v.end_ms, v.number, v.vcp, v.sweep_count, v.radial_count, v.complete "
+        "FROM part p JOIN volume v ON v.id = p.volume_id WHERE p.file_id = ? ORDER BY p.ordinal");
+    rows->bind(1, file_id);
+    for (const VolumeFacts& facts :
+         std::span{volumes}.first(std::min(volumes.size(), most_volumes_a_file))) {
+        if (!facts.start_time) continue;
+        const bool is_same = rows->executeStep() &&
+                             optional_time(rows->getColumn(0)) == facts.start_time &&
+                             optional_time(rows->getColumn(1)) == facts.end_time &&
+                             optional_int(rows->getColumn(2)) == facts.volume_number &&
+                             optional_int(rows->getColumn(3)) == facts.vcp &&
+                             rows->getColumn(4).getInt() == facts.sweep_count &&
+                             rows->getColumn(5).getInt() == facts.radial_count &&
+                             (rows->getColumn(6).getInt() != 0) == facts.complete;
+        if (!is_same) return false;
+    }
+    return !rows->executeStep();
+}
+
 // Call it inside a transaction.
 std::optional<std::int64_t> StationDatabase::find_file(const FileFacts& facts, bool& is_same) {
     LentStatement known = prepared(
@@ -155,7 +179,9 @@ std::optional<std::int64_t> StationDatabase::find_file(const FileFacts& facts, b
               known->getColumn(3).getInt64() == static_cast<std::int64_t>(facts.content_hash) &&
               known->getColumn(4).getString() == file_state_name(facts.state) &&
               known->getColumn(5).getString() == facts.reason;
-    return known->getColumn(0).getInt64();
+    const std::int64_t file_id = known->getColumn(0).getInt64();
+    is_same = is_same && has_these_volumes(file_id, facts.volumes);
+    return file_id;
 }
 
 std::int64_t StationDatabase::write_file(const FileFacts& facts) {

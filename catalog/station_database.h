@@ -119,6 +119,7 @@ class StationDatabase {
     std::int64_t delete_oldest_gone(std::int64_t most);
     // Returns the id of its row; is_same is set if the row already says the same.
     std::optional<std::int64_t> find_file(const FileFacts& facts, bool& is_same);
+    bool has_these_volumes(std::int64_t file_id, const std::vector<VolumeFacts>& volumes);
     std::int64_t write_file(const FileFacts& facts);
     void drop_volumes(std::int64_t file_id);
     std::int64_t restore_volume(const SalvagedVolume& volume);

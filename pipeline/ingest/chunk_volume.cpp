@@ -194,14 +194,32 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
     const MomentSet moments = moments_in(sweep, moments_);
     kept_->places.insert_or_assign(cut, *place);
+    radial_counts_.insert_or_assign(cut, sweep.radials.size());
+    for (const level2::Radial& radial : sweep.radials) {
+        if (level2::is_time_of_volume(radial.time, kept_->facts.start_time()))
+            newest_radial_ = std::max(newest_radial_.value_or(radial.time), radial.time);
+    }
     kept_->sweeps.insert_or_assign(cut, ShelvedVolume::Kept{moments, sweep.mean_elevation_deg()});
     if (moments.any()) news_.add(moments, kept_->is_lowest(sweep.mean_elevation_deg()));
 }
 
 void ChunkVolume::shelve_new_sweeps() {
+    if (kept_) kept_->facts = live_.facts();
     for (const level2::LiveSweep& live : live_.take_sweeps())
         shelve(live.sweep);
-    if (kept_) kept_->facts = live_.facts();
+}
+
+std::optional<catalog::VolumeFacts> ChunkVolume::living_facts() const {
+    if (!has_sweeps()) return std::nullopt;
+    const File& first = files_.at(first_file());
+    if (!first.is_whole || first.number != 1) return std::nullopt;
+    catalog::VolumeFacts facts = facts_of(kept_->facts, false);
+    if (!facts.start_time) return std::nullopt;
+    facts.sweep_count = static_cast<int>(kept_->places.size());
+    for (const auto& [cut, count] : radial_counts_)
+        facts.radial_count += static_cast<int>(count);
+    facts.end_time = newest_radial_;
+    return facts;
 }
 
 Result<level2::Decoded> ChunkVolume::finish() {

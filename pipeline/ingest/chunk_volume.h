@@ -71,6 +71,9 @@ class ChunkVolume {
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
     // Some of its sweeps are closed.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
+    // What the catalog can say of the volume before it ends: its start, and the sweeps that have
+    // closed. None as long as its first chunk is missing or no sweep has closed.
+    [[nodiscard]] std::optional<catalog::VolumeFacts> living_facts() const;
     // How much it holds, roughly, in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {live_.held_bytes(), kept_ ? kept_->shelf->bytes() : 0, has_sweeps()};
@@ -112,6 +115,9 @@ class ChunkVolume {
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;
+    // Of the closed sweeps: by cut, and the time of the last radial.
+    std::map<std::size_t, std::size_t> radial_counts_;
+    std::optional<UtcTime> newest_radial_;
     // Files that were read and are not chunks of this volume, with their stamps.
     std::map<std::filesystem::path, FileStamp> refused_;
     std::filesystem::path representative_, former_representative_;

@@ -60,6 +60,8 @@ class TakeChunk {
                                  const std::string& station);
     Result<IngestOutcome> show(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                const std::string& station);
+    Status record(const ChunkVolume& volume, const std::filesystem::path& path,
+                  const std::string& station);
 
     IngestContext& context_;
     const OfferedFile& file_;

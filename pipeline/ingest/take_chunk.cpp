@@ -10,6 +10,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
+namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Added = ChunkVolume::Added;
@@ -99,13 +100,31 @@ Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, Chun
     return finished;
 }
 
+// Records a chunk of a volume that has not ended. The first one's row describes the volume, so that
+// it can be listed and read while it grows. A row of a volume that had ended, and that a late chunk
+// opened again, stays as it is.
+Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
+                         const std::string& station) {
+    const ChunkVolume::File& file = volume.files().at(path);
+    FileFacts facts = facts_unread(path, file.stamp, station);
+    if (path == volume.first_file()) {
+        if (const auto living = volume.living_facts()) facts.volumes = {*living};
+        const auto settled = context_.catalog.is_settled(path, facts.size_bytes, facts.modified_ns);
+        if (!settled) return pass_on(settled);
+        if (*settled && path != chunk_.path) return {};
+    }
+    facts.content_hash = file.content_hash;
+    facts.state = FileState::seen;
+    return context_.record(std::move(facts));
+}
+
 // The volume continues to grow.
 Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                       const std::string& station) {
-    FileFacts facts = facts_unread(chunk_.path, stamp_, station);
-    facts.content_hash = volume.files().at(chunk_.path).content_hash;
-    facts.state = FileState::seen;
-    if (Status stored = context_.record(facts); !stored) return pass_on(stored);
+    if (Status stored = record(volume, chunk_.path, station); !stored) return pass_on(stored);
+    if (const fs::path first = volume.first_file(); volume.news().any && first != chunk_.path) {
+        if (Status stored = record(volume, first, station); !stored) return pass_on(stored);
+    }
     const bool has_place = context_.chunks.grew(chunk_, shared, volume.growth(), outcome_.station);
     if (!has_place) volume.close();
     outcome_.goes_on = has_place && volume.has_sweeps();
@@ -113,7 +132,7 @@ Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkV
     if (volume.news().any && volume.kept() != nullptr) {
         const auto shown =
             show_living(context_, *volume.kept(), volume.news(),
-                        volume.first_file().filename().string(), facts.modified_ns, outcome_);
+                        volume.first_file().filename().string(), stamp_.modified_ns, outcome_);
         if (!shown) return pass_on(shown);
         if (*shown) volume.set_shown();
     }

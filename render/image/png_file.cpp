@@ -1,6 +1,11 @@
 #include "stormcellar/render/png_file.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <csetjmp>
+#include <cstring>
+#include <optional>
 #include <span>
 
 #include <png.h>
@@ -71,6 +76,115 @@ Status check(const Image& image, const std::vector<std::pair<std::string, std::s
     return {};
 }
 
+// The colors of an image, and for each pixel the number of its own.
+struct Palette {
+    std::vector<Rgba8> colours;
+    std::vector<std::uint8_t> pixels;
+};
+
+// Finds the colors of an image; none if there are more than 256.
+class PaletteFinder {
+  public:
+    [[nodiscard]] std::optional<Palette> find(const Image& image) {
+        Palette found;
+        found.pixels.resize(image.rgba.size() / 4);
+        std::uint32_t last = 0;
+        std::uint8_t number = 0;
+        for (std::size_t i = 0; i < found.pixels.size(); ++i) {
+            std::uint32_t colour = 0;
+            std::memcpy(&colour, image.rgba.data() + 4 * i, sizeof colour);
+            if (i == 0 || colour != last) {
+                const auto known = number_of(colour);
+                if (!known) return std::nullopt;
+                number = *known;
+                last = colour;
+            }
+            found.pixels[i] = number;
+        }
+        for (const std::uint32_t colour : colours_)
+            found.colours.push_back(std::bit_cast<Rgba8>(colour));
+        return found;
+    }
+
+  private:
+    static constexpr std::size_t slots = 1024;  // of a hash table with open addressing
+
+    std::optional<std::uint8_t> number_of(std::uint32_t colour) {
+        for (std::size_t slot = (colour * 2654435761U) >> 22;; slot = (slot + 1) % slots) {
+            if (table_[slot] == 0) {
+                if (colours_.size() == 256) return std::nullopt;
+                colours_.push_back(colour);
+                table_[slot] = static_cast<std::uint16_t>(colours_.size());
+            }
+            const std::size_t number = table_[slot] - 1U;
+            if (colours_[number] == colour) return static_cast<std::uint8_t>(number);
+        }
+    }
+
+    std::array<std::uint16_t, slots> table_{};  // 0: free, else one more than the number
+    std::vector<std::uint32_t> colours_;
+};
+
+struct PaletteChunks {
+    std::array<png_color, 256> colours{};
+    std::array<png_byte, 256> alphas{};
+    int count = 0;
+};
+
+PaletteChunks chunks_of(const Palette& palette) {
+    PaletteChunks chunks;
+    chunks.count = static_cast<int>(palette.colours.size());
+    for (std::size_t i = 0; i < palette.colours.size(); ++i) {
+        const auto& [red, green, blue, alpha] = palette.colours[i];
+        chunks.colours[i] = {red, green, blue};
+        chunks.alphas[i] = alpha;
+    }
+    return chunks;
+}
+
+int bits_for(int colours) {
+    return colours <= 2 ? 1 : colours <= 4 ? 2 : colours <= 16 ? 4 : 8;
+}
+
+// As write_png(): C calls and trivial objects only.
+bool write_palette_png(png_structp png, png_infop info, int width, int height,
+                       const PaletteChunks& chunks, const std::uint8_t* pixels) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+                 bits_for(chunks.count), PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_compression_level(png, 2);
+    png_set_PLTE(png, info, chunks.colours.data(), chunks.count);
+    png_set_tRNS(png, info, chunks.alphas.data(), chunks.count, nullptr);
+    png_write_info(png, info);
+    png_set_packing(png);
+    for (int y = 0; y < height; ++y)
+        png_write_row(png, pixels + static_cast<std::size_t>(y) * static_cast<std::size_t>(width));
+    png_write_end(png, info);
+    return true;
+}
+
+// A writer that is destroyed with its scope. `png` is null if libpng does not start.
+class PngWriter {
+  public:
+    PngWriter()
+        : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, remember_error,
+                                      ignore_warning)),
+          info(png == nullptr ? nullptr : png_create_info_struct(png)) {
+        if (info != nullptr) png_set_write_fn(png, &sink, append, flush_nothing);
+    }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+
+    [[nodiscard]] bool has_started() const { return info != nullptr; }
+
+    Sink sink;
+    png_structp png;
+    png_infop info;
+};
+
 }  // namespace
 
 Result<std::vector<std::byte>> encode_png(
@@ -89,23 +203,28 @@ Result<std::vector<std::byte>> encode_png(
         chunks.push_back(chunk);
     }
 
-    Sink sink;
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, remember_error, ignore_warning);
-    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-    if (info == nullptr) {
-        png_destroy_write_struct(&png, nullptr);
-        return fail(ErrorCode::internal, "PNG: libpng does not start");
-    }
-    png_set_write_fn(png, &sink, append, flush_nothing);
+    PngWriter writer;
+    if (!writer.has_started()) return fail(ErrorCode::internal, "PNG: libpng does not start");
     bool opaque = alpha == PngAlpha::when_needed;
     for (std::size_t i = 3; i < image.rgba.size(); i += 4)
         opaque = opaque && image.rgba[i] == 255;
-    const bool written =
-        write_png(png, info, image, opaque, chunks.data(), static_cast<int>(chunks.size()));
-    png_destroy_write_struct(&png, &info);
-    if (!written) return fail(ErrorCode::internal, "PNG: {}", sink.error);
-    return std::move(sink.bytes);
+    if (!write_png(writer.png, writer.info, image, opaque, chunks.data(),
+                   static_cast<int>(chunks.size())))
+        return fail(ErrorCode::internal, "PNG: {}", writer.sink.error);
+    return std::move(writer.sink.bytes);
+}
+
+Result<std::vector<std::byte>> encode_png_of_few_colours(const Image& image) {
+    if (auto checked = check(image, {}); !checked) return pass_on(checked);
+    const auto palette = PaletteFinder().find(image);
+    if (!palette) return encode_png(image, {}, PngAlpha::always);
+    const PaletteChunks chunks = chunks_of(*palette);
+    PngWriter writer;
+    if (!writer.has_started()) return fail(ErrorCode::internal, "PNG: libpng does not start");
+    if (!write_palette_png(writer.png, writer.info, image.width, image.height, chunks,
+                           palette->pixels.data()))
+        return fail(ErrorCode::internal, "PNG: {}", writer.sink.error);
+    return std::move(writer.sink.bytes);
 }
 
 }  // namespace stormcellar::render

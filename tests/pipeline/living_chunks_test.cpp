@@ -36,6 +36,37 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
         EXPECT_EQ(take(house_, i, true).result(), IngestResult::unchanged) << i;
 }
 
+// 2026-11-26: nobody could list or read a volume of chunks before it had ended.
+TEST_F(LivingChunks, TheRowOfTheFirstDescribesTheVolumeWhileItGrows) {
+    const auto rows = [&] { return *house_.catalog->list("KLOT", {}); };
+    const auto whole = whole_.catalog->list("KLOT", {})->at(0).volume;
+    take(house_, 0);
+    EXPECT_TRUE(rows().empty()) << "nothing but metadata has come";
+    std::size_t sweeps = 0, radials = 0;
+    for (std::size_t i = 1; i + 1 < names_.size(); ++i) {
+        take(house_, i);
+        if (i % 10 == 0) take(house_, 0);
+        if (rows().empty()) continue;
+        ASSERT_EQ(rows().size(), 1U) << i;
+        const catalog::CatalogEntry row = rows().at(0);
+        EXPECT_EQ(row.path, drop_ / names_[0]);
+        EXPECT_EQ(row.state, catalog::FileState::seen);
+        EXPECT_EQ(row.generation, 0);
+        EXPECT_EQ(row.volume.start_time, whole.start_time);
+        EXPECT_GE(row.volume.sweep_count, static_cast<int>(sweeps));
+        EXPECT_GE(row.volume.radial_count, static_cast<int>(radials));
+        EXPECT_LE(row.volume.end_time, whole.end_time);
+        sweeps = static_cast<std::size_t>(row.volume.sweep_count);
+        radials = static_cast<std::size_t>(row.volume.radial_count);
+    }
+    EXPECT_GT(sweeps, 5U);
+    EXPECT_GT(radials, 3000U);
+    take(house_, names_.size() - 1);
+    expect_one_volume(house_);
+    EXPECT_EQ(rows().at(0).generation, 0);
+    EXPECT_EQ(rows().at(0).state, catalog::FileState::complete);
+}
+
 TEST_F(LivingChunks, MayComeInAnyOrder) {
     std::vector<std::size_t> order(names_.size());
     for (std::size_t i = 0; i < order.size(); ++i)

@@ -180,6 +180,7 @@ void read_collection(TomlTable& table, ThreddsConfig& config) {
     ConfiguredCollection collection;
     collection.path = table.text("path").value_or("");
     collection.title = table.text("title").value_or(collection.path);
+    collection.files = table.text("files").value_or("");
     collection.variables = read_list(table, "variables").value_or(std::vector<std::string>{});
     collection.stations = read_list(table, "stations").value_or(std::vector<std::string>{});
     if (!table.has("path")) {
@@ -190,8 +191,30 @@ void read_collection(TomlTable& table, ThreddsConfig& config) {
                                   &ConfiguredCollection::path) > 0) {
         table.complain("path", fmt::format("{} is named twice", collection.path));
     }
+    if (!collection.files.empty() && !collection.files.is_absolute())
+        table.complain("files", "must be an absolute path");
+    if (!collection.files.empty() && collection.variables.empty())
+        table.complain("files", "needs variables, the products that the files have");
     if (collection.title.size() > longest_text) table.complain("title", "is too long");
     config.collections.push_back(std::move(collection));
+}
+
+void read_place(TomlTable& table, ThreddsConfig& config) {
+    ConfiguredPlace place;
+    place.id = table.text("id").value_or("");
+    place.name = table.text("name").value_or(place.id);
+    place.state = table.text("state").value_or("");
+    if (place.id.empty() ||
+        !std::ranges::all_of(place.id, [](char c) { return is_letter_or_digit(c); }))
+        table.complain("id", "must be the letters and digits of a station, such as KFTG or FTG");
+    const auto read = [&](std::string_view key, TomlRange range, double& value) {
+        if (!table.has(key)) return table.complain(key, "must be given");
+        if (const auto number = table.number(key, range)) value = *number;
+    };
+    read("latitude_deg", {-90, 90}, place.latitude_deg);
+    read("longitude_deg", {-180, 180}, place.longitude_deg);
+    read("altitude_m", {-500, 9000}, place.altitude_m);
+    config.places.push_back(std::move(place));
 }
 
 void read_thredds(TomlTable table, ThreddsConfig& config) {
@@ -203,6 +226,10 @@ void read_thredds(TomlTable table, ThreddsConfig& config) {
                                                      "without a slash before and behind it",
                                                      printable(path)));
     }
+    for (TomlTable& place : table.tables("station"))
+        read_place(place, config);
+    if (config.places.size() > most_entries)
+        table.complain("station", fmt::format("at most {} can be given", most_entries));
     auto collections = table.tables("collection");
     if (collections.empty()) return;
     config.collections.clear();
@@ -330,7 +357,7 @@ bool WebConfig::serves(WebPart part) const {
 }
 
 ThreddsConfig WebConfig::usual_thredds() {
-    return {{{"nexrad/level2/IDD", "NEXRAD Level II Radar from IDD", {}, {}}}, {}};
+    return {{{"nexrad/level2/IDD", "NEXRAD Level II Radar from IDD", {}, {}, {}}}, {}, {}};
 }
 
 WebConfig read_web_config(TomlTable& root) {

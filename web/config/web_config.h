@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,16 +71,27 @@ struct PublicAddress {
 struct ConfiguredCollection {
     std::string path;  // "nexrad/level2/IDD"
     std::string title;
-    // Names of variables of a data set of Level III, which we can describe but have no files of.
-    // Empty: Level II, from the catalog.
+    // Names of products of Level III, such as N0Q. Empty: Level II, from the catalog.
     std::vector<std::string> variables;
+    // A directory of files of Level III, named Level3_FTG_N0Q_20150615_1201.nids. Empty: the data
+    // set is described, but has no files.
+    std::filesystem::path files;
     std::vector<std::string> stations;  // that it names; empty: those of the catalog
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
+// What the THREDDS radar server says of a station, instead of what the station table says.
+struct ConfiguredPlace {
+    std::string id;  // "KFTG", or "FTG" as in Level III
+    std::string name, state;
+    double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
+    bool operator==(const ConfiguredPlace&) const = default;
+};
+
 struct ThreddsConfig {
     std::vector<ConfiguredCollection> collections;  // never empty
-    std::vector<std::string> denied;  // beginnings of paths below /thredds/fileServer: 403
+    std::vector<ConfiguredPlace> places;
+    std::vector<std::string> denied;  // beginnings of paths below /thredds: 403
     bool operator==(const ThreddsConfig&) const = default;
 };
 

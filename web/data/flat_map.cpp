@@ -155,13 +155,24 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
         if (auto kept = find_kept(key)) return kept;
         making_.insert(key);
     }
+    // Those who wait must not wait for ever if there is no memory for the map.
+    struct Ending {
+        FlatMaps& maps;
+        const std::string& key;
+        ~Ending() {
+            {
+                const std::scoped_lock lock(maps.mutex_);
+                maps.making_.erase(key);
+            }
+            maps.made_.notify_all();
+        }
+    };
+    const Ending ending{*this, key};
     auto map = made_map(grid, scene, threads);
-    {
+    if (map) {
         const std::scoped_lock lock(mutex_);
-        making_.erase(key);
-        if (map) keep(key, *map);
+        keep(key, *map);
     }
-    made_.notify_all();
     return map;
 }
 

@@ -92,8 +92,9 @@ Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
     std::vector<CatalogEntry> chunks;
     int due = 1;
     for (auto& [number, row] : by_number) {
-        // What comes behind a gap is not yet the next part of a volume that grows.
-        if (is_growing(entry) && number > due) break;
+        // What comes behind a gap, or was not read yet, is not yet the next part of a volume that
+        // grows.
+        if (is_growing(entry) && (number > due || row.content_hash == 0)) break;
         due = number + 1;
         chunks.push_back(std::move(row));
     }
@@ -101,7 +102,7 @@ Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
 }
 
 // Describes the chunks by their rows; the same contents give the same tag.
-RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks) {
+RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks, bool grows) {
     RawFacts facts;
     Xxh3Stream hashes;
     std::int64_t newest_ns = 0;
@@ -112,7 +113,8 @@ RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks) {
         hashes.append(std::as_bytes(std::span{words}));
     }
     facts.modified = time_of_ns(newest_ns);
-    facts.tag = settled_tag(hashes.value(), facts.size_bytes);
+    facts.tag = grows ? fmt::format("\"g{:016x}-{}\"", hashes.value(), facts.size_bytes)
+                      : settled_tag(hashes.value(), facts.size_bytes);
     return facts;
 }
 
@@ -198,12 +200,14 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
     const int number = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (number < 0) return missing(RawMissing::trouble, place.native() + ": no room for chunks");
     const auto file = std::make_shared<const Descriptor>(number);
-    Xxh3Stream contents;
+    std::vector<CatalogEntry> joined;
     std::uint64_t size_bytes = 0;
     for (const CatalogEntry& chunk : chunks) {
         const auto read = catalog::read_cataloged(catalog, chunk);
         if (!read && grows && size_bytes > 0) break;  // what stands before it is there
         if (!read) return missing(read.error());
+        // The row does not know what was written to the chunk since.
+        if (grows && read->bytes.size() != chunk.size_bytes && size_bytes > 0) break;
         size_bytes += read->bytes.size();
         if (size_bytes > most_raw_bytes) {
             return missing(RawMissing::changed, chunk.path.native() + ": the chunks exceed 1 GiB");
@@ -211,10 +215,9 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
         if (Status written = write_all(*file, read->bytes); !written) {
             return missing(RawMissing::trouble, written.error().message);
         }
-        contents.append(read->bytes);
+        joined.push_back(chunk);
     }
-    RawFacts facts = facts_of_rows(chunks);
-    if (grows) facts.tag = fmt::format("\"g{:016x}-{}\"", contents.value(), size_bytes);
+    const RawFacts facts = facts_of_rows(joined, grows);
     return OpenedRaw{file, size_bytes, facts.modified, facts.tag};
 }
 
@@ -232,11 +235,11 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
             return missing(RawMissing::gone, chunk.path.native() + ": is deleted");
         }
     }
-    if (grows) return join(catalog, *chunks, true);
-    const std::string key = entry.path.native() + '\n' + facts_of_rows(*chunks).tag;
+    const RawFacts facts = facts_of_rows(*chunks, grows);
+    const std::string key = entry.path.native() + '\n' + facts.tag;
     if (const auto known = find_joined(key)) return *known;
-    auto joined = join(catalog, *chunks, false);
-    if (joined) keep_joined(key, *joined);
+    auto joined = join(catalog, *chunks, grows);
+    if (joined && joined->size_bytes == facts.size_bytes) keep_joined(key, *joined);
     return joined;
 }
 
@@ -273,10 +276,8 @@ Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const Catalog
     }
     const auto chunks = chunk_rows(catalog, entry);
     if (!chunks) return pass_on(chunks);
-    RawFacts facts = facts_of_rows(*chunks);
-    if (grows) {
-        facts.tag.clear();
-    } else {
+    RawFacts facts = facts_of_rows(*chunks, grows);
+    if (!grows) {
         const std::scoped_lock lock(mutex_);
         if (facts_.size() >= most_remembered) facts_.clear();
         facts_.insert_or_assign(key, facts);

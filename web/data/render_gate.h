@@ -1,4 +1,5 @@
-// web/data/render_gate.h -- how many pictures are drawn at once.
+// web/data/render_gate.h -- how many pictures are drawn at once, and how many requests wait for
+// their turn.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -28,8 +29,10 @@ class RenderGate {
         RenderGate* gate_;
     };
 
-    RenderGate(int most, std::chrono::milliseconds patience) : free_(most), patience_(patience) {}
-    // Waits until fewer than `most` have a pass. None: patience ended before that.
+    RenderGate(int most, int most_waiting, std::chrono::milliseconds patience)
+        : free_(most), may_wait_(most_waiting), patience_(patience) {}
+    // Waits until fewer than `most` have a pass. None: patience ended before that, or as many wait
+    // already as may.
     [[nodiscard]] std::optional<Pass> enter();
 
   private:
@@ -38,6 +41,7 @@ class RenderGate {
     std::mutex mutex_;
     std::condition_variable left_;
     int free_;
+    int may_wait_;
     const std::chrono::milliseconds patience_;
 };
 

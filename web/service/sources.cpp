@@ -1,11 +1,15 @@
 #include "web/service/sources.h"
 
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
 #include "web/doors/polling.h"
+#include "web/doors/s3.h"
+#include "web/doors/thredds.h"
+#include "web/doors/tiles.h"
 #include "web/doors/volumes.h"
 
 namespace stormcellar::web {
@@ -22,6 +26,18 @@ class PlainIndex final : public Door {
     }
     Answer answer(const Request& request) override { return *answer_at_once(request); }
 };
+
+// A map takes milliseconds, so that those that wait for their turn may hold workers meanwhile.
+void add_pictures(Doors& doors, const Sources& sources) {
+    const WebLimits& limits = sources.setup.web.limits;
+    const auto maps = std::make_shared<MapPictures>(
+        MapPicturesOptions{.grids = sources.grids,
+                           .kept_bytes = limits.kept_picture_bytes,
+                           .most_at_once = limits.renders,
+                           .most_waiting = limits.waiting,
+                           .threads = static_cast<int>(std::thread::hardware_concurrency())});
+    doors.add("/tiles", std::make_shared<TilesDoor>(maps));
+}
 
 }  // namespace
 
@@ -53,6 +69,14 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
         doors->add("/volumes", std::make_shared<VolumesDoor>(files));
     if (setup.web.serves(WebPart::polling))
         doors->add("/nexrd2", std::make_shared<PollingDoor>(files));
+    if (setup.web.serves(WebPart::thredds))
+        doors->add(
+            "/thredds",
+            std::make_shared<ThreddsDoor>(
+                files, ThreddsOptions{.config = setup.web.thredds,
+                                      .most_results = static_cast<std::size_t>(limits.results)}));
+    if (setup.web.serves(WebPart::s3))
+        doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
     if (setup.web.serves(WebPart::grids)) {
         doors->add("/api/v1", std::make_shared<ApiDoor>(ApiSources{
                                   .grids = sources.grids,
@@ -60,6 +84,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
                                   .kept = std::make_shared<KeptAnswers>(limits.kept_bytes),
                                   .most_computations = limits.renders}));
     }
+    if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
     return doors;
 }
 

@@ -1,7 +1,7 @@
 // stormcellar/render/png_file.h -- encodes an Image as PNG.
 //
-// Threads   A pure function.
-// Errors    See encode_png().
+// Threads   Pure functions.
+// Errors    See each function.
 #pragma once
 
 #include <cstddef>
@@ -23,5 +23,10 @@ enum class PngAlpha { when_needed, always };
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {},
     PngAlpha alpha = PngAlpha::when_needed);
+
+// The same pixels in few bytes and little time, for pictures of few colors such as tiles of a map:
+// an image of up to 256 colors becomes one with a palette (8 bits or fewer a pixel), any other
+// RGBA. Errors: those of encode_png().
+[[nodiscard]] Result<std::vector<std::byte>> encode_png_of_few_colours(const Image& image);
 
 }  // namespace stormcellar::render

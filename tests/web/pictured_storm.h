@@ -1,0 +1,51 @@
+// tests/web/pictured_storm.h -- a real volume in a catalog and a cache (Oklahoma, 3 May 1999), and
+// what pictures of it should be, worked out apart from what draws them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/scene.h"
+#include "tests/testing/temporary_directory.h"
+#include "web/data/grids.h"
+
+namespace stormcellar::web {
+
+// The pixels of a PNG, read by libpng's own reader; an empty image if it is none.
+[[nodiscard]] render::Image decoded_png(const std::string& bytes);
+
+// The domain KTLX with grids of REF and VEL, 2 km apart; the catalog names the file.
+class PicturedStorm {
+  public:
+    PicturedStorm();
+
+    [[nodiscard]] const std::shared_ptr<Grids>& grids() const { return grids_; }
+    [[nodiscard]] std::shared_ptr<const OpenGrid> grid(level2::Moment moment) const;
+    [[nodiscard]] std::filesystem::path catalog() const { return directory_ / "catalog"; }
+    [[nodiscard]] std::filesystem::path cache() const { return directory_ / "cache"; }
+    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+    static constexpr const char* time = "1999-05-03T23:56:21Z";
+
+  private:
+    testing::TemporaryDirectory directory_;
+    std::filesystem::path file_;
+    std::shared_ptr<Grids> grids_;
+};
+
+// Tests on it are skipped where there are no real volumes.
+class PictureTest : public ::testing::Test {
+  protected:
+    void SetUp() override;
+    std::unique_ptr<PicturedStorm> storm_;
+};
+
+// The color that the column maximum of the grid has at a place, by the grid's own cells one by one.
+[[nodiscard]] render::Rgba8 composite_colour_at(const OpenGrid& grid, const render::Scene& scene,
+                                                grid::GeoPoint place);
+
+}  // namespace stormcellar::web

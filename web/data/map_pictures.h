@@ -1,0 +1,101 @@
+// web/data/map_pictures.h -- 2D products drawn on rectangles of a map's plane, for tiles and WMS:
+// as PNG, kept in memory, a bounded number at once.
+//
+// A picture follows from the grid's bytes, the options and the rectangle alone, so its ETag is made
+// of these and is known before the picture is.
+//
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+// it. Errors    See each function.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/still/plane_picture.h"
+#include "stormcellar/base/result.h"
+#include "web/data/flat_map.h"
+#include "web/data/grids.h"
+#include "web/data/kept_answers.h"
+#include "web/data/map_layer.h"
+#include "web/data/render_gate.h"
+#include "web/http/request.h"
+
+namespace stormcellar::web {
+
+struct MapPicturesOptions {
+    std::shared_ptr<Grids> grids;
+    // Half of it is for pictures, half for the products that they are drawn of.
+    std::uint64_t kept_bytes = 64'000'000;
+    int most_at_once = 2;
+    int most_waiting = 8;
+    std::chrono::milliseconds patience{5000};
+    int threads = 1;  // that make one product of a grid
+};
+
+// A layer of a grid. Several of them in one picture lie one over another, the first at the bottom.
+struct PictureLayer {
+    std::shared_ptr<const OpenGrid> grid;
+    MapStyle style;
+};
+
+struct MapPicture {
+    std::vector<PictureLayer> layers;  // at least one
+    render::PlaneWindow window;
+    // The color under the layers; none: clear.
+    std::optional<render::Rgba8> ground;
+
+    [[nodiscard]] std::string key() const;
+    [[nodiscard]] std::string etag() const;  // with its quotes
+};
+
+class MapPictures {
+  public:
+    explicit MapPictures(MapPicturesOptions options);
+
+    // Returns the picture if it is kept. Takes microseconds.
+    [[nodiscard]] std::optional<Kept> find(const MapPicture& picture);
+    // Errors: busy if too many pictures are being drawn; those of FlatMaps::find_or_make() and of
+    // the encoder.
+    [[nodiscard]] Result<Kept> find_or_draw(const MapPicture& picture);
+
+    // Where a grid is, from its spec; it is worked out once for each of the newest specs.
+    [[nodiscard]] render::EarthBox box_of(const std::string& domain, const grid::GridSpec& spec);
+    [[nodiscard]] Grids& grids() { return *options_.grids; }
+
+  private:
+    [[nodiscard]] Result<Kept> draw(const MapPicture& picture);
+    [[nodiscard]] Result<render::Image> drawn(const PictureLayer& layer,
+                                              const render::PlaneWindow& window);
+
+    struct KnownBox {
+        std::string domain;
+        grid::GridSpec spec;
+        render::EarthBox box;
+    };
+    MapPicturesOptions options_;
+    KeptAnswers kept_;
+    FlatMaps maps_;
+    RenderGate gate_;
+    std::mutex boxes_mutex_;
+    std::list<KnownBox> boxes_;  // the most recently used first
+};
+
+// How often a field is halved for pixels of this window: until a cell has at least 0.87 of the side
+// of a pixel, so that next to no cell falls between pixels, or there is no smaller form. It does
+// not depend on where the window is, so that tiles fit together.
+[[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
+                               std::size_t levels);
+
+// "latest" or an instant as time of a grid of this layer. Errors: not_found if there is none;
+// bad_argument for a text that is no time.
+[[nodiscard]] Result<UtcTime> time_of_grid(const Grids& grids, std::string_view domain,
+                                           level2::Moment moment, std::string_view text);
+
+}  // namespace stormcellar::web

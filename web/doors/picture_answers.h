@@ -1,0 +1,44 @@
+// web/doors/picture_answers.h -- what the doors of pictures share: a grid by its name, and answers
+// with a picture.
+//
+// Threads   Functions without state.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "stormcellar/base/result.h"
+#include "web/data/grids.h"
+#include "web/data/kept_answers.h"
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+// The status that fits the error, and its sentence; 503 with Retry-After.
+[[nodiscard]] Answer picture_error(const Error& error);
+
+// What an answer or its refusal is.
+template <class Value>
+using Found = tl::expected<Value, Answer>;
+
+// "latest" or the instant of a grid. Refusals: 404, 410 for a grid that was evicted, 400 for a text
+// that is no time.
+[[nodiscard]] Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids,
+                                                                std::string_view domain,
+                                                                level2::Moment moment,
+                                                                std::string_view time);
+
+// A PNG that follows from its address and the grid's bytes. A client may use it for `max_age`
+// without asking again; none: it must ask.
+[[nodiscard]] Answer png_answer(const Request& request, const Kept& picture,
+                                std::optional<std::chrono::seconds> max_age);
+// 304 if the client has the picture of this tag; none otherwise.
+[[nodiscard]] std::optional<Answer> unchanged_answer(const Request& request,
+                                                     const std::string& etag,
+                                                     std::optional<std::chrono::seconds> max_age);
+
+// How long a picture of a grid may be used. That of "latest" must be asked for each time.
+[[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time);
+
+}  // namespace stormcellar::web
