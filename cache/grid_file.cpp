@@ -164,9 +164,8 @@ Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size) 
 Result<GridDescription> described_by(const Metadata& metadata) {
     const format::Layout& at = metadata.at;
     const std::span<const std::byte> bytes(metadata.bytes);
-    GridDescription description =
-        description_of(metadata.header,
-                       bytes.subspan(at.levels_offset, at.description_offset - at.levels_offset));
+    GridDescription description = description_of(
+        metadata.header, bytes.subspan(at.levels_offset, at.description_offset - at.levels_offset));
     const Status good = decode_description(
         bytes.subspan(at.description_offset, metadata.header.description_size), description);
     if (!good) return pass_on(good);

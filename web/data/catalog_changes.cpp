@@ -28,7 +28,7 @@ CatalogListing list_catalog(const std::filesystem::path& directory) {
     return listing;
 }
 
-std::int64_t modified_ns_of(const struct stat& facts) {
+std::int64_t written_ns_of(const struct stat& facts) {
     return std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec;
 }
 
@@ -47,7 +47,7 @@ std::vector<std::string> CatalogChanges::take() {
             if (::fstatat(::dirfd(listing.get()), entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) != 0)
                 continue;
             Stamp& stamp = now[std::string(station)];
-            (is_log ? stamp.log_modified_ns : stamp.modified_ns) = modified_ns_of(facts);
+            (is_log ? stamp.log_modified_ns : stamp.modified_ns) = written_ns_of(facts);
             (is_log ? stamp.log_size : stamp.size) = facts.st_size;
         }
     }

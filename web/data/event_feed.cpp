@@ -27,6 +27,8 @@ constexpr std::chrono::seconds ask_every{5};
 // More changes than these at once, and clients ask for everything anew.
 constexpr std::size_t most_changes_waiting = 20'000;
 
+}  // namespace
+
 // What the watch of the cache has told and the feed has not read. The watch may outlive the feed.
 struct WaitingChanges {
     void add(const CacheChange& change) {
@@ -61,8 +63,6 @@ struct WaitingChanges {
     std::vector<CacheChange> changes;
     bool has_lost = false, is_stopping = false;
 };
-
-}  // namespace
 
 struct EventFeed::Impl {
     explicit Impl(EventFeedOptions given)
@@ -144,8 +144,8 @@ void EventFeed::Impl::ask_about(const std::string& station, bool is_beginning) {
                       entry.registered_time, now));
     if (!has_ended || of_station.ended == start || has_grids(station)) return;
     of_station.ended = start;
-    options.hub->publish(volume_ended_event(
-        station, {start, entry.volume.sweep_count, entry.volume.complete}, now));
+    options.hub->publish(
+        volume_ended_event(station, {start, entry.volume.sweep_count, entry.volume.complete}, now));
 }
 
 void EventFeed::Impl::look_at_catalog(SteadyTime now) {

@@ -47,7 +47,7 @@ bool is_of_a_site(const std::string& domain, const cache::GridDescription& grid)
            grid.sites.front().icao == domain;
 }
 
-EventType type_of(const cache::GridDescription& grid, bool is_site, bool is_living) {
+EventType type_of(bool is_site, bool is_living) {
     if (!is_site) return EventType::mosaic;
     return is_living ? EventType::sweep_gridded : EventType::volume_complete;
 }
@@ -134,7 +134,7 @@ void GridEvents::add_grid(const CacheChange& change, UtcTime now, std::vector<Ev
     const cache::GridDescription& description = grid->description;
     const bool is_site = is_of_a_site(name.domain, description);
     const auto living = living_counts(description.provenance);
-    const EventType type = type_of(description, is_site, living.has_value());
+    const EventType type = type_of(is_site, living.has_value());
     EventJson json = grid_json(type, name, *grid, now);
     if (is_site) {
         add_site_facts(description, living, json);

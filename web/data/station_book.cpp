@@ -74,10 +74,9 @@ std::vector<Event> StationBook::look(UtcTime now) {
     for (auto& [station, page] : pages_) {
         if (page.is_silent || !page.heard || now - *page.heard <= silent_after_) continue;
         page.is_silent = true;
-        events.push_back(
-            station_event(EventType::station_silent, station, now,
-                          {{"silent_s", std::floor(seconds_between(*page.heard, now))},
-                           {"newest_volume", time_or_null(page.newest_volume)}}));
+        events.push_back(station_event(EventType::station_silent, station, now,
+                                       {{"silent_s", std::floor(seconds_between(*page.heard, now))},
+                                        {"newest_volume", time_or_null(page.newest_volume)}}));
     }
     return events;
 }

@@ -17,8 +17,8 @@ constexpr std::size_t most_filter_values = 64;  // of each list
 // Adds the values of a parameter that may come several times and may have commas. `parse` returns
 // none for a value that makes no sense.
 template <class Values, class Parse>
-Status add_values(const Request& request, std::string_view name, std::string_view what,
-                  Parse parse, Values& values) {
+Status add_values(const Request& request, std::string_view name, std::string_view what, Parse parse,
+                  Values& values) {
     for (std::string_view text : request.parameters(name)) {
         while (true) {
             const std::size_t comma = text.find(',');

@@ -3,7 +3,8 @@
 //
 //   /api/v1/events?station=&domain=&moment=&kind=&last_event_id=
 //
-// A client hears what fits all lists that it gives. A slow one keeps no more than one block of the
+// A client hears of the places that it names, all if it names none, and of these the moments and
+// kinds that it names. A slow one keeps no more than one block of the
 // server's and what the kernel holds for its socket: what it did not read while it was in the ring
 // of the newest events is lost to it, and it is told so (reset).
 //
@@ -16,6 +17,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "web/data/event_feed.h"
 #include "web/data/event_hub.h"
 #include "web/http/door.h"
 
@@ -23,6 +25,7 @@ namespace stormcellar::web {
 
 struct EventsOptions {
     std::shared_ptr<EventHub> hub;
+    std::shared_ptr<const EventFeed> feed;  // what publishes; the door keeps it alive; may be null
     std::size_t most_streams = 2048;
     std::size_t most_of_client = 64;
 };

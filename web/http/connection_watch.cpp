@@ -47,7 +47,7 @@ ConnectionWatch::~ConnectionWatch() {
 
 bool ConnectionWatch::may_open(const std::string& client) const {
     const std::scoped_lock lock(mutex_);
-    if (open_.size() >= limits_.most_connections) return false;
+    if (open_.size() - streams_ >= limits_.most_connections) return false;
     const auto theirs = by_client_.find(client);
     return theirs == by_client_.end() || exempt_.contains(client) ||
            theirs->second < limits_.most_connections_of_address;
@@ -56,7 +56,7 @@ bool ConnectionWatch::may_open(const std::string& client) const {
 void ConnectionWatch::opened(MHD_Connection* connection, int descriptor, std::string client) {
     const std::scoped_lock lock(mutex_);
     make_room();
-    ++by_client_[client];
+    count_client(client);
     open_[connection] = {.descriptor = descriptor,
                          .client = std::move(client),
                          .since = std::chrono::steady_clock::now()};
@@ -66,9 +66,21 @@ void ConnectionWatch::closed(MHD_Connection* connection) {
     const std::scoped_lock lock(mutex_);
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
-    const auto theirs = by_client_.find(found->second.client);
-    if (--theirs->second == 0) by_client_.erase(theirs);
+    if (found->second.phase == Phase::stream) {
+        --streams_;
+    } else {
+        forget_client(found->second.client);
+    }
     open_.erase(found);
+}
+
+void ConnectionWatch::count_client(const std::string& client) {
+    ++by_client_[client];
+}
+
+void ConnectionWatch::forget_client(const std::string& client) {
+    const auto theirs = by_client_.find(client);
+    if (--theirs->second == 0) by_client_.erase(theirs);
 }
 
 void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
@@ -76,6 +88,13 @@ void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
     Open& open = found->second;
+    if (phase == Phase::stream && open.phase != Phase::stream) {
+        ++streams_;
+        forget_client(open.client);
+    } else if (phase != Phase::stream && open.phase == Phase::stream) {
+        --streams_;
+        count_client(open.client);
+    }
     open.phase = phase;
     open.since = std::chrono::steady_clock::now();
     if (phase == Phase::body || phase == Phase::stream)
@@ -111,7 +130,7 @@ void ConnectionWatch::cut(Open& open) {
 }
 
 void ConnectionWatch::make_room() {
-    if (4 * open_.size() < 3 * std::size_t{limits_.most_connections}) return;
+    if (4 * (open_.size() - streams_) < 3 * std::size_t{limits_.most_connections}) return;
     Open* oldest = nullptr;
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.phase != Phase::request) continue;

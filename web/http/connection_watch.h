@@ -31,17 +31,18 @@ class ConnectionWatch {
     ConnectionWatch& operator=(const ConnectionWatch&) = delete;
     ~ConnectionWatch();
 
-    // Returns false if this client has too many connections, or all clients together.
+    // Returns false if this client has too many connections, or all clients together. A connection
+    // that carries a stream does not count: who makes streams limits them.
     [[nodiscard]] bool may_open(const std::string& client) const;
     // If three quarters of the connections are open, the one that has waited longest for a request
-    // is ended.
+    // is ended. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
     // The answer goes out from now on. A stream may have nothing to send for long.
     void sending(MHD_Connection* connection, bool is_stream);
     void answered(MHD_Connection* connection);
-    [[nodiscard]] std::size_t count() const;
+    [[nodiscard]] std::size_t count() const;  // with streams
     // Returns true if no answer is being made or sent.
     [[nodiscard]] bool is_idle() const;
 
@@ -59,6 +60,8 @@ class ConnectionWatch {
     bool is_too_slow(Open& open, SteadyTime now) const;
     void set_phase(MHD_Connection* connection, Phase phase);
     void make_room();
+    void count_client(const std::string& client);
+    void forget_client(const std::string& client);
     static void cut(Open& open);
 
     const ServerLimits limits_;
@@ -67,7 +70,8 @@ class ConnectionWatch {
     std::condition_variable ends_;
     bool is_stopping_ = false;
     std::map<MHD_Connection*, Open> open_;
-    std::map<std::string, unsigned> by_client_;
+    std::size_t streams_ = 0;                    // of open_
+    std::map<std::string, unsigned> by_client_;  // without streams
     std::thread thread_;
 };
 

@@ -349,7 +349,8 @@ Status Server::Impl::listen(const ListenAddress& where) {
     MHD_Daemon* daemon = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, &Impl::accepts, this,
         &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, socket->number(),
-        MHD_OPTION_CONNECTION_LIMIT, options.limits.most_connections + 1,
+        MHD_OPTION_CONNECTION_LIMIT,
+        options.limits.most_connections + options.limits.most_streams + 1,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, options.limits.header_bytes,
         MHD_OPTION_URI_LOG_CALLBACK, &Impl::first_line, this, MHD_OPTION_UNESCAPE_CALLBACK,
         undecoded, nullptr, MHD_OPTION_NOTIFY_COMPLETED, &Impl::completed, this,

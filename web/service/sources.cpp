@@ -6,6 +6,7 @@
 
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
+#include "web/doors/events.h"
 #include "web/doors/polling.h"
 #include "web/doors/s3.h"
 #include "web/doors/thredds.h"
@@ -37,6 +38,29 @@ void add_pictures(Doors& doors, const Sources& sources) {
                            .most_waiting = limits.waiting,
                            .threads = static_cast<int>(std::thread::hardware_concurrency())});
     doors.add("/tiles", std::make_shared<TilesDoor>(maps));
+}
+
+// What events, metrics and the index need to know of the daemon's work.
+struct Watched {
+    std::shared_ptr<EventHub> hub = EventHub::make();
+    std::shared_ptr<const EventFeed> feed;
+};
+Watched watch_over(const Sources& sources) {
+    Watched watched;
+    watched.feed = EventFeed::open({.grids = sources.grids,
+                                    .catalog = sources.setup.catalog,
+                                    .hub = watched.hub,
+                                    .silent_after = sources.setup.web.silent});
+    return watched;
+}
+
+void add_events(Doors& doors, const Watched& watched, const WebLimits& limits) {
+    doors.add("/api/v1/events",
+              std::make_shared<EventsDoor>(EventsOptions{
+                  .hub = watched.hub,
+                  .feed = watched.feed,
+                  .most_streams = static_cast<std::size_t>(limits.event_streams),
+                  .most_of_client = static_cast<std::size_t>(limits.event_streams_of_a_client)}));
 }
 
 }  // namespace
@@ -84,6 +108,8 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
                                   .kept = std::make_shared<KeptAnswers>(limits.kept_bytes),
                                   .most_computations = limits.renders}));
     }
+    const Watched watched = watch_over(sources);
+    if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);
     if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
     return doors;
 }

@@ -56,6 +56,7 @@ ServerOptions server_options_of(const WebConfig& config) {
     }
     const WebLimits& limits = config.limits;
     options.limits.most_connections = static_cast<unsigned>(limits.connections);
+    options.limits.most_streams = static_cast<unsigned>(limits.event_streams);
     options.limits.most_connections_of_address =
         static_cast<unsigned>(limits.connections_of_an_address);
     options.limits.header_bytes = limits.header_bytes;
