@@ -60,9 +60,9 @@ struct Event {
 // too, if they are given. An event without a moment fits any list of moments, so that who asks for
 // REF hears of silent stations. A reset fits every filter.
 struct EventFilter {
-    std::vector<std::string> stations, domains;
-    std::vector<level2::Moment> moments;
-    std::vector<EventType> types;
+    std::vector<std::string> stations = {}, domains = {};
+    std::vector<level2::Moment> moments = {};
+    std::vector<EventType> types = {};
     [[nodiscard]] bool fits(const Event& event) const;
 };
 

@@ -24,8 +24,9 @@
 namespace stormcellar::web {
 
 struct EventsOptions {
-    std::shared_ptr<EventHub> hub;
-    std::shared_ptr<const EventFeed> feed;  // what publishes; the door keeps it alive; may be null
+    std::shared_ptr<EventHub> hub = {};
+    std::shared_ptr<const EventFeed> feed =
+        {};  // what publishes; the door keeps it alive; may be null
     std::size_t most_streams = 2048;
     std::size_t most_of_client = 64;
 };

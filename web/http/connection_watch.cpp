@@ -6,6 +6,7 @@
 #include <linux/sockios.h>
 #include <linux/tcp.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
@@ -32,8 +33,13 @@ bool has_unsent(int descriptor) {
 ConnectionWatch::ConnectionWatch(ServerLimits limits, std::set<std::string> exempt)
     : limits_(limits), exempt_(std::move(exempt)), thread_([this] {
           std::unique_lock lock(mutex_);
-          while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; }))
-              look(std::chrono::steady_clock::now());
+          while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; })) {
+              const Streams over = look(std::chrono::steady_clock::now());
+              lock.unlock();
+              for (const auto& stream : over)
+                  stream->end();
+              lock.lock();
+          }
       }) {}
 
 ConnectionWatch::~ConnectionWatch() {
@@ -105,8 +111,16 @@ void ConnectionWatch::request_arrived(MHD_Connection* connection) {
     set_phase(connection, Phase::thinking);
 }
 
-void ConnectionWatch::sending(MHD_Connection* connection, bool is_stream) {
-    set_phase(connection, is_stream ? Phase::stream : Phase::body);
+void ConnectionWatch::sending_body(MHD_Connection* connection) {
+    set_phase(connection, Phase::body);
+}
+
+void ConnectionWatch::sending_stream(MHD_Connection* connection,
+                                     const std::shared_ptr<StreamFeed>& stream) {
+    set_phase(connection, Phase::stream);
+    const std::scoped_lock lock(mutex_);
+    const auto found = open_.find(connection);
+    if (found != open_.end()) found->second.stream = stream;
 }
 
 void ConnectionWatch::answered(MHD_Connection* connection) {
@@ -152,9 +166,30 @@ bool ConnectionWatch::is_too_slow(Open& open, SteadyTime now) const {
     return is_slow;
 }
 
-void ConnectionWatch::look(SteadyTime now) {
+void ConnectionWatch::cut_those_gone() {
+    std::vector<pollfd> sockets;
+    std::vector<Open*> streams;
+    for (auto& [connection, open] : open_) {
+        if (open.is_cut || open.phase != Phase::stream) continue;
+        sockets.push_back({open.descriptor, POLLRDHUP, 0});
+        streams.push_back(&open);
+    }
+    if (sockets.empty() || ::poll(sockets.data(), sockets.size(), 0) <= 0) return;
+    for (std::size_t i = 0; i < sockets.size(); ++i)
+        if (sockets[i].revents != 0) cut(*streams[i]);
+}
+
+ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
+    cut_those_gone();
+    Streams over;
+    for (auto& [connection, open] : open_) {
+        if (!open.is_cut || open.phase != Phase::stream) continue;
+        if (auto stream = open.stream.lock()) over.push_back(std::move(stream));
+        open.stream.reset();
+    }
+    return over;
 }
 
 }  // namespace stormcellar::web

@@ -319,7 +319,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     Answer& answer = *exchange.answer;
     finish(answer, exchange.request);
     const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
-    const Response response = make_response(answer, connection, &exchange.feed);
+    const Response response =
+        make_response(answer, exchange.request.verb, connection, &exchange.feed);
     if (response == nullptr) return MHD_NO;
     if (exchange.feed != nullptr) {
         const std::scoped_lock lock(feeds_mutex);
@@ -331,7 +332,11 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
         options.on_answer(
             {&exchange.request, answer.status, bytes, SteadyClock::now() - exchange.began});
     }
-    watch.sending(connection, is_stream);
+    if (exchange.feed != nullptr) {
+        watch.sending_stream(connection, exchange.feed);
+    } else {
+        watch.sending_body(connection);
+    }
     return MHD_queue_response(connection, answer.status, response.get());
 }
 
