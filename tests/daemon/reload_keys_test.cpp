@@ -156,8 +156,17 @@ const std::vector<Section>& all_sections() {
          at_reload,
          {{"path", "'a'", "'b'"},
           {"title", "'A'", "'B'"},
-          {"variables", "[]", "['N0Q']"},
+          {"variables", "['N0Q']", "['N0C']"},
+          {"files", "''", "'/products'"},
           {"stations", "[]", "['KTLX']"}}},
+        {"[[web.thredds.station]]",
+         at_reload,
+         {{"id", "'KFTG'", "'KTLX'"},
+          {"name", "'Denver'", "'Boulder'"},
+          {"state", "'CO'", "'WY'"},
+          {"latitude_deg", "39.78", "39.79"},
+          {"longitude_deg", "-104.53", "-104.54"},
+          {"altitude_m", "1675", "1676"}}},
         {"[log]", at_reload, {{"level", "'info'", "'debug'"}}},
     };
     return sections;
