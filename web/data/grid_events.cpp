@@ -82,7 +82,7 @@ void add_site_facts(const cache::GridDescription& grid, std::optional<LivingCoun
                                     {"start", format_utc(newest->start)}};
         return;
     }
-    if (!sweeps.empty()) json["sweeps"] = sweeps.size();
+    if (!sweeps.empty()) json["sweeps_used"] = sweeps.size();
     json["partial"] = grid.provenance.partial;
 }
 
