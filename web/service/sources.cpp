@@ -7,6 +7,7 @@
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
 #include "web/doors/events.h"
+#include "web/doors/metrics.h"
 #include "web/doors/polling.h"
 #include "web/doors/s3.h"
 #include "web/doors/thredds.h"
@@ -83,7 +84,7 @@ Result<Sources> open_sources(WebSetup setup) {
     return sources;
 }
 
-std::shared_ptr<const Doors> doors_to(const Sources& sources) {
+std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures) {
     const WebSetup& setup = sources.setup;
     const WebLimits& limits = setup.web.limits;
     auto doors = std::make_shared<Doors>();
@@ -110,7 +111,12 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
     }
     const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);
+    if (setup.web.serves(WebPart::metrics))
+        doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
     if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
+    measures.watch_grids(sources.grids);
+    measures.watch_events(watched.hub, watched.feed);
+    measures.count_doors(*doors);
     return doors;
 }
 
