@@ -7,6 +7,7 @@
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
 #include "web/doors/events.h"
+#include "web/doors/index.h"
 #include "web/doors/metrics.h"
 #include "web/doors/polling.h"
 #include "web/doors/s3.h"
@@ -16,18 +17,6 @@
 
 namespace stormcellar::web {
 namespace {
-
-// Answers "/" until somebody asks for more.
-class PlainIndex final : public Door {
-  public:
-    std::optional<Answer> answer_at_once(const Request& request) override {
-        if (request.path != "/") return sentence(404, "There is nothing at this address.");
-        return text_answer(200, "text/plain; charset=utf-8",
-                           "stormcellar: a data server\n"
-                           "/api/v1 lists what can be asked; docs/web.md explains it.\n");
-    }
-    Answer answer(const Request& request) override { return *answer_at_once(request); }
-};
 
 // A map takes milliseconds, so that those that wait for their turn may hold workers meanwhile.
 void add_pictures(Doors& doors, const Sources& sources) {
@@ -88,7 +77,6 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const WebSetup& setup = sources.setup;
     const WebLimits& limits = setup.web.limits;
     auto doors = std::make_shared<Doors>();
-    doors->add("/", std::make_shared<PlainIndex>());
     const auto files = RawFiles::open_catalog({.catalog = setup.catalog, .scratch = {}});
     if (setup.web.serves(WebPart::volumes))
         doors->add("/volumes", std::make_shared<VolumesDoor>(files));
@@ -114,6 +102,10 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
     if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
+    doors->add("/", std::make_shared<IndexDoor>(IndexOptions{.grids = sources.grids,
+                                                             .feed = watched.feed,
+                                                             .doors = doors->prefixes(),
+                                                             .bucket = setup.web.bucket}));
     measures.watch_grids(sources.grids);
     measures.watch_events(watched.hub, watched.feed);
     measures.count_doors(*doors);
