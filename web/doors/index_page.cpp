@@ -17,6 +17,7 @@ using std::chrono::days;
 using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
+using std::chrono::years;
 
 std::string whole_seconds(UtcTime time) {
     return format_utc(std::chrono::time_point_cast<seconds>(time));
@@ -35,6 +36,13 @@ std::string joined(const std::vector<std::string>& words) {
     for (const std::string& word : words)
         text += (text.empty() ? "" : " ") + word;
     return text;
+}
+
+// What comes late, as in a replay of an archive, is not live.
+std::string_view state_of(const IndexStation& station, UtcTime now) {
+    if (station.is_silent) return "silent";
+    const auto newest = std::max(station.newest_volume, station.newest_grid);
+    return newest && now - *newest < hours{1} ? "live" : "archive";
 }
 
 class IndexPage {
@@ -123,6 +131,7 @@ void IndexPage::head() {
         "<p class=\"asof\">As of {3} UTC. <a href=\"{1}/\">Reload</a></p>\n<nav>\n",
         xml_escaped(host), xml_escaped(path_), summary(), readable(facts_.now));
     link("/view", "/view/", "Open the viewer", "button");
+    text_ += "<a href=\"#connect\">Connect a program</a>\n";
     link("/api/v1", "/api/v1", "API");
     link("/api/v1", "/api/v1/openapi.json", "OpenAPI");
     link("/volumes", "/volumes/", "Volumes");
@@ -134,17 +143,13 @@ void IndexPage::head() {
 
 void IndexPage::station(const IndexStation& station) {
     const std::string icao = encoded(station.icao);
-    add("<tr{}>\n<th scope=\"row\"><b>{}</b> <span>{}</span></th>\n",
-        station.is_silent ? " class=\"silent\"" : "", xml_escaped(station.icao),
-        xml_escaped(station.place));
-    if (!station.is_silent) {
-        text_ += "<td class=\"state\" data-label=\"State\"><i>live</i></td>\n";
-    } else if (station.heard) {
-        add("<td class=\"state\" data-label=\"State\"><i>silent</i> for {}</td>\n",
-            age_text(*station.heard, facts_.now));
-    } else {
-        text_ += "<td class=\"state\" data-label=\"State\"><i>silent</i></td>\n";
-    }
+    const std::string_view state = state_of(station, facts_.now);
+    add("<tr class=\"{}\">\n<th scope=\"row\"><b>{}</b> <span>{}</span></th>\n"
+        "<td class=\"state\" data-label=\"State\"><i>{}</i>{}</td>\n",
+        state, xml_escaped(station.icao), xml_escaped(station.place), state,
+        station.is_silent && station.heard
+            ? fmt::format(" for {}", age_text(*station.heard, facts_.now))
+            : "");
     age("Newest volume", station.newest_volume);
     age("Newest grid", station.newest_grid);
     add("<td class=\"moments\" data-label=\"Moments\">{}</td>\n",
@@ -219,7 +224,7 @@ ClientPlaces IndexPage::places() const {
 void IndexPage::clients() {
     const auto help = client_help(places(), facts_.doors);
     if (help.empty()) return;
-    text_ += "<section class=\"connect\">\n<h2>Connect a program</h2>\n";
+    text_ += "<section id=\"connect\">\n<h2>Connect a program</h2>\n";
     for (std::size_t i = 0; i < help.size(); ++i) {
         add("<details{}>\n<summary>{}</summary>\n<p>{}</p>\n<pre><code>{}</code></pre>\n"
             "</details>\n",
@@ -245,7 +250,8 @@ std::string age_text(UtcTime from, UtcTime to) {
     if (whole < minutes{90}) return fmt::format("{} min", whole / minutes{1});
     if (whole < days{2})
         return fmt::format("{} h {} min", whole / hours{1}, whole % hours{1} / minutes{1});
-    return fmt::format("{} days", whole / days{1});
+    if (whole < days{2 * 365}) return fmt::format("{} days", whole / days{1});
+    return fmt::format("{} years", whole / years{1});
 }
 
 std::string_view path_of_base(std::string_view base) {

@@ -43,7 +43,8 @@ struct IndexFacts {
 // The style sheet, at "/index.css".
 [[nodiscard]] std::string_view index_style();
 
-// "42 s", "3 min", "5 h 20 min", "12 days"; "in the future" if `to` is over a minute before `from`.
+// "42 s", "3 min", "5 h 20 min", "12 days", "3 years"; "in the future" if `to` is over a minute
+// before `from`.
 [[nodiscard]] std::string age_text(UtcTime from, UtcTime to);
 // The path of an address: "/storms" of "https://example.org/storms", empty if there is none.
 [[nodiscard]] std::string_view path_of_base(std::string_view base);

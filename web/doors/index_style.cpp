@@ -58,6 +58,7 @@ td.age { white-space: nowrap; }
   padding: 0.1rem 0.55rem; border-radius: 1rem; background: var(--live-back); color: var(--live);
   font-size: 0.85rem; font-style: normal; font-weight: 600;
 }
+.archive .state i { background: var(--code); color: var(--soft); }
 .silent .state i { background: var(--quiet-back); color: var(--quiet); }
 .links a { margin-right: 0.6rem; white-space: nowrap; }
 details { border-top: 1px solid var(--line); }
@@ -70,7 +71,7 @@ pre {
 }
 footer { padding-top: 1.25rem; color: var(--soft); font-size: 0.9rem; }
 @media (min-width: 72rem) {
-  main { grid-template-columns: minmax(0, 1fr) 27rem; align-items: start; }
+  main { grid-template-columns: minmax(0, 1fr) 23rem; align-items: start; }
 }
 @media (max-width: 46rem) {
   thead { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
@@ -81,9 +82,10 @@ footer { padding-top: 1.25rem; color: var(--soft); font-size: 0.9rem; }
   td.state { grid-column: 2; justify-self: end; }
   td.moments, td.links { grid-column: 1 / -1; }
   td.moments:empty { display: none; }
-  td.age::before, td.moments::before {
+  td.age::before {
     content: attr(data-label); display: block; color: var(--soft); font-size: 0.8rem;
   }
+  td.moments::before { content: attr(data-label) ": "; color: var(--soft); font-size: 0.8rem; }
   .links a { display: inline-block; padding: 0.3rem 0; margin-right: 1.1rem; }
 }
 )css";
