@@ -56,7 +56,7 @@ constexpr std::array client_rows = {
         "{base}/thredds/radarServer/catalog.xml"},
     ClientRow{"Leaflet, OpenLayers, MapLibre", "/tiles", "",
               "Tiles of 2D products; TileJSON says where they are.",
-              "{base}/tiles/{domain}/composite.REF/latest/tilejson.json"},
+              "{base}/tiles/{domain}/composite.{moment}/latest/tilejson.json"},
     ClientRow{"QGIS and others: WMS", "/wms", "", "Add this as a WMS connection.", "{base}/wms"},
     ClientRow{"Prometheus", "/metrics", "", "What this server did and holds.", "{base}/metrics"},
 };

@@ -15,7 +15,7 @@ struct ClientPlaces {
     std::string bucket;   // "unidata-nexrad-level2"
     std::string station;  // "KTLX"
     std::string domain;   // of grids
-    std::string moment;   // "REF"
+    std::string moment;   // its name
     std::string day;      // "2026/05/01", of the newest volume
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "stormcellar/base/version.h"
+#include "stormcellar/level2/moment.h"
 #include "web/doors/index_clients.h"
 #include "web/http/answer.h"
 #include "web/http/request.h"
@@ -198,7 +199,12 @@ void IndexPage::domains() {
 
 // A station that is live shows more in the examples than one that is not.
 ClientPlaces IndexPage::places() const {
-    ClientPlaces places{facts_.base, facts_.bucket, "KTLX", "KTLX", "REF", "2026/05/01"};
+    ClientPlaces places{facts_.base,
+                        facts_.bucket,
+                        "KTLX",
+                        "KTLX",
+                        std::string(level2::moment_name(level2::Moment::ref)),
+                        "2026/05/01"};
     const IndexStation* best = nullptr;
     for (const IndexStation& station : facts_.stations) {
         const auto worth = [](const IndexStation& one) {
