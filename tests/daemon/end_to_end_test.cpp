@@ -121,7 +121,7 @@ TEST(EndToEnd, AllMomentsOfAVolumeComeOutOfOneDecoding) {
         "[ingest]\nquiet_seconds = 2\n"
         "moments = [\"REF\", \"VEL\", \"SW\", \"ZDR\", \"PHI\", \"RHO\"]\n");
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
-        return s["ingested"] == 1 && everything_is_done(s);
+        return s["ingested"] == 1 && everything_is_done(s) && !s["latest"].empty();
     })) << daemon.log();
     EXPECT_EQ(rows(daemon, "KLOT").size(), 1U);
     const json status = daemon.status();

@@ -125,6 +125,8 @@ TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
     served.take(*testing::data_directory() / "volumes/KTLX20170101_030027_V06",
                 "KTLX20170101_030027_V06");
     const auto all = heard_until(*listener, "volume_complete");
+    ASSERT_FALSE(all.empty());
+    ASSERT_EQ(all.back()["type"], "volume_complete");
     const auto begun = std::find_if(
         all.begin(), all.end(), [](const json& event) { return event["type"] == "volume_begun"; });
     ASSERT_NE(begun, all.end());
@@ -133,6 +135,7 @@ TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
     EXPECT_EQ(all.back()["partial"], false);
     EXPECT_GT(all.back()["sweeps"], 5);
     const auto silent = heard_until(*listener, "station_silent");
+    ASSERT_FALSE(silent.empty());
     EXPECT_EQ(silent.back()["station"], "KTLX");
 }
 

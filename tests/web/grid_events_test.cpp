@@ -126,8 +126,12 @@ TEST_F(EventsOfGrids, EvictedGridsAreOneEventOfAMoment) {
 }
 
 TEST_F(EventsOfGrids, AGridThatCameAndWentIsToldAsGone) {
+    // The directories are watched from their first grid on.
+    ASSERT_TRUE(testing::commit_sized(store_, "KBGM", noon - 5min));
+    (void)events();
     ASSERT_TRUE(testing::commit_sized(store_, "KBGM", noon));
-    evict("KBGM");
+    const auto entries = *store_.list("KBGM", level2::Moment::ref, noon, noon);
+    ASSERT_TRUE(store_.remove(entries.front()));
     EXPECT_EQ(types(events()), Types{"grid_evicted"});
 }
 

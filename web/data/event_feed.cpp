@@ -24,6 +24,9 @@ constexpr std::chrono::seconds tick_every{1};
 constexpr std::chrono::seconds grids_speak_for{30};
 // The database of a station is asked at most so often.
 constexpr std::chrono::seconds ask_every{5};
+// A file shows a commit before readers see it: SQLite writes the log, waits for the disk, and then
+// tells. So what changed is asked about twice.
+constexpr int asks_for_a_change = 2;
 // More changes than these at once, and clients ask for everything anew.
 constexpr std::size_t most_changes_waiting = 20'000;
 
@@ -93,7 +96,7 @@ struct EventFeed::Impl {
     struct Asked {
         SteadyTime spoke{};  // a grid of the station came
         SteadyTime asked{};
-        bool is_due = false;
+        int asks_due = 0;
         std::optional<UtcTime> ended;  // the volume whose end was told from the catalog
     };
     std::map<std::string, Asked> asked;
@@ -150,13 +153,13 @@ void EventFeed::Impl::ask_about(const std::string& station, bool is_beginning) {
 
 void EventFeed::Impl::look_at_catalog(SteadyTime now) {
     for (const std::string& station : catalog_changes.take())
-        asked[station].is_due = true;
+        asked[station].asks_due = asks_for_a_change;
     for (auto& [station, of_station] : asked) {
-        if (!of_station.is_due || now < of_station.asked + ask_every ||
+        if (of_station.asks_due == 0 || now < of_station.asked + ask_every ||
             now < of_station.spoke + grids_speak_for) {
             continue;
         }
-        of_station.is_due = false;
+        --of_station.asks_due;
         of_station.asked = now;
         ask_about(station, false);
     }
