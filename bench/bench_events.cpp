@@ -81,7 +81,7 @@ struct ToldSweeps {
 
 // A daemon and a data server over the same directories.
 struct Pair {
-    explicit Pair(const fs::path& root) : root(root), daemon(root) {}
+    explicit Pair(const fs::path& where) : root(where), daemon(where) {}
     [[nodiscard]] Status start_daemon() { return daemon.start(configuration_for(port)); }
     [[nodiscard]] Result<WebServer> serve() const {
         return serve_configured(root / "stormcellard.toml", port, root);
