@@ -180,8 +180,11 @@ int run(int argc, char** argv) {
                                          : fmt::format("stormcellar-web {}\n", software_version));
         return EXIT_SUCCESS;
     }
-    const Result<WebSetup> setup = load_web_setup(*arguments->config);
+    Result<WebSetup> setup = load_web_setup(*arguments->config);
     if (!setup) return complain(setup.error());
+    // The unit's StateDirectory.
+    if (const char* state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state == '/')
+        setup->numbers = std::filesystem::path(state) / "times";
     if (!arguments->check) return serve(*setup, *arguments->config);
     fmt::print("{}: ok\n", printable(arguments->config->native()));
     return EXIT_SUCCESS;

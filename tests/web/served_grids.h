@@ -33,6 +33,7 @@ class ServedGrids {
     }
     [[nodiscard]] cache::StoreWriter& store() { return store_; }
     [[nodiscard]] Grids& grids() { return *grids_; }
+    [[nodiscard]] const std::shared_ptr<Grids>& shared_grids() { return grids_; }
     [[nodiscard]] ApiDoor& door() { return *door_; }
     [[nodiscard]] const grid::Grid& small() const { return small_; }
     [[nodiscard]] Answer get(std::string_view target, Fields headers = {}) {

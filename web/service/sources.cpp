@@ -14,6 +14,7 @@
 #include "web/doors/thredds.h"
 #include "web/doors/tiles.h"
 #include "web/doors/volumes.h"
+#include "web/doors/zarr.h"
 
 namespace stormcellar::web {
 namespace {
@@ -28,6 +29,12 @@ void add_pictures(Doors& doors, const Sources& sources) {
                            .most_waiting = limits.waiting,
                            .threads = static_cast<int>(std::thread::hardware_concurrency())});
     doors.add("/tiles", std::make_shared<TilesDoor>(maps));
+}
+
+void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept) {
+    const ZarrSources shared{sources.grids, kept, sources.numbers};
+    doors.add("/zarr", std::make_shared<ZarrDoor>(shared, ZarrVersion::two));
+    doors.add("/zarr3", std::make_shared<ZarrDoor>(shared, ZarrVersion::three));
 }
 
 // What events, metrics and the index need to know of the daemon's work.
@@ -69,6 +76,7 @@ Result<Sources> open_sources(WebSetup setup) {
         {.cache = setup.cache, .most_open = static_cast<std::size_t>(setup.web.limits.open_grids)});
     if (!grids) return pass_on(grids);
     sources.grids = std::move(*grids);
+    sources.numbers = std::make_shared<TimeNumbers>(setup.numbers);
     sources.setup = std::move(setup);
     return sources;
 }
@@ -90,12 +98,14 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
                                       .most_results = static_cast<std::size_t>(limits.results)}));
     if (setup.web.serves(WebPart::s3))
         doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
+    const auto kept = std::make_shared<KeptAnswers>(limits.kept_bytes);
+    if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {
-        doors->add("/api/v1", std::make_shared<ApiDoor>(ApiSources{
-                                  .grids = sources.grids,
-                                  .catalog = setup.catalog,
-                                  .kept = std::make_shared<KeptAnswers>(limits.kept_bytes),
-                                  .most_computations = limits.renders}));
+        doors->add("/api/v1",
+                   std::make_shared<ApiDoor>(ApiSources{.grids = sources.grids,
+                                                        .catalog = setup.catalog,
+                                                        .kept = kept,
+                                                        .most_computations = limits.renders}));
     }
     const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);

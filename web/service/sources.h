@@ -9,6 +9,7 @@
 #include "stormcellar/catalog/catalog.h"
 #include "web/config/web_setup.h"
 #include "web/data/grids.h"
+#include "web/data/time_numbers.h"
 #include "web/http/door.h"
 #include "web/service/measures.h"
 
@@ -19,6 +20,8 @@ struct Sources {
     // Null as long as there is no catalog.
     std::shared_ptr<const catalog::CatalogReader> catalog;
     std::shared_ptr<Grids> grids;
+    // One object for the life of the program: clients hold its numbers.
+    std::shared_ptr<TimeNumbers> numbers;
 };
 
 // Opens what is there. A cache or a catalog that does not exist yet is no error. Errors: io,

@@ -110,10 +110,12 @@ Status WebService::reload(WebSetup fresh) {
     fresh.state = before.state;
     fresh.catalog = before.catalog;
     fresh.cache = before.cache;
+    fresh.numbers = before.numbers;
     fresh.added_stations = before.added_stations;
     // All that can fail without the ports fails first.
     auto sources = open_sources(std::move(fresh));
     if (!sources) return pass_on(sources);
+    sources->numbers = sources_.numbers;
     server_.reset();
     std::swap(sources_, *sources);
     const Status served = serve();

@@ -1,0 +1,225 @@
+// Grids over time as Zarr arrays: what the documents say, what the chunks hold, and which number a
+// time keeps. scripts/check-zarr reads them with xarray and zarr.
+#include "web/doors/zarr.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <libdeflate.h>
+
+#include "tests/web/served_grids.h"
+#include "web/data/zarr_cells.h"
+
+namespace stormcellar::web {
+namespace {
+
+template <class Number>
+std::vector<Number> numbers_in(const Answer& answer) {
+    const std::string packed = body_of(answer);
+    std::vector<Number> numbers(std::size_t{4} << 20);
+    std::size_t bytes = 0;
+    libdeflate_decompressor* reader = libdeflate_alloc_decompressor();
+    const auto result =
+        libdeflate_gzip_decompress(reader, packed.data(), packed.size(), numbers.data(),
+                                   numbers.size() * sizeof(Number), &bytes);
+    libdeflate_free_decompressor(reader);
+    EXPECT_EQ(result, LIBDEFLATE_SUCCESS);
+    numbers.resize(bytes / sizeof(Number));
+    return numbers;
+}
+
+nlohmann::json zarr_json(const Answer& answer) {
+    EXPECT_EQ(answer.status, 200u);
+    return nlohmann::json::parse(body_of(answer));
+}
+
+class ZarrTest : public ::testing::Test {
+  protected:
+    Answer get(std::string_view target) { return asked(door_, target); }
+    Answer get3(std::string_view target) { return asked(door3_, target); }
+    // The index of the chunk's cell in a chunk of the grid's.
+    [[nodiscard]] std::size_t at(int ix, int iy, int iz) const {
+        return (static_cast<std::size_t>(iz) * chunk_side + static_cast<std::size_t>(iy)) *
+                   chunk_side +
+               static_cast<std::size_t>(ix);
+    }
+
+    ServedGrids served_;
+    testing::TemporaryDirectory state_;
+    ZarrSources sources_{served_.shared_grids(),
+                         std::make_shared<KeptAnswers>(std::uint64_t{16} << 20),
+                         std::make_shared<TimeNumbers>(state_.path())};
+    ZarrDoor door_{sources_, ZarrVersion::two};
+    ZarrDoor door3_{sources_, ZarrVersion::three};
+};
+
+TEST_F(ZarrTest, TheDocumentsOfVersionTwoAgreeWithEachOther) {
+    const auto all = zarr_json(get("/zarr/KBGM/REF/.zmetadata"))["metadata"];
+    EXPECT_EQ(all.at(".zgroup"), zarr_json(get("/zarr/KBGM/REF/.zgroup")));
+    EXPECT_EQ(all.at(".zattrs"), zarr_json(get("/zarr/KBGM/REF/.zattrs")));
+    for (const std::string name :
+         {"REF", "status", "time", "z", "y", "x", "lat", "lon", "azimuthal_equidistant"}) {
+        for (const std::string document : {"/.zarray", "/.zattrs"}) {
+            EXPECT_EQ(all.at(name + document), zarr_json(get("/zarr/KBGM/REF/" + name + document)));
+        }
+    }
+    EXPECT_EQ(all.at("time/.zarray").at("shape"), nlohmann::json::array({3}));
+    EXPECT_EQ(all.at("z/.zarray").at("shape").at(0), all.at("REF/.zarray").at("shape").at(1));
+}
+
+TEST_F(ZarrTest, StatesHaveAFlagForWhatIsUnavailable) {
+    const auto all = zarr_json(get("/zarr/KBGM/REF/.zmetadata"))["metadata"];
+    EXPECT_EQ(all.at("status/.zarray").at("fill_value"), 4);
+    EXPECT_EQ(all.at("status/.zattrs").at("flag_meanings"),
+              "not_seen no_echo range_folded value unavailable");
+    EXPECT_EQ(all.at("status/.zattrs").at("flag_values"), nlohmann::json::array({0, 1, 2, 3, 4}));
+}
+
+TEST_F(ZarrTest, VersionThreeSaysTheSame) {
+    const auto group = zarr_json(get3("/zarr3/KBGM/REF/zarr.json"));
+    const auto& arrays = group.at("consolidated_metadata").at("metadata");
+    const auto all = zarr_json(get("/zarr/KBGM/REF/.zmetadata"))["metadata"];
+    EXPECT_EQ(arrays.size() * 2 + 2, all.size());
+    for (const auto& [name, array] : arrays.items()) {
+        EXPECT_EQ(array, zarr_json(get3("/zarr3/KBGM/REF/" + name + "/zarr.json")));
+        EXPECT_EQ(array.at("shape"), all.at(name + "/.zarray").at("shape"));
+        EXPECT_EQ(array.at("chunk_grid").at("configuration").at("chunk_shape"),
+                  all.at(name + "/.zarray").at("chunks"));
+        EXPECT_EQ(array.at("dimension_names"), all.at(name + "/.zattrs").at("_ARRAY_DIMENSIONS"));
+    }
+    EXPECT_EQ(body_of(get("/zarr/KBGM/REF/REF/0.0.0.0")),
+              body_of(get3("/zarr3/KBGM/REF/REF/c/0/0/0/0")));
+}
+
+// A group is one grid's cells over time: here those of the newest. The oldest grid has others.
+TEST_F(ZarrTest, ChunksHoldTheCellsOfTheGrid) {
+    const auto newest = *sources_.grids->newest("KBGM", level2::Moment::ref);
+    const auto grid = *sources_.grids->find("KBGM", level2::Moment::ref, newest);
+    const grid::Grid dense = grid::to_dense(grid->file.view());
+    const auto values = numbers_in<float>(get("/zarr/KBGM/REF/REF/2.0.0.0"));
+    const auto states = numbers_in<std::int8_t>(get("/zarr/KBGM/REF/status/2.0.0.0"));
+    const auto levels = static_cast<std::size_t>(chunk_levels(dense.spec));
+    ASSERT_EQ(values.size(), levels * chunk_side * chunk_side);
+    ASSERT_EQ(states.size(), values.size());
+    std::size_t with_value = 0;
+    for (int iz = 0; iz < dense.spec.nz(); ++iz) {
+        for (int iy = 0; iy < std::min(chunk_side, dense.spec.ny); ++iy) {
+            for (int ix = 0; ix < std::min(chunk_side, dense.spec.nx); ++ix) {
+                const std::size_t cell = dense.spec.index(ix, iy, iz);
+                const auto status = dense.status[cell];
+                ASSERT_EQ(states[at(ix, iy, iz)], static_cast<std::int8_t>(status));
+                if (status == grid::CellStatus::value) {
+                    ++with_value;
+                    ASSERT_EQ(values[at(ix, iy, iz)], dense.values[cell]);
+                } else {
+                    ASSERT_TRUE(std::isnan(values[at(ix, iy, iz)]));
+                }
+            }
+        }
+    }
+    EXPECT_GT(with_value, 0u);
+}
+
+// Every chunk of a grid with cells of all states, and what lies beyond its edges.
+TEST_F(ZarrTest, ChunksOfEveryPlaceHoldTheirCells) {
+    const grid::Grid& small = served_.small();
+    const auto bricks = grid::BrickGrid::from(small, ServedGrids::quantization());
+    const grid::Grid dense = grid::to_dense(bricks.view());
+    const grid::GridSpec& spec = small.spec;
+    const int levels = chunk_levels(spec);
+    std::array<std::size_t, 5> seen{};
+    for (int cy = 0; cy < chunks_along(spec.ny); ++cy) {
+        for (int cx = 0; cx < chunks_along(spec.nx); ++cx) {
+            const std::string states = status_chunk(bricks.view(), {0, cy, cx});
+            const std::string values = value_chunk(bricks.view(), {0, cy, cx});
+            ASSERT_EQ(values.size(), states.size() * sizeof(float));
+            for (int i = 0; i < static_cast<int>(states.size()); ++i) {
+                const int ix = cx * chunk_side + i % chunk_side;
+                const int iy = cy * chunk_side + i / chunk_side % chunk_side;
+                const int iz = i / chunk_side / chunk_side;
+                ASSERT_LT(iz, levels);
+                const auto state = static_cast<std::size_t>(states[static_cast<std::size_t>(i)]);
+                float value = 0;
+                std::memcpy(&value, values.data() + static_cast<std::size_t>(i) * sizeof value,
+                            sizeof value);
+                ++seen.at(state);
+                if (ix >= spec.nx || iy >= spec.ny) {
+                    ASSERT_EQ(state, static_cast<std::size_t>(status_unavailable));
+                    ASSERT_TRUE(std::isnan(value));
+                    continue;
+                }
+                const std::size_t cell = spec.index(ix, iy, iz);
+                ASSERT_EQ(state, static_cast<std::size_t>(dense.status[cell]));
+                ASSERT_EQ(std::isnan(value), dense.status[cell] != grid::CellStatus::value);
+                if (!std::isnan(value)) {
+                    ASSERT_EQ(value, dense.values[cell]);
+                }
+            }
+        }
+    }
+    for (const std::size_t cells : seen)
+        EXPECT_GT(cells, 0u) << "the grid must have cells of every state, and an edge";
+}
+
+TEST_F(ZarrTest, ATimeKeepsItsNumberWhenItsGridIsEvictedAndAfterARestart) {
+    const auto before = numbers_in<double>(get("/zarr/KBGM/REF/time/0"));
+    const auto first = sources_.grids->times("KBGM", level2::Moment::ref);
+    ASSERT_EQ(first.size(), 3u);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(before[i], std::chrono::duration<double>(first[i].time_since_epoch()).count());
+    }
+    EXPECT_TRUE(std::isnan(before[3]));
+    ASSERT_EQ(get("/zarr/KBGM/REF/status/1.0.0.0").status, 200u);
+    const auto entries = *served_.store().list("KBGM", level2::Moment::ref, first[1], first[1]);
+    ASSERT_EQ(entries.size(), 1u);
+    ASSERT_TRUE(served_.store().remove(entries.front()));
+    sources_.grids->refresh();
+    // A grid that comes late has the next number.
+    ASSERT_TRUE(
+        testing::commit_sized(served_.store(), "KBGM", first[1] - std::chrono::minutes{60}));
+    sources_.grids->refresh();
+
+    sources_.numbers = std::make_shared<TimeNumbers>(state_.path());
+    ZarrDoor again(sources_, ZarrVersion::two);
+    const auto after = numbers_in<double>(asked(again, "/zarr/KBGM/REF/time/0"));
+    for (std::size_t i = 0; i < first.size(); ++i)
+        EXPECT_EQ(after[i], before[i]);
+    EXPECT_EQ(after[3], before[1] - 3600);
+    EXPECT_EQ(asked(again, "/zarr/KBGM/REF/status/1.0.0.0").status, 404u);
+    EXPECT_EQ(asked(again, "/zarr/KBGM/REF/status/2.0.0.0").status, 200u);
+    EXPECT_EQ(asked(again, "/zarr/KBGM/REF/status/3.0.0.0").status, 200u);
+}
+
+TEST_F(ZarrTest, DamagedNumbersAreAnErrorAndNotNewNumbers) {
+    (void)get("/zarr/KBGM/REF/time/0");
+    const auto path = state_ / "KBGM/REF.times";
+    ASSERT_TRUE(std::filesystem::exists(path));
+    {
+        std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+        file.seekp(20);
+        file.put('x');
+    }
+    sources_.numbers = std::make_shared<TimeNumbers>(state_.path());
+    ZarrDoor again(sources_, ZarrVersion::two);
+    EXPECT_EQ(asked(again, "/zarr/KBGM/REF/time/0").status, 500u);
+}
+
+TEST_F(ZarrTest, KeysThatAreNoneAreRefused) {
+    for (const char* key :
+         {"", "/", "REF", "REF/0.0.0", "REF/0.0.0.0.0", "REF/00.0.0.0", "REF/-1.0.0.0",
+          "REF/0.0.0.a", "REF/3.0.0.0", "REF/99999999999999999999.0.0.0", "time/1",
+          "azimuthal_equidistant/1", "VEL/.zarray", "REF/zarr.json", "zarr.json", "REF/c/0/0/0/0",
+          "lat/0.99", "a/b/c"}) {
+        EXPECT_EQ(get(std::string("/zarr/KBGM/REF/") + key).status, 404u) << key;
+    }
+    EXPECT_EQ(get("/zarr/KBGM/XYZ/.zgroup").status, 404u);
+    EXPECT_EQ(get("/zarr/KBGM/VEL/.zgroup").status, 404u);
+    EXPECT_EQ(get("/zarr/NONE/REF/.zgroup").status, 404u);
+    EXPECT_FALSE(std::filesystem::exists(state_ / "NONE"));
+    EXPECT_EQ(numbers_in<std::int32_t>(get("/zarr/KBGM/REF/azimuthal_equidistant/0")).size(), 1u);
+}
+
+}  // namespace
+}  // namespace stormcellar::web
