@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,10 +21,9 @@
 
 #include "bench/daemon_process.h"
 #include "bench/grid_watch.h"
-#include "bench/measure.h"
 #include "bench/request.h"
+#include "bench/sent_volume.h"
 #include "bench/table.h"
-#include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/level2/decode.h"
 #include "synth/replay_pieces.h"
@@ -58,57 +56,6 @@ struct Shown {
     double end_s = std::nan(""), end_beyond_s = std::nan("");
 };
 
-struct Volume {
-    fs::path path;
-    Bytes bytes;
-    level2::Volume decoded;
-};
-
-Result<Volume> read_volume(const fs::path& path) {
-    auto bytes = read_file(path);
-    if (!bytes) return pass_on(bytes);
-    Volume volume{path, std::move(*bytes), {}};
-    auto decoded = level2::decode(volume.bytes);
-    if (!decoded) return pass_on(decoded);
-    volume.decoded = std::move(decoded->volume);
-    const bool is_sound = volume.decoded.header && !volume.decoded.station.empty() &&
-                          synth::has_ldm_records(volume.bytes);
-    if (!is_sound) return fail(ErrorCode::unsupported, "{}: no LDM records", path.native());
-    return volume;
-}
-
-std::string chunk_name(const Volume& volume, std::size_t number, bool is_last) {
-    // format_utc() gives 2022-03-17T00:08:42Z
-    const std::string time = format_utc(volume.decoded.header->time());
-    return fmt::format("{}{}{}-{}{}{}-{:03}-{}", time.substr(0, 4), time.substr(5, 2),
-                       time.substr(8, 2), time.substr(11, 2), time.substr(14, 2),
-                       time.substr(17, 2), number,
-                       number == 1 ? "S"
-                       : is_last   ? "E"
-                                   : "I");
-}
-
-// Writes the bytes and returns the time of the close.
-Clock::time_point write(const fs::path& path, std::span<const std::byte> bytes) {
-    std::ofstream file(path, std::ios::binary | std::ios::app);
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    file.flush();
-    const auto closed = Clock::now();
-    file.close();
-    return closed;
-}
-
-double bzip2_of(std::span<const std::byte> piece) {
-    const Bytes bytes(piece.begin(), piece.end());
-    Bytes peeled;
-    const auto records = ldm_records(bytes, peeled);
-    double least_s = 1e9;
-    for (int run = 0; run < 3; ++run)
-        keep_least_seconds(least_s, [&] { bunzip_all(records); });
-    return least_s;
-}
-
 // Waits until nothing has appeared for a while. Returns the time of the last grid, if any.
 std::optional<double> wait_for_grid(const GridWatch& watch, Clock::time_point closed) {
     std::optional<double> first_s;
@@ -122,7 +69,7 @@ std::optional<double> wait_for_grid(const GridWatch& watch, Clock::time_point cl
     return first_s;
 }
 
-Result<Shown> send(const Volume& volume, bool as_chunks, const fs::path& work) {
+Result<Shown> send(const SentPieces& volume, bool as_chunks, const fs::path& work) {
     DaemonProcess daemon(work);
     std::error_code error;
     fs::create_directories(daemon.drop() / volume.decoded.station, error);
@@ -143,7 +90,7 @@ Result<Shown> send(const Volume& volume, bool as_chunks, const fs::path& work) {
         begin = ends[i];
         const fs::path path = directory / (as_chunks ? fs::path{chunk_name(volume, i + 1, is_last)}
                                                      : volume.path.filename());
-        const auto closed = write(path, piece);
+        const auto closed = append_piece(path, piece);
         const auto latency_s = wait_for_grid(watch, closed);
         if (!latency_s) continue;
         const double bzip2_s = bzip2_of(piece);
@@ -160,7 +107,7 @@ Result<Shown> send(const Volume& volume, bool as_chunks, const fs::path& work) {
     return shown;
 }
 
-void add_row(const Volume& volume, bool as_chunks, const Shown& shown, Table& table) {
+void add_row(const SentPieces& volume, bool as_chunks, const Shown& shown, Table& table) {
     const auto sweeps = std::count_if(
         volume.decoded.sweeps.begin(), volume.decoded.sweeps.end(),
         [](const level2::Sweep& sweep) { return sweep.find(level2::Moment::ref) != nullptr; });
@@ -179,7 +126,7 @@ void add_row(const Volume& volume, bool as_chunks, const Shown& shown, Table& ta
 }
 
 void measure(const fs::path& path, const Request& request, Table& table) {
-    const auto volume = read_volume(path);
+    const auto volume = read_sent_volume(path);
     if (!volume) {
         fmt::print(stderr, "bench_sweep: {}\n", volume.error().message);
         return;

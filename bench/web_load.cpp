@@ -24,19 +24,6 @@ constexpr std::chrono::milliseconds step{10};
 constexpr int most_steps = 6000;
 constexpr int microseconds_in_a_millisecond = 1000;
 
-// A port that nobody listens on at the moment.
-int free_port() {
-    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
-        ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
-        return 0;
-    return ntohs(address.sin_port);
-}
-
 bool answers(int port) {
     const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     sockaddr_in address{};
@@ -47,10 +34,11 @@ bool answers(int port) {
                      sizeof address) == 0;
 }
 
-std::string stormcellar_program() {
+// A program that was built with this one: "cli/stormcellar".
+std::string built_program(const fs::path& program) {
     std::error_code failed;
     const auto own = fs::read_symlink("/proc/self/exe", failed);
-    return own.parent_path().parent_path() / "cli" / "stormcellar";
+    return own.parent_path().parent_path() / program;
 }
 
 // Prints one line of figures at the end: requests and bytes, microseconds, latencies, failures.
@@ -74,7 +62,7 @@ std::string WebServer::address() const {
 }
 
 Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path& scratch) {
-    std::vector<std::string> arguments = {stormcellar_program(), "serve", "--listen",
+    std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           "127.0.0.1:0"};
     arguments.insert(arguments.end(), files.begin(), files.end());
     auto process =
@@ -92,6 +80,31 @@ Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path
     }
     return fail(ErrorCode::not_found, "stormcellar serve did not start: see {}.err",
                 (scratch / "serve").native());
+}
+
+int free_port() {
+    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+        ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+        return 0;
+    return ntohs(address.sin_port);
+}
+
+Result<WebServer> serve_configured(const fs::path& configuration, int port,
+                                   const fs::path& scratch) {
+    auto process = ChildProcess::start(
+        {built_program("web/stormcellar-web"), "--config", configuration}, scratch / "web");
+    if (!process) return pass_on(process);
+    for (int i = 0; i < most_steps && process->is_running(); ++i) {
+        if (answers(port)) return WebServer{std::move(*process), port};
+        std::this_thread::sleep_for(step);
+    }
+    return fail(ErrorCode::not_found, "stormcellar-web did not start: see {}.err",
+                (scratch / "web").native());
 }
 
 Result<WebServer> serve_with_nginx(const fs::path& directory, const fs::path& scratch) {

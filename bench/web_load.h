@@ -28,6 +28,12 @@ struct WebServer {
 };
 [[nodiscard]] Result<WebServer> serve_files(const std::vector<std::filesystem::path>& files,
                                             const std::filesystem::path& scratch);
+// `stormcellar-web` with this configuration, whose [web] listen is 127.0.0.1:`port`. It runs on any
+// processor.
+[[nodiscard]] Result<WebServer> serve_configured(const std::filesystem::path& configuration,
+                                                 int port, const std::filesystem::path& scratch);
+// A port that nobody listens on at the moment.
+[[nodiscard]] int free_port();
 // nginx as one process that serves the files of a directory with sendfile, without a log.
 [[nodiscard]] Result<WebServer> serve_with_nginx(const std::filesystem::path& directory,
                                                  const std::filesystem::path& scratch);

@@ -16,25 +16,34 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Reads until an event of this type has come; gives the data of all.
-std::vector<json> heard_until(EventHub::Listener& listener, std::string_view type) {
-    std::vector<json> all;
-    std::string text;
-    const auto until = std::chrono::steady_clock::now() + 20s;
-    while (std::chrono::steady_clock::now() < until) {
-        text += listener.read(1 << 20);
-        std::size_t end = 0;
-        while ((end = text.find("\n\n")) != std::string::npos) {
-            const std::size_t data = text.find("data: ");
-            if (data < end) all.push_back(json::parse(text.substr(data + 6, end - data - 6)));
-            text.erase(0, end + 2);
+// Listens, and keeps what came after the event that a test waited for.
+class Ear {
+  public:
+    explicit Ear(std::shared_ptr<EventHub::Listener> listener) : listener_(std::move(listener)) {}
+    // Reads until an event of this type has come; gives the data of all up to it.
+    std::vector<json> hear_until(std::string_view type) {
+        std::vector<json> all;
+        const auto until = std::chrono::steady_clock::now() + 20s;
+        while (std::chrono::steady_clock::now() < until) {
+            text_ += listener_->read(1 << 20);
+            const std::size_t end = text_.find("\n\n");
+            if (end == std::string::npos) {
+                std::this_thread::sleep_for(2ms);
+                continue;
+            }
+            const std::size_t data = text_.find("data: ");
+            if (data < end) all.push_back(json::parse(text_.substr(data + 6, end - data - 6)));
+            text_.erase(0, end + 2);
+            if (data < end && all.back()["type"] == type) return all;
         }
-        if (!all.empty() && all.back()["type"] == type) return all;
-        std::this_thread::sleep_for(2ms);
+        ADD_FAILURE() << "no " << type << " came";
+        return all;
     }
-    ADD_FAILURE() << "no " << type << " came";
-    return all;
-}
+
+  private:
+    std::shared_ptr<EventHub::Listener> listener_;
+    std::string text_;
+};
 
 // Gives LDM's chunks of a volume of KLOT (2026-03-28), of which living grids are made.
 class GrowingKlot {
@@ -79,11 +88,11 @@ TEST(EventFeed, FollowsAVolumeFromItsFirstSweepToItsEnd) {
     const auto grids = *Grids::open({.cache = klot.cache()});
     const auto feed = EventFeed::open(
         {.grids = grids, .catalog = klot.catalog(), .hub = hub, .look_every = 20ms});
-    const auto listener = hub->listen({.stations = {"KLOT"}});
+    Ear ear(hub->listen({.stations = {"KLOT"}}));
     klot.take(0, klot.count() / 2);
-    auto all = heard_until(*listener, "sweep_gridded");
+    auto all = ear.hear_until("sweep_gridded");
     klot.take(klot.count() / 2, klot.count());
-    const auto rest = heard_until(*listener, "volume_complete");
+    const auto rest = ear.hear_until("volume_complete");
     all.insert(all.end(), rest.begin(), rest.end());
 
     std::vector<json> begun, sweeps;
@@ -121,10 +130,10 @@ TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
                                        .hub = hub,
                                        .silent_after = 1s,
                                        .look_every = 20ms});
-    const auto listener = hub->listen({});
+    Ear ear(hub->listen({}));
     served.take(*testing::data_directory() / "volumes/KTLX20170101_030027_V06",
                 "KTLX20170101_030027_V06");
-    const auto all = heard_until(*listener, "volume_complete");
+    const auto all = ear.hear_until("volume_complete");
     ASSERT_FALSE(all.empty());
     ASSERT_EQ(all.back()["type"], "volume_complete");
     const auto begun = std::find_if(
@@ -134,7 +143,7 @@ TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
     EXPECT_EQ(all.back()["volume"], (*begun)["volume"]);
     EXPECT_EQ(all.back()["partial"], false);
     EXPECT_GT(all.back()["sweeps"], 5);
-    const auto silent = heard_until(*listener, "station_silent");
+    const auto silent = ear.hear_until("station_silent");
     ASSERT_FALSE(silent.empty());
     EXPECT_EQ(silent.back()["station"], "KTLX");
 }

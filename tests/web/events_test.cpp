@@ -5,6 +5,8 @@
 
 #include "tests/web/asked.h"
 #include "tests/web/raw_client.h"
+#include "web/doors/api_door.h"
+#include "web/doors/api_operations.h"
 #include "web/http/server.h"
 
 namespace stormcellar::web {
@@ -157,6 +159,19 @@ TEST_F(EventsOverHttp, AClientThatReadsNothingHoldsNoEvents) {
     const std::string heard = slow->read_until("event: reset");
     EXPECT_NE(heard.find("event: reset"), std::string::npos);
     EXPECT_GE(hub_->resets(), 1u);
+}
+
+TEST(EventsOfTheApi, AreDescribed) {
+    const auto document = openapi_document("http://h");
+    const auto& get = document["paths"]["/api/v1/events"]["get"];
+    EXPECT_TRUE(get["responses"]["200"]["content"].contains("text/event-stream"));
+    const std::string parameters = get["parameters"].dump();
+    for (const EventTypeFacts& facts : event_types) {
+        if (facts.type == EventType::reset) continue;
+        EXPECT_NE(parameters.find(facts.name), std::string::npos) << facts.name;
+    }
+    ApiDoor without({});
+    EXPECT_EQ(asked(without, "/api/v1/events").status, 404u);
 }
 
 }  // namespace

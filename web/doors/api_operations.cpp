@@ -44,15 +44,27 @@ constexpr std::array map_parameters{
                  "county, state, lake, country, coast, city, with commas; default: all "
                  "but county"}};
 
+constexpr std::array events_parameters{
+    ApiParameter{"station", "hear of these stations: ICAOs with commas"},
+    ApiParameter{"domain", "hear of the grids of these domains, too"},
+    ApiParameter{"moment", "of these moments, and of what has none"},
+    ApiParameter{"kind",
+                 "volume_begun, sweep_gridded, volume_complete, mosaic, grid_evicted, "
+                 "station_silent, station_spoke, with commas"},
+    ApiParameter{"last_event_id",
+                 "go on after this event; the header Last-Event-ID counts before"}};
+
 constexpr std::array<unsigned, 0> no_errors{};
 constexpr std::array bad_request{400U};
 constexpr std::array catalog_errors{400U, 404U};
 constexpr std::array volume_errors{400U, 404U, 503U};
 constexpr std::array grid_errors{400U, 404U, 410U};
+constexpr std::array events_errors{400U, 404U, 503U};
 constexpr std::array computed_errors{400U, 404U, 410U, 503U};
 
 constexpr std::string_view json_type = "application/json";
 constexpr std::string_view bytes_type = "application/octet-stream";
+constexpr std::string_view events_type = "text/event-stream";
 
 constexpr auto operations_table = std::to_array<ApiOperation>({
     {"index", "/api/v1", "What the API does: this table.", {}, json_type, no_errors, api_index},
@@ -120,6 +132,8 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
      bytes_type,
      computed_errors,
      api_between},
+    {"events", "/api/v1/events", "What happens, as it happens: server-sent events.",
+     events_parameters, events_type, events_errors, api_no_events},
     {"map", "/api/v1/map", "Coasts, borders, lakes and cities of an area.", map_parameters,
      json_type, bad_request, api_map},
 });
@@ -184,6 +198,7 @@ ApiJson responses_json(const ApiOperation& operation) {
     const bool is_json = operation.content_type == json_type;
     ApiJson schema = is_json ? ApiJson::object({{"type", "object"}})
                              : ApiJson::object({{"type", "string"}, {"format", "binary"}});
+    if (operation.content_type == events_type) schema = {{"type", "string"}};
     ApiJson all;
     all["200"] = {{"description", operation.what},
                   {"content", {{operation.content_type, {{"schema", schema}}}}}};
@@ -252,6 +267,11 @@ Answer api_index(const ApiCall& call) {
                         {"what", operation.what}});
     }
     return json_answer(call.request, {{"operations", list}});
+}
+
+// Where events are served, a door of their own answers this path (web/doors/events.h).
+Answer api_no_events(const ApiCall& /*call*/) {
+    return json_error(404, "this server serves no events");
 }
 
 Answer api_openapi(const ApiCall& call) {
