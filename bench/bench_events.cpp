@@ -211,7 +211,11 @@ class OtherRequests {
                         fmt::format("/volumes/{}/?limit=5", site.station.icao), "/metrics"};
                     const auto got =
                         get(address + paths[i % paths.size()], {"Accept-Encoding: gzip"}, scratch);
-                    if (!got || got->status != 200) ++failed;
+                    if (!got || got->status != 200) {
+                        ++failed;
+                        fmt::print(stderr, "{}: {}\n", paths[i % paths.size()],
+                                   got ? std::to_string(got->status) : got.error().message);
+                    }
                     ++asked;
                     next += std::chrono::microseconds{1'000'000 / a_second};
                     std::this_thread::sleep_until(next);
