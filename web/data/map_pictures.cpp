@@ -72,16 +72,15 @@ std::string MapPicture::etag() const {
 
 MapPictures::MapPictures(MapPicturesOptions options)
     : options_(std::move(options)),
-      kept_(options_.kept_bytes / 2),
-      maps_(options_.kept_bytes - options_.kept_bytes / 2),
+      maps_(options_.map_bytes),
       gate_(options_.most_at_once, options_.most_waiting, options_.patience) {}
 
 std::optional<Kept> MapPictures::find(const MapPicture& picture) {
-    return kept_.find(picture.key());
+    return options_.kept->find(picture.key());
 }
 
 Result<Kept> MapPictures::find_or_draw(const MapPicture& picture) {
-    return kept_.find_or_make(picture.key(), [&]() -> Result<Kept> {
+    return options_.kept->find_or_make(picture.key(), [&]() -> Result<Kept> {
         const auto pass = gate_.enter();
         if (!pass) return fail(ErrorCode::busy, "too many pictures are being drawn now; ask again");
         return draw(picture);

@@ -31,8 +31,9 @@ namespace stormcellar::web {
 
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
-    // Half of it is for pictures, half for the products that they are drawn of.
-    std::uint64_t kept_bytes = 64'000'000;
+    // Other doors may keep their pictures in it, too.
+    std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
+    std::uint64_t map_bytes = 32'000'000;  // for the products that pictures are drawn of
     int most_at_once = 2;
     int most_waiting = 8;
     std::chrono::milliseconds patience{5000};
@@ -80,7 +81,6 @@ class MapPictures {
         render::EarthBox box;
     };
     MapPicturesOptions options_;
-    KeptAnswers kept_;
     FlatMaps maps_;
     RenderGate gate_;
     std::mutex boxes_mutex_;
