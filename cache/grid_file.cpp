@@ -20,6 +20,7 @@
 #include "cache/description.h"
 #include "cache/file_io.h"
 #include "cache/format.h"
+#include "cache/grid_facts.h"
 #include "cache/grid_file_mapping.h"
 #include "cache/packing.h"
 
@@ -160,6 +161,17 @@ Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size) 
     return metadata;
 }
 
+Result<GridDescription> described_by(const Metadata& metadata) {
+    const format::Layout& at = metadata.at;
+    const std::span<const std::byte> bytes(metadata.bytes);
+    GridDescription description = description_of(
+        metadata.header, bytes.subspan(at.levels_offset, at.description_offset - at.levels_offset));
+    const Status good = decode_description(
+        bytes.subspan(at.description_offset, metadata.header.description_size), description);
+    if (!good) return pass_on(good);
+    return description;
+}
+
 grid::BrickView view_of(const Metadata& metadata) {
     const FileHeader& header = metadata.header;
     const format::Layout& at = metadata.at;
@@ -238,17 +250,11 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path) {
     Result<Metadata> metadata = read_metadata(*file, static_cast<std::uint64_t>(facts->st_size));
     if (!metadata) return failure(metadata.error());
 
-    const format::Layout at = metadata->at;
-    const std::span<const std::byte> bytes(metadata->bytes);
-    GridDescription description =
-        description_of(metadata->header,
-                       bytes.subspan(at.levels_offset, at.description_offset - at.levels_offset));
-    Status good = decode_description(
-        bytes.subspan(at.description_offset, metadata->header.description_size), description);
-    if (!good) return failure(good.error());
+    Result<GridDescription> description = described_by(*metadata);
+    if (!description) return failure(description.error());
     grid::BrickView view = view_of(*metadata);
     const Packing packing = is_packed(metadata->header) ? Packing::lz4 : Packing::none;
-    good = check_description(description, view.quantization);
+    Status good = check_description(*description, view.quantization);
     if (good) good = check_bricks(view.bricks, view.states, view.quantization, packing);
     if (!good) return failure(good.error());
     auto codes = codes_of(*file, *metadata, view);
@@ -257,10 +263,23 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path) {
 
     auto mapping = std::make_unique<Mapping>(
         Mapping{path, std::move(*file), std::move(metadata->bytes), std::move(codes->map),
-                std::move(codes->unpacked), at, static_cast<std::uint64_t>(facts->st_blocks) * 512,
-                metadata->header.checksum, std::move(description), view});
+                std::move(codes->unpacked), metadata->at,
+                static_cast<std::uint64_t>(facts->st_blocks) * 512, metadata->header.checksum,
+                std::move(*description), view});
     mapping->view.spec = &mapping->description.spec;
     return GridFile(std::move(mapping));
+}
+
+Result<GridFacts> read_grid_facts(const Descriptor& file) {
+    const Result<struct stat> facts = facts_of(file);
+    if (!facts) return pass_on(facts);
+    const auto metadata = read_metadata(file, static_cast<std::uint64_t>(facts->st_size));
+    if (!metadata) return pass_on(metadata);
+    Result<GridDescription> description = described_by(*metadata);
+    if (!description) return pass_on(description);
+    const Status good = check_description(*description, view_of(*metadata).quantization);
+    if (!good) return pass_on(good);
+    return GridFacts{std::move(*description), metadata->header.checksum};
 }
 
 GridFile::GridFile(std::unique_ptr<Mapping> mapping) : mapping_(std::move(mapping)) {}

@@ -71,7 +71,8 @@ class Reader {
     void type(const std::string& name, const std::string& word, const std::string& line) {
         MetricFamily& family = families[current_];
         if (name != current_ || !family.type.empty()) refuse(line, "a type out of place");
-        if (word != "counter" && word != "gauge" && word != "summary") refuse(line, "no type");
+        if (word != "counter" && word != "gauge" && word != "summary" && word != "histogram")
+            refuse(line, "no type");
         if ((word == "counter") != name.ends_with("_total"))
             refuse(line, "counters, and they alone, end with _total");
         family.type = word;
@@ -80,10 +81,14 @@ class Reader {
              const std::string& line) {
         MetricFamily& family = families[current_];
         if (family.type.empty()) refuse(line, "a sample without a type");
-        const bool is_summary = family.type == "summary";
+        const bool is_summary = family.type == "summary", is_histogram = family.type == "histogram";
         const bool is_part = name == current_ + "_sum" || name == current_ + "_count";
-        if (name != current_ && !(is_summary && is_part)) refuse(line, "another family's sample");
+        const bool is_bucket = is_histogram && name == current_ + "_bucket";
+        if (is_histogram ? !is_part && !is_bucket : name != current_ && !(is_summary && is_part))
+            refuse(line, "another family's sample");
         const std::string labels = sorted_labels(inside, line);
+        if (is_histogram && (labels.find("le=\"") != std::string::npos) != is_bucket)
+            refuse(line, "a bound out of place");
         const bool has_quantile = labels.find("quantile=\"") != std::string::npos;
         if (has_quantile != (is_summary && !is_part)) refuse(line, "a quantile out of place");
         const std::string series = labels.empty() ? name : name + "{" + labels + "}";

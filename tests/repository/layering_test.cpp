@@ -99,7 +99,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
      {{"config", {}},
       {"http", {}},
       {"data", {"http"}},
-      {"doors", {"data", "http"}},
+      {"doors", {"config", "data", "http"}},
       {"service", {"config", "data", "doors", "http"}}}},
     {"cli",
      {{"shared", {}},

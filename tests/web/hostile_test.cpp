@@ -233,7 +233,7 @@ TEST_F(HostileClients, ManyClientsGetTheBytesThatOneGets) {
                                               path + "/file",
                                               path + "/netcdf",
                                               path + "/probe?at=42.2,-75.98",
-                                              "/api/v1/domains",
+                                              "/api/v1/grids?domain=KBGM",
                                               "/api/v1/openapi.json"};
     std::vector<std::string> expected;
     for (const std::string& target : targets) {

@@ -269,6 +269,7 @@ void read_limits(TomlTable table, WebLimits& limits) {
     read_count(table, "connections", {8, 100'000}, limits.connections);
     read_count(table, "connections_of_an_address", {2, 100'000}, limits.connections_of_an_address);
     read_count(table, "event_streams", {0, 100'000}, limits.event_streams);
+    read_count(table, "event_streams_of_a_client", {1, 100'000}, limits.event_streams_of_a_client);
     read_size(table, "header_bytes", {1024, 1 << 20}, limits.header_bytes);
     read_seconds(table, "request_seconds", {1, 3600}, limits.request);
     read_size(table, "least_bytes_per_second", {0, 1e9}, limits.least_bytes_per_second);
@@ -365,6 +366,7 @@ WebConfig read_web_config(TomlTable& root) {
     TomlTable web = root.section("web");
     read_addresses(web, config);
     read_parts(web, config);
+    read_seconds(web, "silent_seconds", {60, 86'400}, config.silent);
     read_thredds(web.section("thredds"), config.thredds);
     read_limits(web.section("limits"), config.limits);
     return config;

@@ -99,6 +99,7 @@ struct WebLimits {
     int connections = 1024;
     int connections_of_an_address = 256;  // trusted proxies have as many as there are in all
     int event_streams = 2048;             // these count apart from other connections
+    int event_streams_of_a_client = 64;
     std::uint64_t header_bytes = 32'768;
     std::chrono::seconds request{20};  // from the opening, or the last answer, to a request's end
     std::uint64_t least_bytes_per_second = 1'000;  // that a client must take of an answer
@@ -120,6 +121,8 @@ struct WebConfig {
     std::vector<WebPart> serve = all_parts();  // each once, in their order
     std::string bucket = "unidata-nexrad-level2";
     bool cors = false;  // "*" on paths of public data
+    // A station from which nothing came for this long is silent.
+    std::chrono::seconds silent{1200};
     ThreddsConfig thredds = usual_thredds();
     WebLimits limits;
 

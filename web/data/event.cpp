@@ -17,8 +17,8 @@ constexpr bool names_stand_in_order() {
 static_assert(names_stand_in_order());
 
 template <class Values, class Value>
-bool empty_or_has(const Values& values, const Value& value) {
-    return values.empty() || std::find(values.begin(), values.end(), value) != values.end();
+bool has_value(const Values& values, const Value& value) {
+    return std::find(values.begin(), values.end(), value) != values.end();
 }
 
 // A run is 1 to 32 letters and digits of hexadecimal.
@@ -37,9 +37,11 @@ std::optional<EventType> event_type_from_name(std::string_view name) {
 
 bool EventFilter::fits(const Event& event) const {
     if (event.type == EventType::reset) return true;
-    return empty_or_has(stations, event.station) && empty_or_has(domains, event.domain) &&
-           empty_or_has(types, event.type) &&
-           (!event.moment || empty_or_has(moments, *event.moment));
+    const bool is_of_a_place = (stations.empty() && domains.empty()) ||
+                               has_value(stations, event.station) ||
+                               has_value(domains, event.domain);
+    return is_of_a_place && (types.empty() || has_value(types, event.type)) &&
+           (moments.empty() || !event.moment || has_value(moments, *event.moment));
 }
 
 std::optional<EventId> parse_event_id(std::string_view text) {

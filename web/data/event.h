@@ -55,13 +55,14 @@ struct Event {
     std::string json;  // one object on one line
 };
 
-// What a client wants to hear. Each list that is not empty must fit. An event without a moment
-// fits any list of moments, so that who asks for REF hears of silent stations, too. A reset fits
-// every filter.
+// What a client wants to hear. Stations and domains are places: an event fits if it is of one of
+// these stations or of one of these domains, or if neither is given. Moments and types must fit,
+// too, if they are given. An event without a moment fits any list of moments, so that who asks for
+// REF hears of silent stations. A reset fits every filter.
 struct EventFilter {
-    std::vector<std::string> stations, domains;
-    std::vector<level2::Moment> moments;
-    std::vector<EventType> types;
+    std::vector<std::string> stations = {}, domains = {};
+    std::vector<level2::Moment> moments = {};
+    std::vector<EventType> types = {};
     [[nodiscard]] bool fits(const Event& event) const;
 };
 

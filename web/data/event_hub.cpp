@@ -28,7 +28,8 @@ EventHub::EventHub(EventHubOptions options)
       beats_(std::max(options.heartbeat_ticks, 1U)) {}
 
 std::vector<std::string> EventHub::keys_of(const EventFilter& filter) {
-    std::vector<std::string> keys = filter.stations.empty() ? filter.domains : filter.stations;
+    std::vector<std::string> keys = filter.stations;
+    keys.insert(keys.end(), filter.domains.begin(), filter.domains.end());
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     if (keys.empty()) keys.emplace_back();

@@ -63,7 +63,7 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
     using Group = std::vector<Listener*>;
     explicit EventHub(EventHubOptions options);
     void leave(Listener& listener);
-    // Where the listener is indexed: by its stations, else by its domains, else under "".
+    // Where the listener is indexed: by its stations and domains; under "" if it has none.
     static std::vector<std::string> keys_of(const EventFilter& filter);
     void mark_group(const std::string& key, const Event& event, std::uint64_t number,
                     std::vector<std::shared_ptr<Listener>>& woken);

@@ -6,6 +6,7 @@
 #include <linux/sockios.h>
 #include <linux/tcp.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
@@ -32,8 +33,13 @@ bool has_unsent(int descriptor) {
 ConnectionWatch::ConnectionWatch(ServerLimits limits, std::set<std::string> exempt)
     : limits_(limits), exempt_(std::move(exempt)), thread_([this] {
           std::unique_lock lock(mutex_);
-          while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; }))
-              look(std::chrono::steady_clock::now());
+          while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; })) {
+              const Streams over = look(std::chrono::steady_clock::now());
+              lock.unlock();
+              for (const auto& stream : over)
+                  stream->end();
+              lock.lock();
+          }
       }) {}
 
 ConnectionWatch::~ConnectionWatch() {
@@ -47,7 +53,7 @@ ConnectionWatch::~ConnectionWatch() {
 
 bool ConnectionWatch::may_open(const std::string& client) const {
     const std::scoped_lock lock(mutex_);
-    if (open_.size() >= limits_.most_connections) return false;
+    if (open_.size() - streams_ >= limits_.most_connections) return false;
     const auto theirs = by_client_.find(client);
     return theirs == by_client_.end() || exempt_.contains(client) ||
            theirs->second < limits_.most_connections_of_address;
@@ -56,7 +62,7 @@ bool ConnectionWatch::may_open(const std::string& client) const {
 void ConnectionWatch::opened(MHD_Connection* connection, int descriptor, std::string client) {
     const std::scoped_lock lock(mutex_);
     make_room();
-    ++by_client_[client];
+    count_client(client);
     open_[connection] = {.descriptor = descriptor,
                          .client = std::move(client),
                          .since = std::chrono::steady_clock::now()};
@@ -66,9 +72,21 @@ void ConnectionWatch::closed(MHD_Connection* connection) {
     const std::scoped_lock lock(mutex_);
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
-    const auto theirs = by_client_.find(found->second.client);
-    if (--theirs->second == 0) by_client_.erase(theirs);
+    if (found->second.phase == Phase::stream) {
+        --streams_;
+    } else {
+        forget_client(found->second.client);
+    }
     open_.erase(found);
+}
+
+void ConnectionWatch::count_client(const std::string& client) {
+    ++by_client_[client];
+}
+
+void ConnectionWatch::forget_client(const std::string& client) {
+    const auto theirs = by_client_.find(client);
+    if (--theirs->second == 0) by_client_.erase(theirs);
 }
 
 void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
@@ -76,6 +94,13 @@ void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
     Open& open = found->second;
+    if (phase == Phase::stream && open.phase != Phase::stream) {
+        ++streams_;
+        forget_client(open.client);
+    } else if (phase != Phase::stream && open.phase == Phase::stream) {
+        --streams_;
+        count_client(open.client);
+    }
     open.phase = phase;
     open.since = std::chrono::steady_clock::now();
     if (phase == Phase::body || phase == Phase::stream)
@@ -86,8 +111,16 @@ void ConnectionWatch::request_arrived(MHD_Connection* connection) {
     set_phase(connection, Phase::thinking);
 }
 
-void ConnectionWatch::sending(MHD_Connection* connection, bool is_stream) {
-    set_phase(connection, is_stream ? Phase::stream : Phase::body);
+void ConnectionWatch::sending_body(MHD_Connection* connection) {
+    set_phase(connection, Phase::body);
+}
+
+void ConnectionWatch::sending_stream(MHD_Connection* connection,
+                                     const std::shared_ptr<StreamFeed>& stream) {
+    set_phase(connection, Phase::stream);
+    const std::scoped_lock lock(mutex_);
+    const auto found = open_.find(connection);
+    if (found != open_.end()) found->second.stream = stream;
 }
 
 void ConnectionWatch::answered(MHD_Connection* connection) {
@@ -111,7 +144,7 @@ void ConnectionWatch::cut(Open& open) {
 }
 
 void ConnectionWatch::make_room() {
-    if (4 * open_.size() < 3 * std::size_t{limits_.most_connections}) return;
+    if (4 * (open_.size() - streams_) < 3 * std::size_t{limits_.most_connections}) return;
     Open* oldest = nullptr;
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.phase != Phase::request) continue;
@@ -133,9 +166,30 @@ bool ConnectionWatch::is_too_slow(Open& open, SteadyTime now) const {
     return is_slow;
 }
 
-void ConnectionWatch::look(SteadyTime now) {
+void ConnectionWatch::cut_those_gone() {
+    std::vector<pollfd> sockets;
+    std::vector<Open*> streams;
+    for (auto& [connection, open] : open_) {
+        if (open.is_cut || open.phase != Phase::stream) continue;
+        sockets.push_back({open.descriptor, POLLRDHUP, 0});
+        streams.push_back(&open);
+    }
+    if (sockets.empty() || ::poll(sockets.data(), sockets.size(), 0) <= 0) return;
+    for (std::size_t i = 0; i < sockets.size(); ++i)
+        if (sockets[i].revents != 0) cut(*streams[i]);
+}
+
+ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
+    cut_those_gone();
+    Streams over;
+    for (auto& [connection, open] : open_) {
+        if (!open.is_cut || open.phase != Phase::stream) continue;
+        if (auto stream = open.stream.lock()) over.push_back(std::move(stream));
+        open.stream.reset();
+    }
+    return over;
 }
 
 }  // namespace stormcellar::web

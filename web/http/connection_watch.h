@@ -3,7 +3,8 @@
 // libmicrohttpd's own timeout is for inactivity: a client that sends one byte every few seconds
 // would hold a connection forever. This watch sets a total for the arrival of a request, and a
 // least rate for a body that a client takes. It ends a connection by shutdown(2); libmicrohttpd
-// then sees its end and closes it.
+// then sees its end and closes it. While a stream has nothing to send, libmicrohttpd does not look
+// at its connection; the watch does, and ends the stream if the client is gone.
 //
 // Threads   Many threads may use it; a thread of its own looks twice a second.
 #pragma once
@@ -12,13 +13,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "base/steady_time.h"
 #include "web/http/server_options.h"
+#include "web/http/stream_feed.h"
 
 struct MHD_Connection;
 
@@ -31,17 +35,20 @@ class ConnectionWatch {
     ConnectionWatch& operator=(const ConnectionWatch&) = delete;
     ~ConnectionWatch();
 
-    // Returns false if this client has too many connections, or all clients together.
+    // Returns false if this client has too many connections, or all clients together. A connection
+    // that carries a stream does not count: who makes streams limits them.
     [[nodiscard]] bool may_open(const std::string& client) const;
     // If three quarters of the connections are open, the one that has waited longest for a request
-    // is ended.
+    // is ended. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
-    // The answer goes out from now on. A stream may have nothing to send for long.
-    void sending(MHD_Connection* connection, bool is_stream);
+    // The answer goes out from now on: a body, or a stream, which may have nothing to send for
+    // long.
+    void sending_body(MHD_Connection* connection);
+    void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
-    [[nodiscard]] std::size_t count() const;
+    [[nodiscard]] std::size_t count() const;  // with streams
     // Returns true if no answer is being made or sent.
     [[nodiscard]] bool is_idle() const;
 
@@ -54,11 +61,17 @@ class ConnectionWatch {
         SteadyTime since;               // of the phase, or of the last look at the rate
         std::uint64_t taken_bytes = 0;  // what the client had acknowledged then
         bool is_cut = false;
+        std::weak_ptr<StreamFeed> stream = {};
     };
-    void look(SteadyTime now);
+    using Streams = std::vector<std::shared_ptr<StreamFeed>>;
+    // Returns the streams that must end, which is done without the lock.
+    [[nodiscard]] Streams look(SteadyTime now);
+    void cut_those_gone();
     bool is_too_slow(Open& open, SteadyTime now) const;
     void set_phase(MHD_Connection* connection, Phase phase);
     void make_room();
+    void count_client(const std::string& client);
+    void forget_client(const std::string& client);
     static void cut(Open& open);
 
     const ServerLimits limits_;
@@ -67,7 +80,8 @@ class ConnectionWatch {
     std::condition_variable ends_;
     bool is_stopping_ = false;
     std::map<MHD_Connection*, Open> open_;
-    std::map<std::string, unsigned> by_client_;
+    std::size_t streams_ = 0;                    // of open_
+    std::map<std::string, unsigned> by_client_;  // without streams
     std::thread thread_;
 };
 

@@ -42,12 +42,18 @@ void Counters::add_door(std::string prefix) {
     doors_.emplace_back().prefix = std::move(prefix);
 }
 
-void Counters::add_gauge(std::string name, std::string help, std::function<double()> value) {
-    functions_.push_back({std::move(name), std::move(help), "gauge", std::move(value)});
+void Counters::add_gauge(std::string name, std::string help, std::function<double()> value,
+                         const Fields& labels) {
+    std::string text;
+    for (const auto& [label, content] : labels)
+        text += fmt::format("{}{}=\"{}\"", text.empty() ? "{" : ",", label, label_text(content));
+    if (!text.empty()) text += '}';
+    functions_.push_back(
+        {std::move(name), std::move(help), std::move(text), "gauge", std::move(value)});
 }
 
 void Counters::add_counter(std::string name, std::string help, std::function<double()> value) {
-    functions_.push_back({std::move(name), std::move(help), "counter", std::move(value)});
+    functions_.push_back({std::move(name), std::move(help), {}, "counter", std::move(value)});
 }
 
 Counters::PerDoor& Counters::door_of(const Request* request) {
@@ -127,7 +133,8 @@ std::string Counters::text() const {
     }
     for (const Function& function : functions_) {
         begin_family(text, function.name, function.type, function.help);
-        text += fmt::format("{} {}\n", function.name, metric_number(function.value()));
+        text += fmt::format("{}{} {}\n", function.name, function.labels,
+                            metric_number(function.value()));
     }
     return text;
 }

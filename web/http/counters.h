@@ -6,8 +6,7 @@
 //
 // Units     Seconds and bytes.
 // Threads   Doors, gauges and counters are added before the server starts. After that, many threads
-// may use
-//           it; counting takes no lock.
+//           may use it; counting takes no lock.
 #pragma once
 
 #include <array>
@@ -37,9 +36,10 @@ class Counters {
     // Counts requests below this prefix ("/tiles") apart. Others count as "other", and requests
     // that could not be read as "unread".
     void add_door(std::string prefix);
-    // A number that rises and falls, or that only rises, without labels. The name is that of the
-    // family: "stormcellar_web_kept_bytes".
-    void add_gauge(std::string name, std::string help, std::function<double()> value);
+    // A number that rises and falls, or that only rises. The name is that of the family:
+    // "stormcellar_web_kept_bytes".
+    void add_gauge(std::string name, std::string help, std::function<double()> value,
+                   const Fields& labels = {});
     void add_counter(std::string name, std::string help, std::function<double()> value);
 
     void count(const Served& served);
@@ -55,7 +55,7 @@ class Counters {
         std::atomic<std::uint64_t> bytes{0}, microseconds{0};
     };
     struct Function {
-        std::string name, help;
+        std::string name, help, labels;  // labels as they are written
         std::string_view type;
         std::function<double()> value;
     };

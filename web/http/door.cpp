@@ -21,4 +21,11 @@ std::shared_ptr<Door> Doors::find(std::string_view path) const {
     return nullptr;
 }
 
+std::vector<std::string> Doors::prefixes() const {
+    std::vector<std::string> prefixes;
+    for (const auto& [prefix, door] : doors_)
+        prefixes.push_back(prefix.empty() ? "/" : prefix);
+    return prefixes;
+}
+
 }  // namespace stormcellar::web

@@ -33,6 +33,8 @@ class Doors {
     void add(std::string prefix, std::shared_ptr<Door> door);
     // Never null once "/" was added.
     [[nodiscard]] std::shared_ptr<Door> find(std::string_view path) const;
+    // The longest first; "/" is among them as "/".
+    [[nodiscard]] std::vector<std::string> prefixes() const;
 
   private:
     std::vector<std::pair<std::string, std::shared_ptr<Door>>> doors_;

@@ -96,16 +96,32 @@ Response response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Connectio
     return response;
 }
 
+// libmicrohttpd writes the end of a chunked body even after HEAD, where no body may be. Without
+// chunks the connection ends with the answer.
+Response response_without_stream() {
+    const auto ends = +[](void*, std::uint64_t, char*, std::size_t) -> ssize_t {
+        return MHD_CONTENT_READER_END_OF_STREAM;
+    };
+    Response response(MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block_bytes, ends,
+                                                        nullptr, nullptr));
+    if (response == nullptr) return nullptr;
+    MHD_set_response_options(response.get(), MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
+    return response;
+}
+
 }  // namespace
 
 void ResponseDeleter::operator()(MHD_Response* response) const {
     if (response != nullptr) MHD_destroy_response(response);
 }
 
-Response make_response(const Answer& answer, MHD_Connection* connection, HeldFeed* feed) {
+Response make_response(const Answer& answer, Verb verb, MHD_Connection* connection,
+                       HeldFeed* feed) {
     Response response;
     if (const auto* pieces = std::get_if<Pieces>(&answer.body)) {
         response = response_of_pieces(*pieces);
+    } else if (verb == Verb::head) {
+        response = response_without_stream();
     } else {
         response =
             response_of_stream(std::get<std::shared_ptr<Stream>>(answer.body), connection, feed);

@@ -18,8 +18,9 @@ struct ResponseDeleter {
 };
 using Response = std::unique_ptr<MHD_Response, ResponseDeleter>;
 
-// `feed` is set if the body is a stream. Null if there is no memory or descriptor left.
-[[nodiscard]] Response make_response(const Answer& answer, MHD_Connection* connection,
+// `feed` is set if the body is a stream, which HEAD does not begin. Null if there is no memory or
+// descriptor left.
+[[nodiscard]] Response make_response(const Answer& answer, Verb verb, MHD_Connection* connection,
                                      std::shared_ptr<StreamFeed>* feed);
 
 }  // namespace stormcellar::web

@@ -319,7 +319,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     Answer& answer = *exchange.answer;
     finish(answer, exchange.request);
     const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
-    const Response response = make_response(answer, connection, &exchange.feed);
+    const Response response =
+        make_response(answer, exchange.request.verb, connection, &exchange.feed);
     if (response == nullptr) return MHD_NO;
     if (exchange.feed != nullptr) {
         const std::scoped_lock lock(feeds_mutex);
@@ -331,7 +332,11 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
         options.on_answer(
             {&exchange.request, answer.status, bytes, SteadyClock::now() - exchange.began});
     }
-    watch.sending(connection, is_stream);
+    if (exchange.feed != nullptr) {
+        watch.sending_stream(connection, exchange.feed);
+    } else {
+        watch.sending_body(connection);
+    }
     return MHD_queue_response(connection, answer.status, response.get());
 }
 
@@ -349,7 +354,8 @@ Status Server::Impl::listen(const ListenAddress& where) {
     MHD_Daemon* daemon = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, &Impl::accepts, this,
         &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, socket->number(),
-        MHD_OPTION_CONNECTION_LIMIT, options.limits.most_connections + 1,
+        MHD_OPTION_CONNECTION_LIMIT,
+        options.limits.most_connections + options.limits.most_streams + 1,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, options.limits.header_bytes,
         MHD_OPTION_URI_LOG_CALLBACK, &Impl::first_line, this, MHD_OPTION_UNESCAPE_CALLBACK,
         undecoded, nullptr, MHD_OPTION_NOTIFY_COMPLETED, &Impl::completed, this,

@@ -20,7 +20,8 @@ struct ListenAddress {
 };
 
 struct ServerLimits {
-    unsigned most_connections = 1024;
+    unsigned most_connections = 1024;  // but for those that carry a stream
+    unsigned most_streams = 2048;      // that doors make: the server has room for them
     // Of one client's address. Trusted proxies may have all.
     unsigned most_connections_of_address = 256;
     std::size_t header_bytes = 32 * 1024;  // request line and headers together

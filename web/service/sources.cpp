@@ -6,6 +6,9 @@
 
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
+#include "web/doors/events.h"
+#include "web/doors/index.h"
+#include "web/doors/metrics.h"
 #include "web/doors/polling.h"
 #include "web/doors/s3.h"
 #include "web/doors/thredds.h"
@@ -14,18 +17,6 @@
 
 namespace stormcellar::web {
 namespace {
-
-// Answers "/" until somebody asks for more.
-class PlainIndex final : public Door {
-  public:
-    std::optional<Answer> answer_at_once(const Request& request) override {
-        if (request.path != "/") return sentence(404, "There is nothing at this address.");
-        return text_answer(200, "text/plain; charset=utf-8",
-                           "stormcellar: a data server\n"
-                           "/api/v1 lists what can be asked; docs/web.md explains it.\n");
-    }
-    Answer answer(const Request& request) override { return *answer_at_once(request); }
-};
 
 // A map takes milliseconds, so that those that wait for their turn may hold workers meanwhile.
 void add_pictures(Doors& doors, const Sources& sources) {
@@ -37,6 +28,29 @@ void add_pictures(Doors& doors, const Sources& sources) {
                            .most_waiting = limits.waiting,
                            .threads = static_cast<int>(std::thread::hardware_concurrency())});
     doors.add("/tiles", std::make_shared<TilesDoor>(maps));
+}
+
+// What events, metrics and the index need to know of the daemon's work.
+struct Watched {
+    std::shared_ptr<EventHub> hub = EventHub::make();
+    std::shared_ptr<const EventFeed> feed;
+};
+Watched watch_over(const Sources& sources) {
+    Watched watched;
+    watched.feed = EventFeed::open({.grids = sources.grids,
+                                    .catalog = sources.setup.catalog,
+                                    .hub = watched.hub,
+                                    .silent_after = sources.setup.web.silent});
+    return watched;
+}
+
+void add_events(Doors& doors, const Watched& watched, const WebLimits& limits) {
+    doors.add("/api/v1/events",
+              std::make_shared<EventsDoor>(EventsOptions{
+                  .hub = watched.hub,
+                  .feed = watched.feed,
+                  .most_streams = static_cast<std::size_t>(limits.event_streams),
+                  .most_of_client = static_cast<std::size_t>(limits.event_streams_of_a_client)}));
 }
 
 }  // namespace
@@ -59,11 +73,10 @@ Result<Sources> open_sources(WebSetup setup) {
     return sources;
 }
 
-std::shared_ptr<const Doors> doors_to(const Sources& sources) {
+std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures) {
     const WebSetup& setup = sources.setup;
     const WebLimits& limits = setup.web.limits;
     auto doors = std::make_shared<Doors>();
-    doors->add("/", std::make_shared<PlainIndex>());
     const auto files = RawFiles::open_catalog({.catalog = setup.catalog, .scratch = {}});
     if (setup.web.serves(WebPart::volumes))
         doors->add("/volumes", std::make_shared<VolumesDoor>(files));
@@ -84,7 +97,18 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources) {
                                   .kept = std::make_shared<KeptAnswers>(limits.kept_bytes),
                                   .most_computations = limits.renders}));
     }
+    const Watched watched = watch_over(sources);
+    if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);
+    if (setup.web.serves(WebPart::metrics))
+        doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
     if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
+    doors->add("/", std::make_shared<IndexDoor>(IndexOptions{.grids = sources.grids,
+                                                             .feed = watched.feed,
+                                                             .doors = doors->prefixes(),
+                                                             .bucket = setup.web.bucket}));
+    measures.watch_grids(sources.grids);
+    measures.watch_events(watched.hub, watched.feed);
+    measures.count_doors(*doors);
     return doors;
 }
 

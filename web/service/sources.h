@@ -10,6 +10,7 @@
 #include "web/config/web_setup.h"
 #include "web/data/grids.h"
 #include "web/http/door.h"
+#include "web/service/measures.h"
 
 namespace stormcellar::web {
 
@@ -24,7 +25,8 @@ struct Sources {
 // permission and others of a catalog or cache that is there.
 [[nodiscard]] Result<Sources> open_sources(WebSetup setup);
 
-// Returns the doors of everything that [web] serve names, and the index.
-[[nodiscard]] std::shared_ptr<const Doors> doors_to(const Sources& sources);
+// Returns the doors of everything that [web] serve names, and the index. What they do is counted in
+// `measures`, which are those of one server.
+[[nodiscard]] std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures);
 
 }  // namespace stormcellar::web

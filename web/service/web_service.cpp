@@ -56,6 +56,7 @@ ServerOptions server_options_of(const WebConfig& config) {
     }
     const WebLimits& limits = config.limits;
     options.limits.most_connections = static_cast<unsigned>(limits.connections);
+    options.limits.most_streams = static_cast<unsigned>(limits.event_streams);
     options.limits.most_connections_of_address =
         static_cast<unsigned>(limits.connections_of_an_address);
     options.limits.header_bytes = limits.header_bytes;
@@ -65,7 +66,6 @@ ServerOptions server_options_of(const WebConfig& config) {
     // A connection has one request at a time, so its limit bounds the queue too. What takes long
     // has limits of its own.
     options.limits.most_waiting = static_cast<std::size_t>(limits.connections);
-    options.on_answer = note_answer;
     return options;
 }
 
@@ -78,9 +78,16 @@ Result<std::unique_ptr<WebService>> WebService::open(WebSetup setup) {
 }
 
 Status WebService::serve() {
-    auto server = Server::open(server_options_of(sources_.setup.web), doors_to(sources_));
+    const auto measures = std::make_shared<Measures>();
+    ServerOptions options = server_options_of(sources_.setup.web);
+    options.on_answer = [measures](const Served& served) {
+        measures->counters()->count(served);
+        note_answer(served);
+    };
+    auto server = Server::open(std::move(options), doors_to(sources_, *measures));
     if (!server) return pass_on(server);
     server_ = std::move(*server);
+    measures->set_server(server_.get());
     return {};
 }
 

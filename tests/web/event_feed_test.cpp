@@ -1,0 +1,155 @@
+// The feed over real volumes that come chunk by chunk: what a client of the hub hears.
+#include "web/data/event_feed.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/small_house.h"
+#include "tests/web/served_volumes.h"
+
+namespace stormcellar::web {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Reads until an event of this type has come; gives the data of all.
+std::vector<json> heard_until(EventHub::Listener& listener, std::string_view type) {
+    std::vector<json> all;
+    std::string text;
+    const auto until = std::chrono::steady_clock::now() + 20s;
+    while (std::chrono::steady_clock::now() < until) {
+        text += listener.read(1 << 20);
+        std::size_t end = 0;
+        while ((end = text.find("\n\n")) != std::string::npos) {
+            const std::size_t data = text.find("data: ");
+            if (data < end) all.push_back(json::parse(text.substr(data + 6, end - data - 6)));
+            text.erase(0, end + 2);
+        }
+        if (!all.empty() && all.back()["type"] == type) return all;
+        std::this_thread::sleep_for(2ms);
+    }
+    ADD_FAILURE() << "no " << type << " came";
+    return all;
+}
+
+// Gives LDM's chunks of a volume of KLOT (2026-03-28), of which living grids are made.
+class GrowingKlot {
+  public:
+    GrowingKlot() {
+        for (const auto& entry :
+             fs::directory_iterator(*testing::data_directory() / "chunks/OPENRADAR_KLOT"))
+            chunks_.push_back(entry.path());
+        std::ranges::sort(chunks_);
+        fs::create_directories(directory_ / "drop/KLOT");
+        pipeline::IngestOptions options = pipeline::small_grid();
+        options.moments = {level2::Moment::ref};
+        options.living.scratch = directory_.path();
+        options.living.chunk_grace = 0s;
+        ingestor_.emplace(catalog_, store_, options);
+    }
+    // The chunks from `first` to before `last`.
+    void take(std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < std::min(last, chunks_.size()); ++i) {
+            const fs::path path = directory_ / "drop/KLOT" / chunks_[i].filename();
+            fs::copy_file(chunks_[i], path);
+            ASSERT_TRUE(ingestor_->ingest(path, false));
+        }
+    }
+    [[nodiscard]] fs::path cache() const { return directory_ / "cache"; }
+    [[nodiscard]] fs::path catalog() const { return directory_ / "catalog"; }
+    [[nodiscard]] std::size_t count() const { return chunks_.size(); }
+
+  private:
+    testing::TemporaryDirectory directory_;
+    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+    std::optional<pipeline::Ingestor> ingestor_;
+    std::vector<fs::path> chunks_;
+};
+
+TEST(EventFeed, FollowsAVolumeFromItsFirstSweepToItsEnd) {
+    STORMCELLAR_NEED_DATA();
+    GrowingKlot klot;
+    const auto hub = EventHub::make();
+    const auto grids = *Grids::open({.cache = klot.cache()});
+    const auto feed = EventFeed::open(
+        {.grids = grids, .catalog = klot.catalog(), .hub = hub, .look_every = 20ms});
+    const auto listener = hub->listen({.stations = {"KLOT"}});
+    klot.take(0, klot.count() / 2);
+    auto all = heard_until(*listener, "sweep_gridded");
+    klot.take(klot.count() / 2, klot.count());
+    const auto rest = heard_until(*listener, "volume_complete");
+    all.insert(all.end(), rest.begin(), rest.end());
+
+    std::vector<json> begun, sweeps;
+    for (const json& event : all) {
+        EXPECT_EQ(event["station"], "KLOT");
+        if (event["type"] == "volume_begun") begun.push_back(event);
+        if (event["type"] == "sweep_gridded") sweeps.push_back(event);
+    }
+    ASSERT_EQ(begun.size(), 1u);
+    EXPECT_EQ(begun[0]["volume"], "2026-03-28T20:14:57.447Z");
+    ASSERT_GT(sweeps.size(), 1u) << "as fast as chunks come here, some are told together";
+    for (std::size_t i = 1; i < sweeps.size(); ++i) {
+        EXPECT_GT(sweeps[i]["sweeps"], sweeps[i - 1]["sweeps"]);
+        EXPECT_GE(sweeps[i]["data_to"], sweeps[i - 1]["data_to"]) << "a sweep may have no REF";
+        EXPECT_GE(sweeps[i]["newest_sweep"]["start"], sweeps[i - 1]["newest_sweep"]["start"]);
+    }
+    const json& complete = all.back();
+    EXPECT_EQ(complete["partial"], false);
+    EXPECT_EQ(complete["grid"], begun[0]["volume"]);
+    EXPECT_EQ(complete["id"], (*grids->find("KLOT", level2::Moment::ref,
+                                            grids->times("KLOT", level2::Moment::ref).at(0)))
+                                  ->id);
+    EXPECT_EQ(feed->unreadable(), 0u);
+    ASSERT_EQ(feed->stations().size(), 1u);
+    EXPECT_EQ(format_utc(*feed->stations()[0].newest_volume), begun[0]["volume"]);
+}
+
+// A server without a cache: the catalog tells.
+TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
+    STORMCELLAR_NEED_DATA();
+    ServedVolumes served(false);
+    const auto hub = EventHub::make();
+    const auto feed = EventFeed::open({.grids = nullptr,
+                                       .catalog = served.state() / "catalog",
+                                       .hub = hub,
+                                       .silent_after = 1s,
+                                       .look_every = 20ms});
+    const auto listener = hub->listen({});
+    served.take(*testing::data_directory() / "volumes/KTLX20170101_030027_V06",
+                "KTLX20170101_030027_V06");
+    const auto all = heard_until(*listener, "volume_complete");
+    const auto begun = std::find_if(
+        all.begin(), all.end(), [](const json& event) { return event["type"] == "volume_begun"; });
+    ASSERT_NE(begun, all.end());
+    EXPECT_EQ((*begun)["station"], "KTLX");
+    EXPECT_EQ(all.back()["volume"], (*begun)["volume"]);
+    EXPECT_EQ(all.back()["partial"], false);
+    EXPECT_GT(all.back()["sweeps"], 5);
+    const auto silent = heard_until(*listener, "station_silent");
+    EXPECT_EQ(silent.back()["station"], "KTLX");
+}
+
+TEST(EventFeed, WhatIsThereWhenItBeginsIsNotTold) {
+    STORMCELLAR_NEED_DATA();
+    const auto hub = EventHub::make();
+    const auto feed = EventFeed::open({.grids = nullptr,
+                                       .catalog = served_volumes().state() / "catalog",
+                                       .hub = hub,
+                                       .look_every = 5ms});
+    std::this_thread::sleep_for(50ms);
+    EXPECT_EQ(hub->published(), 0u);
+    const auto pages = feed->stations();
+    ASSERT_GE(pages.size(), 2u);
+    EXPECT_EQ(pages[0].station, "KABR");
+    EXPECT_FALSE(pages[0].is_silent);
+}
+
+}  // namespace
+}  // namespace stormcellar::web

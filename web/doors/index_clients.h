@@ -1,0 +1,32 @@
+// web/doors/index_clients.h -- how each program connects, with addresses to copy.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stormcellar::web {
+
+// What the examples name.
+struct ClientPlaces {
+    std::string base;     // "http://127.0.0.1:8090"
+    std::string bucket;   // "unidata-nexrad-level2"
+    std::string station;  // "KTLX"
+    std::string domain;   // of grids
+    std::string moment;   // its name
+    std::string day;      // "2026/05/01", of the newest volume
+};
+
+struct ClientHelp {
+    std::string_view program;
+    std::string_view text;  // a sentence or two
+    std::string code;       // to copy
+};
+
+// Those programs whose door is among the prefixes, those that people ask for most first.
+[[nodiscard]] std::vector<ClientHelp> client_help(const ClientPlaces& places,
+                                                  const std::vector<std::string>& doors);
+
+}  // namespace stormcellar::web

@@ -1,0 +1,40 @@
+// web/service/measures.h -- what one run of the server counts and measures, for /metrics.
+//
+// Threads   Everything is added before the server starts; after that, many threads may use it.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "web/data/event_feed.h"
+#include "web/data/event_hub.h"
+#include "web/data/grids.h"
+#include "web/http/counters.h"
+#include "web/http/door.h"
+#include "web/http/server.h"
+
+namespace stormcellar::web {
+
+class Measures {
+  public:
+    // Adds what the process and the server hold.
+    Measures();
+    Measures(const Measures&) = delete;
+    Measures& operator=(const Measures&) = delete;
+
+    [[nodiscard]] const std::shared_ptr<Counters>& counters() const { return counters_; }
+    void count_doors(const Doors& doors);
+    void watch_grids(const std::shared_ptr<Grids>& grids);
+    void watch_events(const std::shared_ptr<EventHub>& hub,
+                      const std::shared_ptr<const EventFeed>& feed);
+    // The server that answers. Its doors ask for measures, so it must be named once it is open, and
+    // nobody may ask after it has ended.
+    void set_server(const Server* server) { *server_ = server; }
+
+  private:
+    const std::shared_ptr<Counters> counters_ = std::make_shared<Counters>();
+    const std::shared_ptr<std::atomic<const Server*>> server_ =
+        std::make_shared<std::atomic<const Server*>>(nullptr);
+};
+
+}  // namespace stormcellar::web
