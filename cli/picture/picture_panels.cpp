@@ -37,8 +37,8 @@ Result<std::vector<PictureGrid>> swept_panels(GridOptions options,
 
 Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const SceneFile& file,
                                              const SceneOptions& options) {
-    return render::panel_scenes(
-        list, options, [&](const SceneOptions& panel) { return scene_with(file, panel); });
+    return render::panel_scenes(list, options,
+                                [&](const SceneOptions& panel) { return scene_with(file, panel); });
 }
 
 Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,

@@ -24,8 +24,8 @@ struct PanelScene {
 };
 
 // Returns the panels of a list of moments, each scene made by `scene_of_panel` of the options with
-// that moment. Errors: bad_argument for an unknown or repeated moment, for a moment or colors beside
-// the panels, and for more panels than a picture may have; those of `scene_of_panel`.
+// that moment. Errors: bad_argument for an unknown or repeated moment, for a moment or colors
+// beside the panels, and for more panels than a picture may have; those of `scene_of_panel`.
 [[nodiscard]] Result<std::vector<PanelScene>> panel_scenes(
     const std::string& list, const SceneOptions& options,
     const std::function<Result<Scene>(const SceneOptions&)>& scene_of_panel);

@@ -25,8 +25,7 @@ Metadata metadata_of_still(const StillSource& source, const Scene& scene,
 }  // namespace
 
 FrameFacts facts_of_still(const StillSource& source) {
-    FrameFacts facts =
-        frame_facts_of(source.domain, source.description, source.options.time_zone);
+    FrameFacts facts = frame_facts_of(source.domain, source.description, source.options.time_zone);
     if (!source.tells_age) facts.antenna_to_picture.reset();
     return facts;
 }

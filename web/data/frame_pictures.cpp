@@ -1,7 +1,6 @@
 #include "web/data/frame_pictures.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
@@ -29,11 +28,9 @@ std::string parameter_text(const Fields& query, std::string_view wanted) {
 // A parameter that the table of options does not have.
 Status take_more(const Fields& query, FrameStyle& style) {
     for (const std::string_view name : {panels_parameter, tiff_parameter}) {
-        const auto count = std::ranges::count(query, name, [](const auto& one) -> std::string_view {
-            return one.first;
-        });
-        if (count > 1)
-            return fail(ErrorCode::bad_argument, "{} is given more than once", name);
+        const auto count = std::ranges::count(
+            query, name, [](const auto& one) -> std::string_view { return one.first; });
+        if (count > 1) return fail(ErrorCode::bad_argument, "{} is given more than once", name);
         if (count > 0) style.key += fmt::format("\n{}={}", name, parameter_text(query, name));
     }
     const std::string tiff = parameter_text(query, tiff_parameter);
@@ -77,7 +74,8 @@ Result<std::vector<render::PanelScene>> panels_of_frame(const FrameStyle& style,
 Kept kept_frame(const FramePicture& picture, const std::vector<std::byte>& bytes) {
     std::string text(bytes.size(), '\0');
     if (!bytes.empty()) std::memcpy(text.data(), bytes.data(), bytes.size());
-    return {text_of(std::move(text)), picture.etag(), {}};
+    return {text_of(std::move(text)), picture.etag(),
+            std::string(picture.style.format->media_type)};
 }
 
 Status check_whole(const FramePicture& picture) {
@@ -114,9 +112,9 @@ Result<std::vector<std::byte>> draw_several(const FramePicture& picture, int thr
     if (!image) return pass_on(image);
     const cache::GridDescription& first = picture.grids.front()->file.description();
     const render::StillOptions still{
-        .metadata = render::metadata_of(
-            {picture.domain, first.time, first.time, std::nullopt, {}, {}}, first,
-            picture.style.panels.front().scene)};
+        .metadata =
+            render::metadata_of({picture.domain, first.time, first.time, std::nullopt, {}, {}},
+                                first, picture.style.panels.front().scene)};
     return picture.style.format->encode_picture(*image, still);
 }
 
@@ -141,8 +139,7 @@ Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
     const std::string list = parameter_text(query, panels_parameter);
     style.has_panels = !list.empty();
     if (style.has_panels && style.format->encode_picture == nullptr) {
-        return fail(ErrorCode::bad_argument,
-                    "panels make a picture; GeoTIFF and KMZ hold one map");
+        return fail(ErrorCode::bad_argument, "panels make a picture; GeoTIFF and KMZ hold one map");
     }
     auto panels = panels_of_frame(style, list);
     if (!panels) return pass_on(panels);
@@ -168,11 +165,7 @@ std::optional<Kept> FramePictures::find(const FramePicture& picture) {
 }
 
 Result<Kept> FramePictures::find_or_draw(const FramePicture& picture) {
-    return options_.kept->find_or_make(picture.key(), [&]() -> Result<Kept> {
-        const auto pass = gate_.enter();
-        if (!pass) return fail(ErrorCode::busy, "too many pictures are being drawn now; ask again");
-        return draw(picture);
-    });
+    return options_.kept->find_or_make(picture.key(), [&] { return draw(picture); });
 }
 
 Result<Kept> FramePictures::draw(const FramePicture& picture) const {

@@ -4,14 +4,15 @@
 // zone is asked for, and it does not tell how old the data are. The same options of `stormcellar
 // frame` give the same bytes.
 //
-// Threads   Many threads may use it. If several want the same picture at the same time, one draws it.
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+//           it. Who calls it bounds how many are drawn at once (web/http/work_queue.h).
 // Errors    See each function.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,6 @@
 #include "stormcellar/render/still.h"
 #include "web/data/grids.h"
 #include "web/data/kept_answers.h"
-#include "web/data/render_gate.h"
 #include "web/http/request.h"
 
 namespace stormcellar::web {
@@ -49,9 +49,6 @@ struct FrameStyle {
 
 struct FramePicturesOptions {
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
-    int most_at_once = 1;
-    int most_waiting = 1;
-    std::chrono::milliseconds patience{10'000};
     int threads = 1;  // of one picture
 };
 
@@ -67,20 +64,17 @@ struct FramePicture {
 
 class FramePictures {
   public:
-    explicit FramePictures(FramePicturesOptions options)
-        : options_(std::move(options)),
-          gate_(options_.most_at_once, options_.most_waiting, options_.patience) {}
+    explicit FramePictures(FramePicturesOptions options) : options_(std::move(options)) {}
 
     // Returns the picture if it is kept. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const FramePicture& picture);
-    // Errors: busy if too many pictures are being drawn; those of drawing.
+    // Errors: those of drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const FramePicture& picture);
 
   private:
     [[nodiscard]] Result<Kept> draw(const FramePicture& picture) const;
 
     FramePicturesOptions options_;
-    RenderGate gate_;
 };
 
 }  // namespace stormcellar::web
