@@ -28,7 +28,7 @@ class Frames : public PictureTest {
     std::unique_ptr<FramesDoor> door_;
 };
 
-constexpr const char* small_map = "/frames/KTLX.png?product=composite&width=320&height=240";
+constexpr const char* small_map = "/frames/KTLX.png?product=composite&width=480&height=360";
 
 TEST_F(Frames, AreWhatTheLibraryDraws) {
     const Answer answer =
@@ -67,10 +67,10 @@ TEST_F(Frames, AreWhatTheLibraryDraws) {
 
 TEST_F(Frames, VolumesAndSectionsAreDrawn) {
     const render::Image volume = decoded_png(
-        body_of(get("/frames/KTLX.png?width=320&height=240&slices=32&azimuth=200&tilt=60")));
-    EXPECT_EQ(volume.width, 320);
+        body_of(get("/frames/KTLX.png?width=480&height=360&slices=32&azimuth=200&tilt=60")));
+    EXPECT_EQ(volume.width, 480);
     const render::Image other = decoded_png(
-        body_of(get("/frames/KTLX.png?width=320&height=240&slices=32&azimuth=20&tilt=60")));
+        body_of(get("/frames/KTLX.png?width=480&height=360&slices=32&azimuth=20&tilt=60")));
     EXPECT_NE(volume.rgba, other.rgba) << "the camera stands elsewhere";
     const Answer section =
         get("/frames/KTLX.png?product=section&section=35.3,-98.2,35.4,-97.0&width=400&height=300");
@@ -79,7 +79,7 @@ TEST_F(Frames, VolumesAndSectionsAreDrawn) {
 }
 
 TEST_F(Frames, HaveTheFormatOfTheirEnding) {
-    const std::string query = "?product=composite&width=320&height=240";
+    const std::string query = "?product=composite&width=480&height=360";
     const Answer jpeg = get("/frames/KTLX.jpg" + query);
     EXPECT_EQ(header_of(jpeg, "Content-Type"), "image/jpeg");
     EXPECT_TRUE(body_of(jpeg).starts_with("\xFF\xD8"));
