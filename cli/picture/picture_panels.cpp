@@ -10,25 +10,6 @@
 namespace stormcellar::cli {
 namespace {
 
-Result<std::vector<level2::Moment>> moments_of(const std::string& list) {
-    std::vector<level2::Moment> moments;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string name = list.substr(begin, end - begin);
-        begin = end + 1;
-        const auto moment = level2::moment_from_name(name);
-        if (!moment) {
-            return fail(ErrorCode::bad_argument, "--panels must name moments ({}), not '{}'",
-                        level2::moment_names(", ", " or "), printable(name));
-        }
-        if (std::ranges::find(moments, *moment) != moments.end()) {
-            return fail(ErrorCode::bad_argument, "--panels names {} twice", name);
-        }
-        moments.push_back(*moment);
-    }
-    return moments;
-}
-
 std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const std::string& why) {
     fmt::print(stderr, "stormcellar: {}\n",
                printable(fmt::format("{}: {}", store.directory().native(), why)));
@@ -56,32 +37,8 @@ Result<std::vector<PictureGrid>> swept_panels(GridOptions options,
 
 Result<std::vector<PanelScene>> panel_scenes(const std::string& list, const SceneFile& file,
                                              const SceneOptions& options) {
-    const auto moments = moments_of(list);
-    if (!moments) return pass_on(moments);
-    for (const PictureOption* row : {&render::moment_option(), &render::colors_option()}) {
-        if (contains(options.typed, *row)) {
-            return fail(ErrorCode::bad_argument,
-                        "{} is for a picture of one moment; each of the panels has its own",
-                        row->option);
-        }
-    }
-    SceneOptions panel = options;
-    panel.colours.clear();
-    const auto is_given = [&](const PictureOption& row) {
-        return contains(options.typed, row) || contains(options.in_file, row);
-    };
-    if (!is_given(render::width_option()) && !is_given(render::height_option())) {
-        panel.scene.width = panels_width;
-        panel.scene.height = panels_height;
-    }
-    std::vector<PanelScene> panels;
-    for (const level2::Moment moment : *moments) {
-        panel.moment = level2::moment_name(moment);
-        auto scene = scene_with(file, panel);
-        if (!scene) return pass_on(scene);
-        panels.push_back({moment, std::move(*scene)});
-    }
-    return panels;
+    return render::panel_scenes(list, options,
+                                [&](const SceneOptions& panel) { return scene_with(file, panel); });
 }
 
 Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,

@@ -12,6 +12,7 @@
 #include "cli/picture/picture_grid.h"
 #include "cli/picture/scene_file.h"
 #include "cli/picture/scene_options.h"
+#include "render/options/panel_scenes.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/render/image.h"
@@ -19,14 +20,7 @@
 
 namespace stormcellar::cli {
 
-// The size of a picture with panels whose options name none.
-inline constexpr int panels_width = 1280, panels_height = 960;
-
-// A panel's moment and scene; all panels have one camera.
-struct PanelScene {
-    level2::Moment moment = level2::Moment::ref;
-    render::Scene scene;
-};
+using render::PanelScene;
 
 // Returns the panels of a list of moments. Errors: bad_argument for an unknown or repeated moment,
 // for a section, for --moment or --colors beside it, and those of scene_with().

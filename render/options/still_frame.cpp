@@ -9,10 +9,6 @@
 namespace stormcellar::render {
 namespace {
 
-FrameFacts facts_of_still(const StillSource& source) {
-    return frame_facts_of(source.domain, source.description, source.options.time_zone);
-}
-
 Metadata metadata_of_still(const StillSource& source, const Scene& scene,
                            const StillWriting& writing) {
     const UtcTime time = source.description.time;
@@ -27,6 +23,12 @@ Metadata metadata_of_still(const StillSource& source, const Scene& scene,
 }
 
 }  // namespace
+
+FrameFacts facts_of_still(const StillSource& source) {
+    FrameFacts facts = frame_facts_of(source.domain, source.description, source.options.time_zone);
+    if (!source.tells_age) facts.antenna_to_picture.reset();
+    return facts;
+}
 
 Status fit_to_grid(const StillSource& source, Scene& scene) {
     if (source.view.sweep != nullptr) {

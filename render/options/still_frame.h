@@ -28,7 +28,13 @@ struct StillSource {
     const grid::BrickView& view;
     const cache::GridDescription& description;
     const SceneOptions& options;
+    // The picture says how old the newest radial is, if that is less than an hour. Without it, the
+    // picture does not depend on the time at which it is drawn.
+    bool tells_age = true;
 };
+
+// Returns what the labels of the still say.
+[[nodiscard]] FrameFacts facts_of_still(const StillSource& source);
 
 // Chooses what was not asked for by the echo (fitted_view.h). A sweep is seen from above, as it is.
 // Errors: those of fit_picture().

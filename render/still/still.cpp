@@ -23,11 +23,11 @@ constexpr std::array<std::string_view, 2> tiff_endings{".tif", ".tiff"};
 constexpr std::array<std::string_view, 1> kmz_endings{".kmz"};
 
 constexpr std::array formats{
-    StillFormat{"PNG", png_endings, encode_as_png, nullptr},
-    StillFormat{"JPEG", jpeg_endings, encode_jpeg, nullptr},
-    StillFormat{"WebP", webp_endings, encode_webp, nullptr},
-    StillFormat{"GeoTIFF", tiff_endings, nullptr, encode_geotiff},
-    StillFormat{"KMZ", kmz_endings, nullptr, encode_kmz},
+    StillFormat{"PNG", png_endings, "image/png", encode_as_png, nullptr},
+    StillFormat{"JPEG", jpeg_endings, "image/jpeg", encode_jpeg, nullptr},
+    StillFormat{"WebP", webp_endings, "image/webp", encode_webp, nullptr},
+    StillFormat{"GeoTIFF", tiff_endings, "image/tiff", nullptr, encode_geotiff},
+    StillFormat{"KMZ", kmz_endings, "application/vnd.google-earth.kmz", nullptr, encode_kmz},
 };
 
 }  // namespace

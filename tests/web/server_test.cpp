@@ -1,10 +1,12 @@
 // The server, asked over sockets by clients that behave and by clients that do not.
 #include "web/http/server.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <fstream>
 #include <future>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include <fcntl.h>
@@ -96,6 +98,64 @@ class WebServer : public ::testing::Test {
     std::unique_ptr<Server> server_;
     int port_ = 0;
 };
+
+TEST_F(WebServer, ADoorWithWorkersOfItsOwnHoldsUpNoOther) {
+    options_.limits.workers = 1;
+    std::promise<void> released;
+    const std::shared_future<void> release = released.get_future().share();
+    std::atomic<int> drawn = 0;
+    const auto slow = std::make_shared<FunctionDoor>([&](const Request&) {
+        ++drawn;
+        release.wait();
+        return text_answer(200, "text/plain", "a picture");
+    });
+    slow->set_workers(std::make_shared<WorkQueue>(1, 1));
+    doors_->add("/slow", slow);
+    start();
+    std::vector<std::future<std::string>> pictures;
+    for (int i = 0; i < 2; ++i) {
+        pictures.push_back(std::async(std::launch::async, [&] { return get("/slow"); }));
+        ASSERT_TRUE(wait_for([&] {
+            const ServerFacts facts = server_->facts();
+            return facts.working + facts.waiting == pictures.size();
+        }));
+    }
+    EXPECT_EQ(body_in(get("/other")), "at /other") << "the worker of the server is free";
+    const std::string refused = get("/slow");
+    EXPECT_EQ(status_in(refused), 503) << "one is drawn and one waits";
+    EXPECT_NE(refused.find("Retry-After: "), std::string::npos);
+    released.set_value();
+    for (auto& picture : pictures)
+        EXPECT_EQ(body_in(picture.get()), "a picture");
+    EXPECT_EQ(drawn, 2);
+}
+
+TEST_F(WebServer, RequestsThatWaitForADoorsWorkersAreAnsweredWhenItStops) {
+    std::promise<void> released;
+    const std::shared_future<void> release = released.get_future().share();
+    const auto slow = std::make_shared<FunctionDoor>([release](const Request&) {
+        release.wait();
+        return text_answer(200, "text/plain", "a picture");
+    });
+    slow->set_workers(std::make_shared<WorkQueue>(1, 8));
+    doors_->add("/slow", slow);
+    start();
+    std::vector<std::future<std::string>> pictures;
+    for (int i = 0; i < 3; ++i)
+        pictures.push_back(std::async(std::launch::async, [&] { return get("/slow"); }));
+    ASSERT_TRUE(wait_for([&] {
+        const ServerFacts facts = server_->facts();
+        return facts.working == 1 && facts.waiting == 2;
+    }));
+    auto stopped = std::async(std::launch::async, [&] { server_.reset(); });
+    EXPECT_EQ(stopped.wait_for(20ms), std::future_status::timeout) << "one is under way";
+    released.set_value();
+    stopped.get();
+    std::multiset<int> statuses;
+    for (auto& picture : pictures)
+        statuses.insert(status_in(picture.get()));
+    EXPECT_EQ(statuses, (std::multiset<int>{200, 503, 503}));
+}
 
 TEST_F(WebServer, AnswersWithWhatEveryAnswerHas) {
     start();

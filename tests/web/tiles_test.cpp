@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -181,22 +180,6 @@ TEST_F(Tiles, RefusesWhatMakesNoSense) {
           "/tiles/KTLX/composite/2024-01-01T00:00:00Z/8/58/100.png",
           "/tiles/KTLX/composite.ZDR/latest/8/58/100.png", "/tiles/KTLX", "/tiles/KTLX/composite"})
         EXPECT_EQ(get(target).status, 404u) << target;
-}
-
-TEST(RenderGate, LetsInAsManyAsMayAndNoMore) {
-    RenderGate gate(1, 1, std::chrono::milliseconds{20});
-    auto first = gate.enter();
-    ASSERT_TRUE(first);
-    EXPECT_FALSE(gate.enter()) << "its patience ends";
-    RenderGate closed(1, 0, std::chrono::hours{1});
-    const auto pass = closed.enter();
-    EXPECT_FALSE(closed.enter()) << "nobody may wait";
-    RenderGate patient(1, 1, std::chrono::hours{1});
-    std::optional<RenderGate::Pass> held = patient.enter();
-    std::thread other([&] { EXPECT_TRUE(patient.enter()); });
-    std::this_thread::sleep_for(std::chrono::milliseconds{5});
-    held.reset();
-    other.join();
 }
 
 TEST(MapLayers, HaveNames) {

@@ -71,21 +71,14 @@ std::string MapPicture::etag() const {
 }
 
 MapPictures::MapPictures(MapPicturesOptions options)
-    : options_(std::move(options)),
-      kept_(options_.kept_bytes / 2),
-      maps_(options_.kept_bytes - options_.kept_bytes / 2),
-      gate_(options_.most_at_once, options_.most_waiting, options_.patience) {}
+    : options_(std::move(options)), maps_(options_.map_bytes) {}
 
 std::optional<Kept> MapPictures::find(const MapPicture& picture) {
-    return kept_.find(picture.key());
+    return options_.kept->find(picture.key());
 }
 
 Result<Kept> MapPictures::find_or_draw(const MapPicture& picture) {
-    return kept_.find_or_make(picture.key(), [&]() -> Result<Kept> {
-        const auto pass = gate_.enter();
-        if (!pass) return fail(ErrorCode::busy, "too many pictures are being drawn now; ask again");
-        return draw(picture);
-    });
+    return options_.kept->find_or_make(picture.key(), [&] { return draw(picture); });
 }
 
 Result<Kept> MapPictures::draw(const MapPicture& picture) {
@@ -102,7 +95,7 @@ Result<Kept> MapPictures::draw(const MapPicture& picture) {
     }
     const auto bytes = render::encode_png_of_few_colours(image);
     if (!bytes) return pass_on(bytes);
-    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(), {}};
+    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(), "image/png"};
 }
 
 Result<render::Image> MapPictures::drawn(const PictureLayer& layer,

@@ -1,14 +1,14 @@
 // web/data/map_pictures.h -- 2D products drawn on rectangles of a map's plane, for tiles and WMS:
-// as PNG, kept in memory, a bounded number at once.
+// as PNG, kept in memory.
 //
 // A picture follows from the grid's bytes, the options and the rectangle alone, so its ETag is made
 // of these and is known before the picture is.
 //
 // Threads   Many threads may use it. If several want the same picture at the same time, one draws
-// it. Errors    See each function.
+//           it. Who calls it bounds how many are drawn at once (web/http/work_queue.h).
+// Errors    See each function.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <list>
 #include <memory>
@@ -24,19 +24,16 @@
 #include "web/data/grids.h"
 #include "web/data/kept_answers.h"
 #include "web/data/map_layer.h"
-#include "web/data/render_gate.h"
 #include "web/http/request.h"
 
 namespace stormcellar::web {
 
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
-    // Half of it is for pictures, half for the products that they are drawn of.
-    std::uint64_t kept_bytes = 64'000'000;
-    int most_at_once = 2;
-    int most_waiting = 8;
-    std::chrono::milliseconds patience{5000};
-    int threads = 1;  // that make one product of a grid
+    // Other doors may keep their pictures in it, too.
+    std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
+    std::uint64_t map_bytes = 32'000'000;  // for the products that pictures are drawn of
+    int threads = 1;                       // that make one product of a grid
 };
 
 // A layer of a grid. Several of them in one picture lie one over another, the first at the bottom.
@@ -61,8 +58,7 @@ class MapPictures {
 
     // Returns the picture if it is kept. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const MapPicture& picture);
-    // Errors: busy if too many pictures are being drawn; those of FlatMaps::find_or_make() and of
-    // the encoder.
+    // Errors: those of FlatMaps::find_or_make() and of the encoder.
     [[nodiscard]] Result<Kept> find_or_draw(const MapPicture& picture);
 
     // Where a grid is, from its spec; it is worked out once for each of the newest specs.
@@ -80,9 +76,7 @@ class MapPictures {
         render::EarthBox box;
     };
     MapPicturesOptions options_;
-    KeptAnswers kept_;
     FlatMaps maps_;
-    RenderGate gate_;
     std::mutex boxes_mutex_;
     std::list<KnownBox> boxes_;  // the most recently used first
 };

@@ -11,11 +11,6 @@ namespace {
 constexpr std::chrono::seconds picture_holds_for{300};
 constexpr std::chrono::seconds drawing_again_in{2};
 
-Answer with_caching(const Request& request, Entity entity) {
-    entity.content_type = "image/png";
-    return answer_with(request, std::move(entity));
-}
-
 Answer no_such_grid(Grids& grids, std::string_view domain, level2::Moment moment, UtcTime time) {
     const std::string what =
         fmt::format("The grid of {}, {}, at {}", printable(domain.substr(0, 80)),
@@ -44,13 +39,14 @@ Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids, std::string_view
     return tl::unexpected(picture_error(grid.error()));
 }
 
-Answer png_answer(const Request& request, const Kept& picture,
-                  std::optional<std::chrono::seconds> max_age) {
+Answer picture_answer(const Request& request, const Kept& picture,
+                      std::optional<std::chrono::seconds> max_age) {
     Entity entity;
     entity.bytes = {picture.bytes};
+    entity.content_type = picture.notes;
     entity.etag = picture.etag;
     entity.max_age = max_age;
-    return with_caching(request, std::move(entity));
+    return answer_with(request, std::move(entity));
 }
 
 std::optional<Answer> unchanged_answer(const Request& request, const std::string& etag,
@@ -59,7 +55,7 @@ std::optional<Answer> unchanged_answer(const Request& request, const std::string
     Entity entity;
     entity.etag = etag;
     entity.max_age = max_age;
-    Answer answer = with_caching(request, std::move(entity));
+    Answer answer = answer_with(request, std::move(entity));
     return answer.status == 304 ? std::optional(std::move(answer)) : std::nullopt;
 }
 

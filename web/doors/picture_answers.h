@@ -29,10 +29,10 @@ using Found = tl::expected<Value, Answer>;
                                                                 level2::Moment moment,
                                                                 std::string_view time);
 
-// A PNG that follows from its address and the grid's bytes. A client may use it for `max_age`
-// without asking again; none: it must ask.
-[[nodiscard]] Answer png_answer(const Request& request, const Kept& picture,
-                                std::optional<std::chrono::seconds> max_age);
+// A picture that follows from its address and the grid's bytes; its notes are its media type. A
+// client may use it for `max_age` without asking again; none: it must ask.
+[[nodiscard]] Answer picture_answer(const Request& request, const Kept& picture,
+                                    std::optional<std::chrono::seconds> max_age);
 // 304 if the client has the picture of this tag; none otherwise.
 [[nodiscard]] std::optional<Answer> unchanged_answer(const Request& request,
                                                      const std::string& etag,

@@ -143,7 +143,7 @@ std::optional<Answer> TilesDoor::answer_at_once(const Request& request) {
     if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return unchanged;
     const auto kept = pictures_->find(picture);
     if (!kept) return std::nullopt;
-    return png_answer(request, *kept, max_age);
+    return picture_answer(request, *kept, max_age);
 }
 
 Answer TilesDoor::answer(const Request& request) {
@@ -207,7 +207,7 @@ Answer TilesDoor::tile(const Request& request, const std::vector<std::string_vie
     if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return *unchanged;
     const auto drawn = pictures_->find_or_draw(picture);
     if (!drawn) return picture_error(drawn.error());
-    return png_answer(request, *drawn, max_age);
+    return picture_answer(request, *drawn, max_age);
 }
 
 }  // namespace stormcellar::web

@@ -11,6 +11,7 @@
 
 #include "web/http/answer.h"
 #include "web/http/request.h"
+#include "web/http/work_queue.h"
 
 namespace stormcellar::web {
 
@@ -24,6 +25,15 @@ class Door {
     }
     // Makes the answer, however long that takes. Must not throw.
     virtual Answer answer(const Request& request) = 0;
+
+    // A door whose answers take long has workers of its own, which several doors may share: then
+    // the other doors need not wait for them, and what they cannot take is answered with 503. Null:
+    // the workers of the server. To be set before the server opens.
+    void set_workers(std::shared_ptr<WorkQueue> workers) { workers_ = std::move(workers); }
+    [[nodiscard]] const std::shared_ptr<WorkQueue>& workers() const { return workers_; }
+
+  private:
+    std::shared_ptr<WorkQueue> workers_;
 };
 
 // A door finds itself by the longest prefix of whole segments: "/s3" answers "/s3", "/s3/" and
@@ -35,6 +45,8 @@ class Doors {
     [[nodiscard]] std::shared_ptr<Door> find(std::string_view path) const;
     // The longest first; "/" is among them as "/".
     [[nodiscard]] std::vector<std::string> prefixes() const;
+    // The workers that doors have of their own, each once.
+    [[nodiscard]] std::vector<std::shared_ptr<WorkQueue>> workers() const;
 
   private:
     std::vector<std::pair<std::string, std::shared_ptr<Door>>> doors_;

@@ -283,7 +283,8 @@ bool Server::Impl::begin(MHD_Connection* connection, Exchange& exchange) {
 // is added, the exchange is the worker's, until it resumes the connection.
 bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
     MHD_suspend_connection(connection);
-    const bool is_added = queue.add([connection, &exchange](bool is_ending) {
+    WorkQueue& workers = exchange.door->workers() ? *exchange.door->workers() : queue;
+    const bool is_added = workers.add([connection, &exchange](bool is_ending) {
         exchange.answer = is_ending ? come_back(std::chrono::seconds{5}, "The server is stopping.")
                                     : exchange.door->answer(exchange.request);
         MHD_resume_connection(connection);
@@ -377,6 +378,8 @@ void Server::Impl::stop() {
         if (socket >= 0) ::close(socket);
     }
     queue.stop();
+    for (const auto& workers : doors->workers())
+        workers->stop();
     {
         const std::scoped_lock lock(feeds_mutex);
         for (const auto& feed : feeds)
@@ -421,6 +424,10 @@ ServerFacts Server::facts() const {
     ServerFacts facts{.connections = impl_->watch.count(),
                       .waiting = impl_->queue.waiting(),
                       .working = impl_->queue.working()};
+    for (const auto& workers : impl_->doors->workers()) {
+        facts.waiting += workers->waiting();
+        facts.working += workers->working();
+    }
     const std::scoped_lock lock(impl_->feeds_mutex);
     facts.streams = impl_->feeds.size();
     return facts;

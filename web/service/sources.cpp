@@ -1,5 +1,6 @@
 #include "web/service/sources.h"
 
+#include <algorithm>
 #include <string>
 #include <thread>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "web/data/kept_answers.h"
 #include "web/doors/api_door.h"
 #include "web/doors/events.h"
+#include "web/doors/frames.h"
 #include "web/doors/index.h"
 #include "web/doors/metrics.h"
 #include "web/doors/polling.h"
@@ -19,16 +21,27 @@
 namespace stormcellar::web {
 namespace {
 
-// A map takes milliseconds, so that those that wait for their turn may hold workers meanwhile.
+// A map takes milliseconds and a frame up to seconds, so each of them has its own workers, and more
+// maps may wait for their turn.
+constexpr std::size_t maps_for_a_frame = 8;
+
 void add_pictures(Doors& doors, const Sources& sources) {
     const WebLimits& limits = sources.setup.web.limits;
+    const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const auto renders = static_cast<unsigned>(limits.renders);
+    const auto waiting = static_cast<std::size_t>(limits.waiting);
+    const auto kept = std::make_shared<KeptAnswers>(limits.kept_picture_bytes);
     const auto maps = std::make_shared<MapPictures>(
-        MapPicturesOptions{.grids = sources.grids,
-                           .kept_bytes = limits.kept_picture_bytes,
-                           .most_at_once = limits.renders,
-                           .most_waiting = limits.waiting,
-                           .threads = static_cast<int>(std::thread::hardware_concurrency())});
-    doors.add("/tiles", std::make_shared<TilesDoor>(maps));
+        MapPicturesOptions{.grids = sources.grids, .kept = kept, .threads = threads});
+    const auto map_workers = std::make_shared<WorkQueue>(renders, waiting * maps_for_a_frame);
+    const auto tiles = std::make_shared<TilesDoor>(maps);
+    tiles->set_workers(map_workers);
+    doors.add("/tiles", tiles);
+    const auto frames = std::make_shared<FramesDoor>(
+        sources.grids,
+        std::make_shared<FramePictures>(FramePicturesOptions{.kept = kept, .threads = threads}));
+    frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
+    doors.add("/frames", frames);
 }
 
 void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept) {

@@ -65,6 +65,7 @@ struct StillMap {
 struct StillFormat {
     std::string_view name;                      // "JPEG"
     std::span<const std::string_view> endings;  // of its files; the first one is the usual one
+    std::string_view media_type;                // "image/jpeg"
     // Exactly one of these is there. Errors: bad_argument for a picture that the format does not
     // hold, for example because it is too large; internal if a library refuses.
     Result<std::vector<std::byte>> (*encode_picture)(const Image& picture,

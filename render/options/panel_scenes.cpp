@@ -1,0 +1,64 @@
+#include "render/options/panel_scenes.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/printable.h"
+#include "stormcellar/render/panels.h"
+
+namespace stormcellar::render {
+namespace {
+
+Result<std::vector<level2::Moment>> moments_of(const std::string& list, std::string_view option) {
+    std::vector<level2::Moment> moments;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string name = list.substr(begin, end - begin);
+        begin = end + 1;
+        const auto moment = level2::moment_from_name(name);
+        if (!moment) {
+            return fail(ErrorCode::bad_argument, "{} must name moments ({}), not '{}'", option,
+                        level2::moment_names(", ", " or "), printable(name));
+        }
+        if (std::ranges::find(moments, *moment) != moments.end())
+            return fail(ErrorCode::bad_argument, "{} names {} twice", option, name);
+        moments.push_back(*moment);
+    }
+    return moments;
+}
+
+}  // namespace
+
+Result<std::vector<PanelScene>> panel_scenes(
+    const std::string& list, const SceneOptions& options,
+    const std::function<Result<Scene>(const SceneOptions&)>& scene_of_panel) {
+    const bool is_typed = options.spelling == Spelling::option;
+    const auto moments = moments_of(list, is_typed ? "--panels" : "panels");
+    if (!moments) return pass_on(moments);
+    for (const PictureOption* row : {&moment_option(), &colors_option()}) {
+        if (contains(options.typed, *row)) {
+            return fail(ErrorCode::bad_argument,
+                        "{} is for a picture of one moment; each of the panels has its own",
+                        is_typed ? row->option : parameter_of(*row));
+        }
+    }
+    SceneOptions panel = options;
+    panel.colours.clear();
+    const auto is_given = [&](const PictureOption& row) {
+        return contains(options.typed, row) || contains(options.in_file, row);
+    };
+    if (!is_given(width_option()) && !is_given(height_option())) {
+        panel.scene.width = panels_width;
+        panel.scene.height = panels_height;
+    }
+    std::vector<PanelScene> panels;
+    for (const level2::Moment moment : *moments) {
+        panel.moment = level2::moment_name(moment);
+        auto scene = scene_of_panel(panel);
+        if (!scene) return pass_on(scene);
+        panels.push_back({moment, std::move(*scene)});
+    }
+    return panels;
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,33 @@
+// render/options/panel_scenes.h -- the scenes of a picture with several moments, as in "REF,VEL".
+//
+// Threads   Pure but for what is called.
+// Errors    See panel_scenes().
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/options/scene_options.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::render {
+
+// The size of a picture with panels whose options name none.
+inline constexpr int panels_width = 1280, panels_height = 960;
+
+// A panel's moment and scene; all panels have one camera.
+struct PanelScene {
+    level2::Moment moment = level2::Moment::ref;
+    Scene scene;
+};
+
+// Returns the panels of a list of moments, each scene made by `scene_of_panel` of the options with
+// that moment. Errors: bad_argument for an unknown or repeated moment, for a moment or colors
+// beside the panels, and for more panels than a picture may have; those of `scene_of_panel`.
+[[nodiscard]] Result<std::vector<PanelScene>> panel_scenes(
+    const std::string& list, const SceneOptions& options,
+    const std::function<Result<Scene>(const SceneOptions&)>& scene_of_panel);
+
+}  // namespace stormcellar::render

@@ -1,0 +1,155 @@
+// Frames of a real volume: the same bytes as the library draws, formats, panels, and refusals.
+#include "web/doors/frames.h"
+
+#include <cstring>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "render/options/still_frame.h"
+#include "tests/web/asked.h"
+#include "tests/web/pictured_storm.h"
+
+namespace stormcellar::web {
+namespace {
+
+class Frames : public PictureTest {
+  protected:
+    void SetUp() override {
+        PictureTest::SetUp();
+        if (IsSkipped()) return;
+        door_ = std::make_unique<FramesDoor>(
+            storm_->grids(), std::make_shared<FramePictures>(FramePicturesOptions{}));
+    }
+    Answer get(const std::string& target, Fields headers = {}) {
+        return asked(*door_, target, std::move(headers));
+    }
+    std::unique_ptr<FramesDoor> door_;
+};
+
+constexpr const char* small_map = "/frames/KTLX.png?product=composite&width=480&height=360";
+
+TEST_F(Frames, AreWhatTheLibraryDraws) {
+    const Answer answer =
+        get(std::string("/frames/KTLX.png?product=cappi&moment=VEL&height-km=2&width=400&height="
+                        "300&theme=light&time=") +
+            PicturedStorm::time);
+    ASSERT_EQ(answer.status, 200u) << body_of(answer);
+    EXPECT_EQ(header_of(answer, "Content-Type"), "image/png");
+    EXPECT_EQ(header_of(answer, "Cache-Control"), "max-age=300");
+    render::SceneOptions options;
+    options.product = "cappi";
+    options.moment = "VEL";
+    options.theme = "light";
+    options.time_zone = "UTC";
+    options.scene.cappi_height_m = 2000;
+    options.scene.width = 400;
+    options.scene.height = 300;
+    auto scene = render::scene_of(options);
+    ASSERT_TRUE(scene);
+    const auto grid = storm_->grid(level2::Moment::vel);
+    const std::string domain = "KTLX";
+    const grid::BrickView view = grid->file.view();
+    const render::StillSource source{domain, view, grid->file.description(), options, false};
+    ASSERT_TRUE(render::fit_to_grid(source, *scene));
+    const auto bytes = render::encode_still(source, *scene,
+                                            {.format = render::still_formats().front(),
+                                             .tiff = render::TiffContent::values,
+                                             .error = {},
+                                             .threads = 1,
+                                             .drawn = {}});
+    ASSERT_TRUE(bytes);
+    const std::string body = body_of(answer);
+    ASSERT_EQ(body.size(), bytes->size());
+    EXPECT_EQ(std::memcmp(body.data(), bytes->data(), body.size()), 0);
+}
+
+TEST_F(Frames, VolumesAndSectionsAreDrawn) {
+    const render::Image volume = decoded_png(
+        body_of(get("/frames/KTLX.png?width=480&height=360&slices=32&azimuth=200&tilt=60")));
+    EXPECT_EQ(volume.width, 480);
+    const render::Image other = decoded_png(
+        body_of(get("/frames/KTLX.png?width=480&height=360&slices=32&azimuth=20&tilt=60")));
+    EXPECT_NE(volume.rgba, other.rgba) << "the camera stands elsewhere";
+    const Answer section =
+        get("/frames/KTLX.png?product=section&section=35.3,-98.2,35.4,-97.0&width=400&height=300");
+    ASSERT_EQ(section.status, 200u) << body_of(section);
+    EXPECT_EQ(decoded_png(body_of(section)).height, 300);
+}
+
+TEST_F(Frames, HaveTheFormatOfTheirEnding) {
+    const std::string query = "?product=composite&width=480&height=360";
+    const Answer jpeg = get("/frames/KTLX.jpg" + query);
+    EXPECT_EQ(header_of(jpeg, "Content-Type"), "image/jpeg");
+    EXPECT_TRUE(body_of(jpeg).starts_with("\xFF\xD8"));
+    const Answer webp = get("/frames/KTLX.webp" + query);
+    EXPECT_EQ(header_of(webp, "Content-Type"), "image/webp");
+    EXPECT_EQ(body_of(webp).substr(8, 4), "WEBP");
+    const Answer tiff = get("/frames/KTLX.tif?product=composite&geotiff=states");
+    EXPECT_EQ(header_of(tiff, "Content-Type"), "image/tiff");
+    EXPECT_TRUE(body_of(tiff).starts_with("II*"));
+    const Answer kmz = get("/frames/KTLX.kmz?product=composite");
+    EXPECT_EQ(header_of(kmz, "Content-Type"), "application/vnd.google-earth.kmz");
+    EXPECT_TRUE(body_of(kmz).starts_with("PK"));
+}
+
+TEST_F(Frames, PanelsShowSeveralMoments) {
+    const Answer panels =
+        get("/frames/KTLX.png?product=composite&panels=REF,VEL&width=640&height=320");
+    ASSERT_EQ(panels.status, 200u) << body_of(panels);
+    const render::Image image = decoded_png(body_of(panels));
+    EXPECT_EQ(image.width, 640);
+    const render::Image turned = decoded_png(
+        body_of(get("/frames/KTLX.png?product=composite&panels=VEL,REF&width=640&height=320")));
+    EXPECT_NE(image.rgba, turned.rgba);
+}
+
+TEST_F(Frames, TheNewestGridAtOrBeforeTheTimeIsDrawn) {
+    const std::string exact = header_of(get(small_map), "ETag");
+    ASSERT_FALSE(exact.empty());
+    const Answer later = get(std::string(small_map) + "&time=1999-05-04T03:00");
+    EXPECT_EQ(header_of(later, "ETag"), exact);
+    EXPECT_EQ(header_of(later, "Cache-Control"), "no-cache") << "another grid may come between";
+    EXPECT_EQ(get(std::string(small_map) + "&time=1999-05-03T23:00").status, 404u);
+}
+
+TEST_F(Frames, AreKeptAndHaveTags) {
+    EXPECT_FALSE(door_->answer_at_once(request_for(small_map)));
+    const std::string etag = header_of(get(small_map), "ETag");
+    ASSERT_TRUE(door_->answer_at_once(request_for(small_map))) << "it is kept now";
+    EXPECT_EQ(get(small_map, {{"If-None-Match", etag}}).status, 304u);
+    EXPECT_NE(header_of(get(std::string(small_map) + "&theme=light"), "ETag"), etag);
+}
+
+TEST_F(Frames, TheIndexNamesEveryParameterThatIsTaken) {
+    const auto index = nlohmann::json::parse(body_of(get("/frames")));
+    EXPECT_EQ(index["domains"][0]["picture"], "http://localhost:8090/frames/KTLX.png");
+    std::set<std::string> names;
+    for (const auto& parameter : index["parameters"])
+        names.insert(parameter["name"]);
+    for (const char* name : {"product", "tilt", "camera-km", "section", "no-labels", "theme"})
+        EXPECT_TRUE(names.contains(name)) << name;
+    EXPECT_FALSE(names.contains("threads"));
+    EXPECT_FALSE(names.contains("orbit"));
+}
+
+TEST_F(Frames, RefusesWhatMakesNoSense) {
+    for (const char* query :
+         {"product=pie", "product=ppi", "moment=XYZ", "moment=REF&moment=VEL", "threads=4",
+          "width=1", "width=99999", "width=7680&height=4320", "tilt=steep", "time=soon",
+          "time=latest&time=latest", "time-zone=../../etc/passwd", "colors=/etc/passwd.pal",
+          "product=section", "panels=REF,REF", "panels=REF&moment=VEL", "geotiff=values",
+          "product=composite&tilt=50", "slices=99999999"})
+        EXPECT_EQ(get(std::string("/frames/KTLX.png?") + query).status, 400u) << query;
+    EXPECT_EQ(get("/frames/KTLX.tif").status, 400u) << "a volume is no map";
+    EXPECT_EQ(get("/frames/KTLX.kmz?product=composite&panels=REF,VEL").status, 400u);
+    for (const char* target :
+         {"/frames/KTLX", "/frames/KTLX.gif", "/frames/KXXX.png", "/frames/.png",
+          "/frames/KTLX.png/", "/frames/KTLX/a.png",
+          "/frames/KTLX.png?product=composite&moment=ZDR", "/frames/KTLX.png?time=1990-01-01"})
+        EXPECT_EQ(get(target).status, 404u) << target;
+}
+
+}  // namespace
+}  // namespace stormcellar::web
