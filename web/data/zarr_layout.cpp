@@ -131,7 +131,7 @@ ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newe
                             .dimensions = {},
                             .shape = {},
                             .chunk = {},
-                            .fill = 0,
+                            .fill = -1,
                             .attributes = json_of(netcdf::mapping_attributes(spec))});
     group.attributes = {
         {"Conventions", "CF-1.8"},
