@@ -9,6 +9,7 @@
 
 #include "base/printable.h"
 #include "render/options/picture_options.h"
+#include "web/data/picture_query.h"
 
 namespace stormcellar::web {
 namespace {
