@@ -66,14 +66,6 @@ double ms_between(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-// By nearest rank, of values in any order; NaN if there are none.
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return std::nan("");
-    std::sort(values.begin(), values.end());
-    const double rank = std::ceil(share * static_cast<double>(values.size()));
-    return values[std::max<std::size_t>(1, static_cast<std::size_t>(rank)) - 1];
-}
-
 struct ToldSweeps {
     std::vector<double> latency_ms, bzip2_ms, beyond_ms;
     double end_ms = std::nan("");

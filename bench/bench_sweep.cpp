@@ -43,14 +43,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// By nearest rank, of values in any order; NaN if there are none.
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return std::nan("");
-    std::sort(values.begin(), values.end());
-    const double rank = std::ceil(share * static_cast<double>(values.size()));
-    return values[std::max<std::size_t>(1, static_cast<std::size_t>(rank)) - 1];
-}
-
 struct Shown {
     std::vector<double> latency_s, bzip2_s, beyond_s;
     double end_s = std::nan(""), end_beyond_s = std::nan("");

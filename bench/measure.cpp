@@ -1,7 +1,9 @@
 #include "bench/measure.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -152,6 +154,13 @@ std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments) {
     if (failed) return {};
     return run_program(own.parent_path().parent_path() / "cli" / "stormcellar",
                        std::move(arguments), Stderr::dropped);
+}
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return std::nan("");
+    std::sort(values.begin(), values.end());
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return values[std::max<std::size_t>(1, static_cast<std::size_t>(rank)) - 1];
 }
 
 }  // namespace stormcellar::bench

@@ -65,6 +65,10 @@ struct ProgramRun {
 };
 [[nodiscard]] std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments);
 
+// Returns the quantile of a share, such as 0.95, by nearest rank, of values in any order; NaN if
+// there are none.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
 // Returns the whole number at the start of a text, after spaces; -1 if there is none.
 [[nodiscard]] long number_in(std::string_view text);
 

@@ -14,6 +14,7 @@
 #include "tests/cache/made_grids.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/raw_client.h"
+#include "tests/web/setup_below.h"
 #include "web/service/web_service.h"
 
 namespace stormcellar::web {
@@ -43,11 +44,6 @@ double resident_mib() {
 class HostileClients : public ::testing::Test {
   protected:
     HostileClients() {
-        setup_.drop = directory_ / "drop";
-        setup_.state = directory_.path();
-        setup_.catalog = directory_ / "catalog";
-        setup_.cache = directory_ / "cache";
-        setup_.web.listen = {{"127.0.0.1", 0}};
         grid_ = testing::small_grid();
         commit();
     }
@@ -78,7 +74,7 @@ class HostileClients : public ::testing::Test {
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
     grid::Grid grid_;
-    WebSetup setup_;
+    WebSetup setup_ = setup_below(directory_.path());
     std::unique_ptr<WebService> service_;
     int port_ = 0;
 };

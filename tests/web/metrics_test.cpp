@@ -11,6 +11,7 @@
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/raw_client.h"
+#include "tests/web/setup_below.h"
 #include "web/http/counters.h"
 #include "web/service/web_service.h"
 
@@ -88,11 +89,6 @@ TEST(Counters, ValuesAndLabelsAreWrittenAsPrometheusReadsThem) {
 class Metrics : public ::testing::Test {
   protected:
     Metrics() {
-        setup_.drop = directory_ / "drop";
-        setup_.state = directory_.path();
-        setup_.catalog = directory_ / "catalog";
-        setup_.cache = directory_ / "cache";
-        setup_.web.listen = {{"127.0.0.1", 0}};
         auto opened = WebService::open(setup_);
         EXPECT_TRUE(opened) << opened.error().message;
         service_ = std::move(*opened);
@@ -113,7 +109,7 @@ class Metrics : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
-    WebSetup setup_;
+    WebSetup setup_ = setup_below(directory_.path());
     std::unique_ptr<WebService> service_;
     int port_ = 0;
 };

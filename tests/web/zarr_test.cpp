@@ -206,6 +206,15 @@ TEST_F(ZarrTest, DamagedNumbersAreAnErrorAndNotNewNumbers) {
     EXPECT_EQ(asked(again, "/zarr/KBGM/REF/time/0").status, 500u);
 }
 
+// Numbers that the next start would not know must not be given.
+TEST_F(ZarrTest, NumbersThatCannotBeKeptAreNotGiven) {
+    std::ofstream(state_ / "file") << "not a directory";
+    sources_.numbers = std::make_shared<TimeNumbers>(state_ / "file");
+    ZarrDoor door(sources_, ZarrVersion::two);
+    EXPECT_GE(asked(door, "/zarr/KBGM/REF/time/0").status, 500u);
+    EXPECT_FALSE(sources_.numbers->time_of("KBGM", level2::Moment::ref, 0));
+}
+
 TEST_F(ZarrTest, KeysThatAreNoneAreRefused) {
     for (const char* key :
          {"", "/", "REF", "REF/0.0.0", "REF/0.0.0.0.0", "REF/00.0.0.0", "REF/-1.0.0.0",

@@ -118,7 +118,8 @@ std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_vie
     return Named{std::string(path[1]), *moment};
 }
 
-// The array `status` of a group with the cells of the newest grid.
+// Every request describes the group anew, from the newest grid: that takes microseconds, and
+// nothing has to be told when a grid comes.
 Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
     const auto present = sources_.grids->times(named.domain, named.moment);
     if (present.empty())
