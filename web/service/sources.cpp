@@ -16,6 +16,7 @@
 #include "web/doors/thredds.h"
 #include "web/doors/tiles.h"
 #include "web/doors/volumes.h"
+#include "web/doors/wms.h"
 #include "web/doors/zarr.h"
 
 namespace stormcellar::web {
@@ -37,6 +38,9 @@ void add_pictures(Doors& doors, const Sources& sources) {
     const auto tiles = std::make_shared<TilesDoor>(maps);
     tiles->set_workers(map_workers);
     doors.add("/tiles", tiles);
+    const auto wms = std::make_shared<WmsDoor>(maps);
+    wms->set_workers(map_workers);
+    doors.add("/wms", wms);
     const auto frames = std::make_shared<FramesDoor>(
         sources.grids,
         std::make_shared<FramePictures>(FramePicturesOptions{.kept = kept, .threads = threads}));
