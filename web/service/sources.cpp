@@ -10,6 +10,7 @@
 #include "web/doors/events.h"
 #include "web/doors/frames.h"
 #include "web/doors/index.h"
+#include "web/doors/loops.h"
 #include "web/doors/metrics.h"
 #include "web/doors/polling.h"
 #include "web/doors/s3.h"
@@ -46,6 +47,7 @@ void add_pictures(Doors& doors, const Sources& sources) {
         std::make_shared<FramePictures>(FramePicturesOptions{.kept = kept, .threads = threads}));
     frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
     doors.add("/frames", frames);
+    doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));
 }
 
 void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept) {
