@@ -4,7 +4,8 @@
 //   (bench/request.h; a busy volume unless one is named; 20 tiles a row)
 // `stormcellar serve` has the site's grids, and then a cache with 7000 x 3500 x 33 cells of the
 // United States (bench/us_storms.h). One client asks for one tile at a time, each by a connection
-// of its own. There is a row for each layer and zoom:
+// of its own. There is a row for each product of
+// reflectivity and zoom:
 //   what      domain and layer
 //   zoom      of the tiles; those about the middle of the domain
 //   first_ms  the first tile of the layer, for which the product and its overviews are made; "-" in
@@ -34,6 +35,7 @@
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/store.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -155,11 +157,12 @@ Status measure_rows(Result<WebServer> server, const TileRow& place,
 }
 
 Status measure_all(const fs::path& file, std::size_t count, const fs::path& scratch, Table& table) {
-    constexpr std::array<std::string_view, 4> layers{"composite.REF", "cappi.REF", "vil",
-                                                     "echotop"};
+    std::vector<std::string_view> layers;
+    for (const render::ProductFacts& facts : render::all_products())
+        if (facts.view == render::View::map && !facts.is_of_sweep) layers.push_back(facts.name);
     const std::string site = file.filename().native().substr(0, 4);
-    const Station* station = find_station(site);
-    if (station == nullptr)
+    const auto station = find_station(site);
+    if (!station)
         return fail(ErrorCode::bad_argument, "{}: the name begins with no station", file.native());
     constexpr std::array site_zooms{6, 8, 10};
     Status status = measure_rows(serve_files({file}, scratch),

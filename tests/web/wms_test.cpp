@@ -315,7 +315,7 @@ TEST_F(WmsOfGdal, ListsTheLayersAndReadsTheirPixels) {
     const auto listed = testing::run_program(
         "/usr/bin/gdalinfo", {"WMS:" + address_ + "?SERVICE=WMS&REQUEST=GetCapabilities"});
     EXPECT_EQ(listed.status, 0) << listed.err;
-    EXPECT_THAT(listed.out, HasSubstr("LAYERS=KTLX:composite.REF"));
+    EXPECT_THAT(listed.out, HasSubstr("LAYERS=KTLX%3Acomposite.REF"));
 
     const std::string description = directory_ / "wms.xml";
     std::ofstream(description)
