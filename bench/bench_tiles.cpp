@@ -4,8 +4,7 @@
 //   (bench/request.h; a busy volume unless one is named; 20 tiles a row)
 // `stormcellar serve` has the site's grids, and then a cache with 7000 x 3500 x 33 cells of the
 // United States (bench/us_storms.h). One client asks for one tile at a time, each by a connection
-// of its own. There is a row for each product of
-// reflectivity and zoom:
+// of its own. There is a row for each product of reflectivity and zoom:
 //   what      domain and layer
 //   zoom      of the tiles; those about the middle of the domain
 //   first_ms  the first tile of the layer, for which the product and its overviews are made; "-" in
