@@ -1,0 +1,69 @@
+# What the scripts that try a client on the data server share; they source it.
+#   skip REASON             ends the script with status 77
+#   need PROGRAM ...        skips if one of the programs is not installed
+#   need_python MODULE ...  skips if $python, which is Debian's unless PYTHON names another, has not all modules
+#   serve PROGRAM WORD ...  runs `PROGRAM serve WORD ...`; $address is then where it answers, without a slash behind
+#   take_volume             $volume is then a real volume, or one that $program simulates, and $station its station
+# $directory is empty at first. It is removed, and the server ends, when the script ends.
+python=${PYTHON:-/usr/bin/python3}
+directory=$(mktemp -d)
+server=
+
+skip() {
+    echo "skipped: $1"
+    exit 77
+}
+
+need() {
+    local name
+    for name in "$@"; do
+        command -v "$name" >/dev/null || skip "$name is not installed"
+    done
+}
+
+need_python() {
+    local module
+    for module in "$@"; do
+        "$python" -c "import $module" 2>/dev/null || skip "$python has no module $module"
+    done
+}
+
+end_server() {
+    [ -z "$server" ] || { kill "$server" 2>/dev/null && wait "$server"; } || true
+    server=
+}
+
+finish() {
+    end_server
+    rm -rf "$directory"
+}
+trap finish EXIT
+
+serve() {
+    local program=$1
+    shift
+    : >"$directory/out"
+    "$program" serve "$@" --listen 127.0.0.1:0 >"$directory/out" 2>"$directory/err" &
+    server=$!
+    for _ in $(seq 600); do
+        ! grep -q '^listening on ' "$directory/out" || break
+        kill -0 "$server" 2>/dev/null || break
+        sleep 0.1
+    done
+    address=$(sed -n 's|^listening on \(http://.*\)/$|\1|p' "$directory/out" | head -n 1)
+    if [ -z "$address" ]; then
+        echo "the server does not answer:" >&2
+        cat "$directory/err" >&2
+        exit 1
+    fi
+}
+
+take_volume() {
+    volume=${STORMCELLAR_DATA:-../shared/data}/volumes/KLOT20220317_000842_V06
+    if [ ! -f "$volume" ]; then
+        "$program" synth scenes/small-storm.toml -o "$directory/drop" >/dev/null
+        volume=$(find "$directory/drop" -type f | sort | head -n 1)
+    fi
+    station=$(basename "$volume" | cut -c 1-4)
+    echo "volume: $(basename "$volume")"
+}
