@@ -126,6 +126,13 @@ bool read_flag(std::span<const std::byte> bytes, bool& flag) {
     return true;
 }
 
+bool read_pattern(std::span<const std::byte> bytes, grid::Provenance& provenance) {
+    std::int32_t number = 0;
+    const bool whole = read_number(bytes, number);
+    provenance.vcp = number;
+    return whole;
+}
+
 bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     if (bytes.size() < site_numbers_bytes) return false;
     std::array<double, 3> numbers{};
@@ -211,12 +218,8 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
         case RecordKind::predicted_error:
             provenance.predicted_error = text_of(contents);
             return true;
-        case RecordKind::vcp: {
-            std::int32_t number = 0;
-            const bool whole = read_number(contents, number);
-            provenance.vcp = number;
-            return whole;
-        }
+        case RecordKind::vcp:
+            return read_pattern(contents, provenance);
         case RecordKind::partial:
             return read_flag(contents, provenance.partial);
         case RecordKind::note:

@@ -1,11 +1,15 @@
 #include "cli/reference/command_guide.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace stormcellar::cli {
+namespace {
 
-const std::vector<CommandGuide>& command_guides() {
-    static const std::vector<CommandGuide> guides = {
+using Guides = std::vector<CommandGuide>;
+
+Guides guides_of_use() {
+    return {
         {"",
          {{"stormcellar info KTLX19990503_235621.gz", "What a file holds."},
           {"stormcellar frame KTLX19990503_235621.gz -o storm.png", "The storm, as a picture."},
@@ -13,17 +17,40 @@ const std::vector<CommandGuide>& command_guides() {
            "The newest storm that the daemon gridded."},
           {"stormcellar loop KTLX --cache CACHE --from -1h -o storm.webp", "Its last hour."},
           {"stormcellar help frame", "What a command can do."}}},
-        {"accuracy",
-         {{"stormcellar accuracy KTLX19990503_235621.gz",
-           "What each more accurate way to grid this volume costs, and what it gains."},
-          {"stormcellar accuracy KTLX19990503_235621.gz --plot ladder.svg",
-           "The same, with a plot."},
-          {"stormcellar accuracy --picture KTLX19990503_235621.gz",
-           "What a more accurate picture costs."},
-          {"stormcellar accuracy --compare-sites KTLX.gz KFDR.gz",
-           "How well two radars agree where both see the same air."}},
-         {"--moment", "--plot", "--picture", "--held-out", "--compare-sites", "--scene", "--time",
-          "--extent-km", "--spacing-km", "--levels-km"}},
+        {"help", {{"stormcellar help catalog get", "The help of one command."}}},
+        {"serve",
+         {{"stormcellar serve KTLX19990503_235621.gz",
+           "This volume and its grids, for a browser, Siphon, xarray, a GIS."},
+          {"stormcellar serve --cache CACHE --catalog STATE/catalog",
+           "What a daemon keeps, on another port than its own server."},
+          {"stormcellar serve files/ --listen 192.168.1.5:8090 --allow-host radar-pc",
+           "The same for the machines of this network."}}},
+        {"status",
+         {{"stormcellar status", "How the daemon of this machine is."},
+          {"stormcellar status --config stormcellard.toml", "How another daemon is."}}},
+    };
+}
+
+Guides guides_of_files() {
+    return {
+        {"fetch",
+         {{"stormcellar fetch --stations KTLX --from 1999-05-03T23:00:00Z --to "
+           "1999-05-03T23:59:00Z -o files",
+           "The volumes of an hour of one radar."}}},
+        {"info",
+         {{"stormcellar info KTLX19990503_235621.gz", "The sweeps, moments and times."},
+          {"stormcellar info KTLX19990503_235621.gz --to volume.nc",
+           "Also write the volume as CfRadial."}}},
+        {"replay",
+         {{"stormcellar replay files/ DROP --speed 10",
+           "Play a directory of volumes ten times as fast as they came."}}},
+        {"synth",
+         {{"stormcellar synth supercell.toml -o files", "The volumes of a simulated storm."}}},
+    };
+}
+
+Guides guides_of_cache() {
+    return {
         {"cache evict",
          {{"stormcellar cache evict --cache CACHE --bytes '20 GB' --dry-run",
            "What would go, so that 20 GB stay."},
@@ -40,6 +67,11 @@ const std::vector<CommandGuide>& command_guides() {
         {"cache unpin",
          {{"stormcellar cache unpin --cache CACHE --domain KTLX", "Let them go again."}}},
         {"cache verify", {{"stormcellar cache verify --cache CACHE", "Read every grid."}}},
+    };
+}
+
+Guides guides_of_catalog() {
+    return {
         {"catalog check",
          {{"stormcellar catalog check --catalog STATE/catalog",
            "Compare what the catalog says with the files."}}},
@@ -60,10 +92,37 @@ const std::vector<CommandGuide>& command_guides() {
            "Register all files anew if a database is damaged."}}},
         {"catalog stations",
          {{"stormcellar catalog stations --catalog STATE/catalog", "Whose files there are."}}},
-        {"fetch",
-         {{"stormcellar fetch --stations KTLX --from 1999-05-03T23:00:00Z --to "
-           "1999-05-03T23:59:00Z -o files",
-           "The volumes of an hour of one radar."}}},
+    };
+}
+
+Guides guides_of_grids() {
+    return {
+        {"accuracy",
+         {{"stormcellar accuracy KTLX19990503_235621.gz",
+           "What each more accurate way to grid this volume costs, and what it gains."},
+          {"stormcellar accuracy KTLX19990503_235621.gz --plot ladder.svg",
+           "The same, with a plot."},
+          {"stormcellar accuracy --picture KTLX19990503_235621.gz",
+           "What a more accurate picture costs."},
+          {"stormcellar accuracy --compare-sites KTLX.gz KFDR.gz",
+           "How well two radars agree where both see the same air."}},
+         {"--moment", "--plot", "--picture", "--held-out", "--compare-sites", "--scene", "--time",
+          "--extent-km", "--spacing-km", "--levels-km"}},
+        {"grid",
+         {{"stormcellar grid KTLX19990503_235621.gz -o storm.nc",
+           "A volume as a 3D grid in netCDF."},
+          {"stormcellar grid KTLX19990503_235621.gz -o storm.nc --tolerance '250 m, 3 dB' "
+           "--explain",
+           "As cheap as these errors allow, and why."},
+          {"stormcellar grid KTLX.gz KFDR.gz -o both.nc --time 1999-05-03T23:55:00Z",
+           "A mosaic of two radars at one instant."}},
+         {"--output", "--moment", "--center", "--extent-km", "--spacing-km", "--levels-km",
+          "--time", "--method", "--tolerance", "--explain"}},
+    };
+}
+
+Guides guides_of_pictures() {
+    return {
         {"frame",
          {{"stormcellar frame KTLX19990503_235621.gz -o storm.png",
            "A file, as a volume; the view fits the storms."},
@@ -80,21 +139,6 @@ const std::vector<CommandGuide>& command_guides() {
           {"stormcellar frame KTLX --cache CACHE --probe-at 35.33,-97.5", "The value at a place."}},
          {"--output", "--cache", "--time", "--product", "--moment", "--colors", "--scene",
           "--azimuth", "--tilt", "--zoom"}},
-        {"grid",
-         {{"stormcellar grid KTLX19990503_235621.gz -o storm.nc",
-           "A volume as a 3D grid in netCDF."},
-          {"stormcellar grid KTLX19990503_235621.gz -o storm.nc --tolerance '250 m, 3 dB' "
-           "--explain",
-           "As cheap as these errors allow, and why."},
-          {"stormcellar grid KTLX.gz KFDR.gz -o both.nc --time 1999-05-03T23:55:00Z",
-           "A mosaic of two radars at one instant."}},
-         {"--output", "--moment", "--center", "--extent-km", "--spacing-km", "--levels-km",
-          "--time", "--method", "--tolerance", "--explain"}},
-        {"help", {{"stormcellar help catalog get", "The help of one command."}}},
-        {"info",
-         {{"stormcellar info KTLX19990503_235621.gz", "The sweeps, moments and times."},
-          {"stormcellar info KTLX19990503_235621.gz --to volume.nc",
-           "Also write the volume as CfRadial."}}},
         {"loop",
          {{"stormcellar loop KTLX --cache CACHE --from -1h -o storm.webp",
            "The last hour of a station."},
@@ -107,22 +151,21 @@ const std::vector<CommandGuide>& command_guides() {
            "All sweeps of a volume, from the lowest up."}},
          {"--output", "--cache", "--from", "--to", "--last", "--product", "--moment", "--orbit",
           "--fps", "--follow"}},
-        {"replay",
-         {{"stormcellar replay files/ DROP --speed 10",
-           "Play a directory of volumes ten times as fast as they came."}}},
-        {"serve",
-         {{"stormcellar serve KTLX19990503_235621.gz",
-           "This volume and its grids, for a browser, Siphon, xarray, a GIS."},
-          {"stormcellar serve --cache CACHE --catalog STATE/catalog",
-           "What a daemon keeps, on another port than its own server."},
-          {"stormcellar serve files/ --listen 192.168.1.5:8090 --allow-host radar-pc",
-           "The same for the machines of this network."}}},
-        {"status",
-         {{"stormcellar status", "How the daemon of this machine is."},
-          {"stormcellar status --config stormcellard.toml", "How another daemon is."}}},
-        {"synth",
-         {{"stormcellar synth supercell.toml -o files", "The volumes of a simulated storm."}}},
     };
+}
+
+Guides all_guides() {
+    Guides all;
+    for (const auto group : {guides_of_use, guides_of_files, guides_of_cache, guides_of_catalog,
+                             guides_of_grids, guides_of_pictures})
+        std::ranges::move(group(), std::back_inserter(all));
+    return all;
+}
+
+}  // namespace
+
+const std::vector<CommandGuide>& command_guides() {
+    static const std::vector<CommandGuide> guides = all_guides();
     return guides;
 }
 

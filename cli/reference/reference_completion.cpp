@@ -259,28 +259,9 @@ std::string bash_values_of(const CommandReference& command) {
     return out;
 }
 
-}  // namespace
-
-std::string bash_completion_of(const CommandReference& program) {
-    std::string known;
-    std::string cases;
-    for (const CommandReference* command : all_commands(program)) {
-        if (!command->name.empty())
-            known += fmt::format("{}'{}'", known.empty() ? "" : "|", command->name);
-        cases += fmt::format("        '{}')\n            commands='{}'\n            options='{}'\n",
-                             command->name, fmt::join(names_of_inner(*command), " "),
-                             fmt::join(option_names(*command), " "));
-        cases += bash_values_of(*command);
-        if (kept_of_arguments(*command) == Kept::domains)
-            cases += "            arguments=domains\n";
-        if (kept_of_arguments(*command) == Kept::commands) {
-            cases +=
-                fmt::format("            commands='{}'\n", fmt::join(names_of_all(program), " "));
-        }
-        cases += "            ;;\n";
-    }
-    return fmt::format(
-        R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
+// The names of all commands go into the first gap, and what each of them offers into the second.
+constexpr std::string_view bash_script =
+    R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
 # Adds files, directories, or the names that the program knows, to what is offered.
 _stormcellar_add() {{
     local -a more=()
@@ -332,8 +313,29 @@ _stormcellar() {{
     fi
 }}
 complete -F _stormcellar stormcellar
-)bash",
-        known, cases);
+)bash";
+
+}  // namespace
+
+std::string bash_completion_of(const CommandReference& program) {
+    std::string known;
+    std::string cases;
+    for (const CommandReference* command : all_commands(program)) {
+        if (!command->name.empty())
+            known += fmt::format("{}'{}'", known.empty() ? "" : "|", command->name);
+        cases += fmt::format("        '{}')\n            commands='{}'\n            options='{}'\n",
+                             command->name, fmt::join(names_of_inner(*command), " "),
+                             fmt::join(option_names(*command), " "));
+        cases += bash_values_of(*command);
+        if (kept_of_arguments(*command) == Kept::domains)
+            cases += "            arguments=domains\n";
+        if (kept_of_arguments(*command) == Kept::commands) {
+            cases +=
+                fmt::format("            commands='{}'\n", fmt::join(names_of_all(program), " "));
+        }
+        cases += "            ;;\n";
+    }
+    return fmt::format(bash_script, known, cases);
 }
 
 std::string zsh_completion_of(const CommandReference& program) {

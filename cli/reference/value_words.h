@@ -5,6 +5,7 @@
 // Thread contract: the table is constant.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,6 @@ struct ValueWord {
 
 // Null: there is no row. A row of this command goes before one of every command.
 [[nodiscard]] const ValueWord* find_value_word(std::string_view option, std::string_view command);
-[[nodiscard]] const std::vector<ValueWord>& value_words();
+[[nodiscard]] std::span<const ValueWord> value_words();
 
 }  // namespace stormcellar::cli

@@ -44,6 +44,35 @@ Held held(float position, int size) {
             inside - static_cast<float>(below)};
 }
 
+// How the light comes through the coarse cells: plane by plane along the main axis, from the plane
+// `first` on, by `step`. From one plane to the next it moves by (du, dv) cells across, and crosses
+// length_m of air.
+struct LightWay {
+    std::size_t main, u, v;
+    int step, first;
+    float length_m, du, dv;
+};
+LightWay way_of(const Vec3& towards, const Vec3& widths_m, const std::array<int, 3>& sizes) {
+    Vec3 rate{};  // in coarse cells for each meter
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        rate[axis] = towards[axis] / widths_m[axis];
+    std::size_t main = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+        if (std::abs(rate[axis]) > std::abs(rate[main])) main = axis;
+    }
+    const std::size_t u = (main + 1) % 3;
+    const std::size_t v = (main + 2) % 3;
+    const int step = rate[main] > 0 ? -1 : 1;
+    return {main,
+            u,
+            v,
+            step,
+            step < 0 ? sizes[main] - 1 : 0,
+            static_cast<float>(1 / std::abs(rate[main])),
+            static_cast<float>(rate[u] / std::abs(rate[main])),
+            static_cast<float>(rate[v] / std::abs(rate[main]))};
+}
+
 }  // namespace
 
 Vec3 sun_direction(const Light& light) {
@@ -126,57 +155,41 @@ void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunc
 // Computes the transmittance from the side where the light comes in, plane by plane along the axis
 // with the most planes for each meter of the way. Beyond the grid the air is clear.
 std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
-    Vec3 rate{};  // in coarse cells for each meter
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        rate[axis] = towards[axis] / widths_m_[axis];
-    std::size_t main = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis) {
-        if (std::abs(rate[axis]) > std::abs(rate[main])) main = axis;
-    }
-    // The sweep goes along the main axis, beginning at the side of the light. From one plane to the
-    // next, the light moves by (du, dv) cells across, and crosses length_m of air.
-    const std::size_t u = (main + 1) % 3;
-    const std::size_t v = (main + 2) % 3;
-    const auto length_m = static_cast<float>(1 / std::abs(rate[main]));
-    const auto du = static_cast<float>(rate[u] / std::abs(rate[main]));
-    const auto dv = static_cast<float>(rate[v] / std::abs(rate[main]));
-    const int step = rate[main] > 0 ? -1 : 1;
-    const int first = step < 0 ? sizes_[main] - 1 : 0;
-
+    const LightWay way = way_of(towards, widths_m_, sizes_);
     const auto place = [&](int plane, int iu, int iv) {
         std::array<int, 3> at{};
-        at[main] = plane;
-        at[u] = iu;
-        at[v] = iv;
+        at[way.main] = plane;
+        at[way.u] = iu;
+        at[way.v] = iv;
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
     // The light that has passed each cell of the plane before, with a border of 1, which stands for
     // what is beyond the grid.
-    const std::size_t row = static_cast<std::size_t>(sizes_[v]) + 2 * border;
-    std::vector<float> passed((static_cast<std::size_t>(sizes_[u]) + 2 * border) * row, 1.0F);
+    const std::size_t row = static_cast<std::size_t>(sizes_[way.v]) + 2 * border;
+    std::vector<float> passed((static_cast<std::size_t>(sizes_[way.u]) + 2 * border) * row, 1.0F);
     const auto pass = [&](int plane) {
-        for (int iu = 0; iu < sizes_[u]; ++iu) {
+        for (int iu = 0; iu < sizes_[way.u]; ++iu) {
             float* to = passed.data() + (static_cast<std::size_t>(iu) + border) * row + border;
-            for (int iv = 0; iv < sizes_[v]; ++iv) {
+            for (int iv = 0; iv < sizes_[way.v]; ++iv) {
                 const std::size_t cell = place(plane, iu, iv);
                 to[iv] = extinction_[cell] > 0
-                             ? through[cell] * std::exp(-extinction_[cell] * length_m)
+                             ? through[cell] * std::exp(-extinction_[cell] * way.length_m)
                              : through[cell];
             }
         }
     };
     // Each cell takes the light of the plane before at the place from which it comes, which lies
     // between four cells.
-    for (int n = 1; n < sizes_[main]; ++n) {
-        const int plane = first + n * step;
-        pass(plane - step);
-        for (int iu = 0; iu < sizes_[u]; ++iu) {
-            const float pu = static_cast<float>(iu) + du;
+    for (int n = 1; n < sizes_[way.main]; ++n) {
+        const int plane = way.first + n * way.step;
+        pass(plane - way.step);
+        for (int iu = 0; iu < sizes_[way.u]; ++iu) {
+            const float pu = static_cast<float>(iu) + way.du;
             const auto u0 = static_cast<int>(std::floor(pu));
             const float su = pu - static_cast<float>(u0);
-            for (int iv = 0; iv < sizes_[v]; ++iv) {
-                const float pv = static_cast<float>(iv) + dv;
+            for (int iv = 0; iv < sizes_[way.v]; ++iv) {
+                const float pv = static_cast<float>(iv) + way.dv;
                 const auto v0 = static_cast<int>(std::floor(pv));
                 const float sv = pv - static_cast<float>(v0);
                 // |du| and |dv| are at most 1, so that these cells are in the border at most.

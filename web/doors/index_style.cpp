@@ -3,9 +3,9 @@
 #include "web/doors/index_page.h"
 
 namespace stormcellar::web {
+namespace {
 
-std::string_view index_style() {
-    return R"css(:root {
+constexpr std::string_view style_sheet = R"css(:root {
   color-scheme: light dark;
   --ink: #17212b; --soft: #56636f; --line: #dde3e8; --paper: #f4f6f8; --card: #ffffff;
   --accent: #0a5cad; --live: #17693a; --live-back: #dff3e6; --quiet: #7a4b00; --quiet-back: #fbeed7;
@@ -97,6 +97,11 @@ footer { padding-top: 1.25rem; color: var(--soft); font-size: 0.9rem; }
   .links a { display: inline-block; padding: 0.3rem 0; margin-right: 1.1rem; }
 }
 )css";
+
+}  // namespace
+
+std::string_view index_style() {
+    return style_sheet;
 }
 
 }  // namespace stormcellar::web

@@ -1,0 +1,113 @@
+// Functions outside the tests have at most 60 lines, from the first line of their head to the brace
+// that closes them. The layout is clang-format's (the test Repository.Format), so a function at the
+// level of a namespace goes from a line without indent to a line that is "}", and one in a class
+// from a line with an indent of four to a line that is "    }". A block of a function that has this
+// indent is measured too, and can be no longer than its function.
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/repository/text_of.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_lines = 60;
+
+struct LongFunction {
+    std::size_t line, lines;  // where it begins, and its length
+    std::string head;
+};
+
+// Returns true if the line has text that begins just behind `indent` spaces, and that is no comment
+// and no directive.
+bool begins_at(const std::string& line, std::size_t indent) {
+    return line.find_first_not_of(' ') == indent && line[indent] != '/' && line[indent] != '#';
+}
+
+// Finds the functions with this indent that are longer than `most` lines.
+std::vector<LongFunction> long_functions(const std::string& text, std::size_t indent,
+                                         std::size_t most) {
+    std::vector<LongFunction> found;
+    std::istringstream lines(text);
+    LongFunction last{};
+    const std::string end = std::string(indent, ' ') + "}";
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        if (line == end && last.line > 0) {
+            last.lines = number - last.line + 1;
+            if (last.lines > most) found.push_back(last);
+        }
+        if (begins_at(line, indent)) last = {number, 0, line};
+    }
+    return found;
+}
+
+TEST(FunctionLength, NoFunctionIsLongerThanSixtyLines) {
+    const std::set<std::string> skipped = {"tests", "build", "out", "docs", "scripts"};
+    const fs::path root = testing::source_directory();
+    std::size_t sources = 0;
+    for (const auto& room : fs::directory_iterator(root)) {
+        const std::string name = room.path().filename().string();
+        if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(room.path())) {
+            const auto ending = entry.path().extension();
+            if (ending != ".h" && ending != ".cpp") continue;
+            ++sources;
+            const std::string text = testing::text_of(entry.path());
+            for (const std::size_t indent : {0, 4}) {
+                for (const LongFunction& function : long_functions(text, indent, most_lines)) {
+                    ADD_FAILURE() << fs::relative(entry.path(), root).string() << ":"
+                                  << function.line << ": " << function.lines << " lines, not "
+                                  << most_lines << ": " << function.head;
+                }
+            }
+        }
+    }
+    EXPECT_GE(sources, 1000U);
+}
+
+TEST(FunctionLength, AFunctionIsMeasuredFromItsHeadToItsBrace) {
+    const std::string text =
+        "namespace a {\n"
+        "\n"
+        "// A comment.\n"
+        "int first(int x,\n"
+        "          int y) {\n"
+        "    if (x < y) {\n"
+        "        ++x;\n"
+        "    }\n"
+        "    return x;\n"
+        "}\n"
+        "class B {\n"
+        "  public:\n"
+        "    int second() {\n"
+        "        int x = 1;\n"
+        "        return x;\n"
+        "    }\n"
+        "};\n"
+        "void third() {\n"
+        "}\n"
+        "}  // namespace a\n";
+    const auto outer = long_functions(text, 0, 6);
+    ASSERT_EQ(outer.size(), 1U);
+    EXPECT_EQ(outer[0].line, 4U);
+    EXPECT_EQ(outer[0].lines, 7U);
+    EXPECT_EQ(outer[0].head, "int first(int x,");
+    EXPECT_TRUE(long_functions(text, 0, 7).empty());
+    const auto inner = long_functions(text, 4, 3);
+    ASSERT_EQ(inner.size(), 1U);
+    EXPECT_EQ(inner[0].line, 13U);
+    EXPECT_EQ(inner[0].lines, 4U);
+}
+
+}  // namespace
+}  // namespace stormcellar
