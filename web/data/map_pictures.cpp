@@ -11,8 +11,11 @@
 
 #include "base/checksum.h"
 #include "base/printable.h"
+#include "render/options/scene_options.h"
 #include "render/products/smooth_field.h"
+#include "render/still/legend_panel.h"
 #include "stormcellar/base/version.h"
+#include "stormcellar/grid/projection.h"
 #include "stormcellar/render/png_file.h"
 
 namespace stormcellar::web {
@@ -116,6 +119,34 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
                                   .table = render::colours_of(scene),
                                   .smooth = render::is_smoothed(scene)},
                                  window);
+}
+
+Result<std::optional<MapValue>> MapPictures::value_at(const PictureLayer& layer,
+                                                      const grid::GeoPoint& place) {
+    const grid::GridSpec& spec = layer.grid->file.description().spec;
+    const grid::ColumnPoint at = grid::GridProjection(spec).to_column(place);
+    const double x = std::floor(at.x + 0.5);
+    const double y = std::floor(at.y + 0.5);
+    // A place from which the projection gives no column compares as false.
+    if (!(x >= 0 && y >= 0 && x < spec.nx && y < spec.ny)) return std::nullopt;
+    const auto map = maps_.find_or_make(*layer.grid, layer.style.scene, options_.threads);
+    if (!map) return pass_on(map);
+    const render::FlatField& field = (*map)->levels.front();
+    const std::size_t index = field.index(static_cast<int>(x), static_cast<int>(y));
+    return MapValue{field.status[index], field.values[index]};
+}
+
+Result<Kept> MapPictures::legend(const PictureLayer& layer) {
+    const OpenGrid& grid = *layer.grid;
+    const render::FrameFacts facts =
+        render::frame_facts_of(grid.domain, grid.file.description(), "UTC");
+    const auto panel = render::draw_legend_panel({grid.file.view(), facts, layer.style.scene});
+    if (!panel) return pass_on(panel);
+    const auto bytes = render::encode_png_of_few_colours(*panel);
+    if (!bytes) return pass_on(bytes);
+    std::string text = text_of_bytes(*bytes);
+    std::string etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(text))));
+    return Kept{text_of(std::move(text)), std::move(etag), "image/png"};
 }
 
 render::EarthBox MapPictures::box_of(const std::string& domain, const grid::GridSpec& spec) {
