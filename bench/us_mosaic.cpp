@@ -1,5 +1,6 @@
 #include "bench/us_mosaic.h"
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <string>
@@ -28,9 +29,8 @@ struct PlacedSite {
     grid::GridWindow window;
 };
 
-// The site of the new volume first, then those within the domain.
-std::vector<PlacedSite> sites_of(const grid::GridSpec& domain, const Newcomer& newcomer) {
-    std::vector<PlacedSite> sites = {{newcomer.site, newcomer.window}};
+// These sites first, then those within the domain.
+std::vector<PlacedSite> sites_of(const grid::GridSpec& domain, std::vector<PlacedSite> sites) {
     const grid::GridProjection projection(domain);
     for (const Station& station : all_stations()) {
         if (sites.size() == us_sites) break;
@@ -39,7 +39,9 @@ std::vector<PlacedSite> sites_of(const grid::GridSpec& domain, const Newcomer& n
         const auto column = projection.to_column({site.latitude_deg, site.longitude_deg});
         const bool inside =
             column.x > 0 && column.x < domain.nx && column.y > 0 && column.y < domain.ny;
-        if (!window || !inside || site.icao == newcomer.site.icao) continue;
+        const bool is_known = std::ranges::any_of(
+            sites, [&](const PlacedSite& known) { return known.site.icao == site.icao; });
+        if (!window || !inside || is_known) continue;
         sites.push_back({site, *window});
     }
     return sites;
@@ -123,7 +125,7 @@ Status measure_us(const Request& request, const fs::path& work, Table& table) {
     const fs::path file = request.data_directory() / "volumes/KLOT20220317_000842_V06";
     if (!fs::exists(file, failed)) return fail(ErrorCode::not_found, "{}: no file", file.string());
     const Newcomer newcomer = prepare(domain, file, "KLOT", position_of(*find_station("KDMX")));
-    std::vector<PlacedSite> sites = sites_of(domain, newcomer);
+    std::vector<PlacedSite> sites = sites_of(domain, {{newcomer.site, newcomer.window}});
     const auto count = static_cast<int>(sites.size());
     PartialFiles files(domain, directory, std::move(sites));
     const auto stored = files.make();
@@ -139,6 +141,22 @@ Status measure_us(const Request& request, const fs::path& work, Table& table) {
         table.add(std::move(*row));
     }
     return {};
+}
+
+Result<grid::BrickGrid> us_mosaic() {
+    const grid::GridSpec domain = us_grid();
+    const std::vector<PlacedSite> sites = sites_of(domain, {});
+    std::deque<grid::BrickGrid> grids;
+    std::vector<grid::Partial> partials;
+    for (const PlacedSite& placed : sites) {
+        const auto distance =
+            std::make_shared<const grid::SiteDistance>(domain, placed.window, placed.site);
+        grids.push_back(us_storms(domain, placed.window, *distance, placed.site));
+        partials.push_back({grids.back().view(), placed.site, distance});
+    }
+    auto merged = grid::merge(domain, partials, {.threads = 2});
+    if (!merged) return pass_on(merged);
+    return std::move(merged->cells);
 }
 
 }  // namespace stormcellar::bench

@@ -9,6 +9,7 @@
 #include "bench/request.h"
 #include "bench/table.h"
 #include "stormcellar/base/result.h"
+#include "stormcellar/grid/brick_grid.h"
 
 namespace stormcellar::bench {
 
@@ -16,5 +17,8 @@ namespace stormcellar::bench {
 // (some 1 GiB).
 [[nodiscard]] Status measure_us(const Request& request, const std::filesystem::path& work,
                                 Table& table);
+
+// Returns the mosaic of all synthetic radars, made in memory: some 2 GiB while it works.
+[[nodiscard]] Result<grid::BrickGrid> us_mosaic();
 
 }  // namespace stormcellar::bench

@@ -50,6 +50,7 @@ Result<WebSetup> load_web_setup(const std::filesystem::path& file) {
     setup.added_stations = read_added_stations(root);
     read_log_level(root.section("log"), setup.log_level);
     setup.web = read_web_config(root);
+    setup.loops = read_served_loops(file);
     for (const std::string_view table : tables_of_the_daemon)
         root.leave(table);
     if (const Status read = toml->finish(); !read) return pass_on(read);

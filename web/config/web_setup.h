@@ -10,6 +10,7 @@
 
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_table.h"
+#include "web/config/served_loops.h"
 #include "web/config/web_config.h"
 
 namespace stormcellar::web {
@@ -23,6 +24,7 @@ struct WebSetup {
     // is not in the file; stormcellar-web takes it from $STATE_DIRECTORY.
     std::filesystem::path numbers;
     std::vector<AddedStation> added_stations;
+    std::vector<ServedLoop> loops;
     std::string log_level = "info";  // debug, info, warning or error
     WebConfig web;
     bool operator==(const WebSetup&) const = default;
@@ -33,8 +35,8 @@ struct WebSetup {
 [[nodiscard]] Result<WebSetup> load_web_setup(const std::filesystem::path& file);
 
 // What a reload cannot apply: a sentence for each part of `fresh` that differs from `running` and
-// takes effect only at a start, [paths] and [[station]]. All of [web] and [log] takes effect at
-// once.
+// takes effect only at a start, [paths] and [[station]]. All of [web], [log] and [[loop]] takes
+// effect at once.
 [[nodiscard]] std::vector<std::string> needs_restart(const WebSetup& fresh,
                                                      const WebSetup& running);
 

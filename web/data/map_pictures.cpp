@@ -11,9 +11,13 @@
 
 #include "base/checksum.h"
 #include "base/printable.h"
+#include "render/options/scene_options.h"
 #include "render/products/smooth_field.h"
+#include "render/still/legend_panel.h"
 #include "stormcellar/base/version.h"
+#include "stormcellar/grid/projection.h"
 #include "stormcellar/render/png_file.h"
+#include "stormcellar/render/still.h"
 
 namespace stormcellar::web {
 namespace {
@@ -60,6 +64,7 @@ std::string MapPicture::key() const {
                     static_cast<int>(window.plane), window.west, window.south, window.east,
                     window.north, window.width, window.height);
     if (ground) key += fmt::format(" {:02x}", fmt::join(*ground, ""));
+    if (is_jpeg) key += " jpeg";
     for (const PictureLayer& layer : layers)
         key += fmt::format("\n{}/{}", layer.grid->id, layer.style.key);
     return key;
@@ -93,9 +98,11 @@ Result<Kept> MapPictures::draw(const MapPicture& picture) {
             lay_over(*layer, image);
         }
     }
-    const auto bytes = render::encode_png_of_few_colours(image);
+    const auto bytes = picture.is_jpeg ? render::still_format_of(".jpg")->encode_picture(image, {})
+                                       : render::encode_png_of_few_colours(image);
     if (!bytes) return pass_on(bytes);
-    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(), "image/png"};
+    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(),
+                picture.is_jpeg ? "image/jpeg" : "image/png"};
 }
 
 Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
@@ -116,6 +123,34 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
                                   .table = render::colours_of(scene),
                                   .smooth = render::is_smoothed(scene)},
                                  window);
+}
+
+Result<std::optional<MapValue>> MapPictures::value_at(const PictureLayer& layer,
+                                                      const grid::GeoPoint& place) {
+    const grid::GridSpec& spec = layer.grid->file.description().spec;
+    const grid::ColumnPoint at = grid::GridProjection(spec).to_column(place);
+    const double x = std::floor(at.x + 0.5);
+    const double y = std::floor(at.y + 0.5);
+    // A place from which the projection gives no column compares as false.
+    if (!(x >= 0 && y >= 0 && x < spec.nx && y < spec.ny)) return std::nullopt;
+    const auto map = maps_.find_or_make(*layer.grid, layer.style.scene, options_.threads);
+    if (!map) return pass_on(map);
+    const render::FlatField& field = (*map)->levels.front();
+    const std::size_t index = field.index(static_cast<int>(x), static_cast<int>(y));
+    return MapValue{field.status[index], field.values[index]};
+}
+
+Result<Kept> MapPictures::legend(const PictureLayer& layer) {
+    const OpenGrid& grid = *layer.grid;
+    const render::FrameFacts facts =
+        render::frame_facts_of(grid.domain, grid.file.description(), "UTC");
+    const auto panel = render::draw_legend_panel({grid.file.view(), facts, layer.style.scene});
+    if (!panel) return pass_on(panel);
+    const auto bytes = render::encode_png_of_few_colours(*panel);
+    if (!bytes) return pass_on(bytes);
+    std::string text = text_of_bytes(*bytes);
+    std::string etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(text))));
+    return Kept{text_of(std::move(text)), std::move(etag), "image/png"};
 }
 
 render::EarthBox MapPictures::box_of(const std::string& domain, const grid::GridSpec& spec) {

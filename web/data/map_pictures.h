@@ -1,5 +1,5 @@
 // web/data/map_pictures.h -- 2D products drawn on rectangles of a map's plane, for tiles and WMS:
-// as PNG, kept in memory.
+// as PNG or JPEG, kept in memory.
 //
 // A picture follows from the grid's bytes, the options and the rectangle alone, so its ETag is made
 // of these and is known before the picture is.
@@ -47,9 +47,16 @@ struct MapPicture {
     render::PlaneWindow window;
     // The color under the layers; none: clear.
     std::optional<render::Rgba8> ground;
+    bool is_jpeg = false;  // which needs a ground; else PNG
 
     [[nodiscard]] std::string key() const;
     [[nodiscard]] std::string etag() const;  // with its quotes
+};
+
+// What a layer shows at a place. Without a value, the value is 0.
+struct MapValue {
+    grid::CellStatus status = grid::CellStatus::not_seen;
+    float value = 0;
 };
 
 class MapPictures {
@@ -60,6 +67,14 @@ class MapPictures {
     [[nodiscard]] std::optional<Kept> find(const MapPicture& picture);
     // Errors: those of FlatMaps::find_or_make() and of the encoder.
     [[nodiscard]] Result<Kept> find_or_draw(const MapPicture& picture);
+
+    // Returns what the column that holds the place has, from the product at its finest; none
+    // outside of the grid. Errors: those of FlatMaps::find_or_make().
+    [[nodiscard]] Result<std::optional<MapValue>> value_at(const PictureLayer& layer,
+                                                           const grid::GeoPoint& place);
+    // Draws what the layer's colors mean, as PNG. Errors: those of draw_legend_panel() and of the
+    // encoder.
+    [[nodiscard]] static Result<Kept> legend(const PictureLayer& layer);
 
     // Where a grid is, from its spec; it is worked out once for each of the newest specs.
     [[nodiscard]] render::EarthBox box_of(const std::string& domain, const grid::GridSpec& spec);

@@ -10,12 +10,14 @@
 #include "web/doors/events.h"
 #include "web/doors/frames.h"
 #include "web/doors/index.h"
+#include "web/doors/loops.h"
 #include "web/doors/metrics.h"
 #include "web/doors/polling.h"
 #include "web/doors/s3.h"
 #include "web/doors/thredds.h"
 #include "web/doors/tiles.h"
 #include "web/doors/volumes.h"
+#include "web/doors/wms.h"
 #include "web/doors/zarr.h"
 
 namespace stormcellar::web {
@@ -37,11 +39,15 @@ void add_pictures(Doors& doors, const Sources& sources) {
     const auto tiles = std::make_shared<TilesDoor>(maps);
     tiles->set_workers(map_workers);
     doors.add("/tiles", tiles);
+    const auto wms = std::make_shared<WmsDoor>(maps);
+    wms->set_workers(map_workers);
+    doors.add("/wms", wms);
     const auto frames = std::make_shared<FramesDoor>(
         sources.grids,
         std::make_shared<FramePictures>(FramePicturesOptions{.kept = kept, .threads = threads}));
     frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
     doors.add("/frames", frames);
+    doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));
 }
 
 void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept) {

@@ -1,0 +1,19 @@
+// web/doors/wms_capabilities.h -- what the Web Map Service says of itself (OGC 06-042, annex A.1).
+//
+// The layers stand in three ranks: domains, their moments with the instants of their grids, and the
+// products of a moment, which alone can be asked for.
+//
+// Threads   Pure functions; they may open grids.
+#pragma once
+
+#include <string>
+
+#include "web/data/map_pictures.h"
+#include "web/http/request.h"
+
+namespace stormcellar::web {
+
+// Errors   A moment whose newest grid cannot be opened is left out.
+[[nodiscard]] std::string wms_capabilities(const Request& request, MapPictures& pictures);
+
+}  // namespace stormcellar::web
