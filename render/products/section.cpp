@@ -32,6 +32,20 @@ struct Corner {
     double weight = 0;
 };
 
+std::array<Corner, 4> corners_at(const grid::BrickView& view, const Neighbours& across,
+                                 const Neighbours& along) {
+    std::array<Corner, 4> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const bool east = i % 2 == 1;
+        const bool north = i >= 2;
+        corners[i].weight = (east ? across.second_share : 1 - across.second_share) *
+                            (north ? along.second_share : 1 - along.second_share);
+        read_column(view, east ? across.second : across.first, north ? along.second : along.first,
+                    corners[i].cells);
+    }
+    return corners;
+}
+
 grid::Sample sample_of(const ColumnCells& cells, float half_period, int level) {
     const auto i = static_cast<std::size_t>(level);
     return {cells.status[i], cells.values[i], 0, half_period};
@@ -81,15 +95,7 @@ Section cut_section(const grid::BrickView& view, level2::Moment moment, const Se
         const auto along = neighbours(column.y, view.spec->ny);
         if (!across || !along) return;
         section.in_grid[static_cast<std::size_t>(x)] = 1;
-        std::array<Corner, 4> corners;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const bool east = i % 2 == 1;
-            const bool north = i >= 2;
-            corners[i].weight = (east ? across->second_share : 1 - across->second_share) *
-                                (north ? along->second_share : 1 - along->second_share);
-            read_column(view, east ? across->second : across->first,
-                        north ? along->second : along->first, corners[i].cells);
-        }
+        const std::array<Corner, 4> corners = corners_at(view, *across, *along);
         const auto states = states_of_all(corners);
         CellMixer mixer(moment);
         for (int y = 0; y < height; ++y) {
