@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 #include "base/parallel.h"
@@ -14,16 +15,17 @@ using grid::BrickEntry;
 using grid::BrickKind;
 using grid::BrickView;
 using grid::CellStatus;
+static_assert(std::endian::native == std::endian::little);
 
-void note_status(ColumnSummary& column, CellStatus status, int level) {
-    if (status == CellStatus::not_seen) return;
-    column.lowest_seen = std::min(column.lowest_seen, static_cast<std::uint16_t>(level));
-    column.has_no_echo = column.has_no_echo || status == CellStatus::no_echo;
-    column.has_range_folded = column.has_range_folded || status == CellStatus::range_folded;
+// Whether a column was seen in a run of up to 16 cells, and what is in it.
+void note_states(ColumnSummary& column, int lowest_seen, bool has_no_echo, bool has_range_folded) {
+    column.lowest_seen = std::min(column.lowest_seen, static_cast<std::uint16_t>(lowest_seen));
+    column.has_no_echo = column.has_no_echo || has_no_echo;
+    column.has_range_folded = column.has_range_folded || has_range_folded;
 }
 
 // Summarizes a whole run of 16 cells; cells beyond the top of the grid are stored as not seen.
-// There are no branches, so that the compiler handles all cells at once.
+// There are no branches in the loop, so that the compiler handles all cells at once.
 template <class Code>
 void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) {
     std::array<Code, brick_edge> run{};
@@ -48,64 +50,94 @@ void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) 
     }
 }
 
-// The part of one column that lies in one brick.
-struct Run {
-    std::size_t cell;  // index of the first cell of the run in the brick
-    int cells;
-    int first_level;
-};
+// Most runs are clear air from the bottom to the top, or air that was not seen: 16 equal bytes.
+// Returns true if the run is one of these.
+bool note_plain_bytes(ColumnSummary& column, const std::byte* codes, int first_level) {
+    std::array<std::uint64_t, 2> run{};
+    static_assert(sizeof(run) == brick_edge);
+    std::memcpy(run.data(), codes, sizeof(run));
+    if (run[0] != run[1]) return false;
+    constexpr std::uint64_t all_no_echo = 0x0101010101010101;
+    if (run[0] == all_no_echo) note_states(column, first_level, true, false);
+    return run[0] == all_no_echo || run[0] == 0;
+}
 
-void note_run(ColumnSummary& column, const BrickView& view, std::size_t brick, const Run& run) {
-    const BrickEntry& entry = view.bricks[brick];
-    if (entry.kind == BrickKind::uniform) {
-        note_status(column, entry.uniform_status, run.first_level);
-    } else if (entry.kind == BrickKind::status_only) {
-        for (int z = 0; z < run.cells; ++z) {
-            const std::size_t cell = run.cell + static_cast<std::size_t>(z);
-            const auto four = std::to_integer<unsigned>(
-                view.states[std::size_t{entry.status_index} * (grid::brick_cells / 4) + cell / 4]);
-            note_status(column, static_cast<CellStatus>((four >> (2 * (cell % 4))) & 3U),
-                        run.first_level + z);
-        }
-    } else {
-        const auto width = static_cast<std::size_t>(view.quantization.code_bytes);
-        const std::byte* codes = view.codes.data() + (brick * grid::brick_cells + run.cell) * width;
-        if (width == 1) {
-            note_codes<std::uint8_t>(column, codes, run.first_level);
-        } else {
-            note_codes<std::uint16_t>(column, codes, run.first_level);
+// Summarizes a run of up to 16 states of two bits, the lowest cell in the lowest bits.
+void note_packed_states(ColumnSummary& column, std::uint32_t states, int cells, int first_level) {
+    if (cells < brick_edge) states &= (std::uint32_t{1} << (2 * cells)) - 1;
+    if (states == 0) return;
+    constexpr std::uint32_t low_bits = 0x55555555;
+    const std::uint32_t low = states & low_bits;
+    const std::uint32_t high = (states >> 1) & low_bits;
+    static_assert(static_cast<int>(CellStatus::no_echo) == 1);
+    static_assert(static_cast<int>(CellStatus::range_folded) == 2);
+    note_states(column, first_level + std::countr_zero(states) / 2, (low & ~high) != 0,
+                (high & ~low) != 0);
+}
+
+// Calls note(column, index of its first cell in the brick) for the columns of a brick.
+template <class Note>
+void for_each_column(const BrickView& view, int bx, int by, std::vector<ColumnSummary>& columns,
+                     const Note& note) {
+    const grid::GridSpec& spec = *view.spec;
+    const int last_x = std::min(spec.nx, (bx + 1) * brick_edge);
+    const int last_y = std::min(spec.ny, (by + 1) * brick_edge);
+    for (int iy = by * brick_edge; iy < last_y; ++iy) {
+        ColumnSummary* const row =
+            columns.data() + static_cast<std::size_t>(iy) * static_cast<std::size_t>(spec.nx);
+        for (int ix = bx * brick_edge; ix < last_x; ++ix) {
+            note(row[ix],
+                 static_cast<std::size_t>((ix % brick_edge) * brick_edge + iy % brick_edge) *
+                     brick_edge);
         }
     }
 }
 
-// Summarizes the rows of columns that lie in the bricks with this y number.
+void summarize_brick(const BrickView& view, int bx, int by, int bz,
+                     std::vector<ColumnSummary>& columns) {
+    const std::size_t brick = view.brick_index(bx, by, bz);
+    const BrickEntry& entry = view.bricks[brick];
+    const int first = bz * brick_edge;
+    if (entry.kind == BrickKind::uniform) {
+        const CellStatus status = entry.uniform_status;
+        if (status == CellStatus::not_seen) return;
+        for_each_column(view, bx, by, columns, [&](ColumnSummary& column, std::size_t /*cell*/) {
+            note_states(column, first, status == CellStatus::no_echo,
+                        status == CellStatus::range_folded);
+        });
+        return;
+    }
+    if (entry.kind == BrickKind::status_only) {
+        const int cells = std::min(brick_edge, view.spec->nz() - first);
+        const std::byte* const states =
+            view.states.data() + std::size_t{entry.status_index} * (grid::brick_cells / 4);
+        for_each_column(view, bx, by, columns, [&](ColumnSummary& column, std::size_t cell) {
+            std::uint32_t run = 0;
+            std::memcpy(&run, states + cell / 4, sizeof run);
+            note_packed_states(column, run, cells, first);
+        });
+        return;
+    }
+    const std::byte* const codes =
+        view.codes.data() +
+        brick * grid::brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
+    const bool in_bytes = view.quantization.code_bytes == 1;
+    for_each_column(view, bx, by, columns, [&](ColumnSummary& column, std::size_t cell) {
+        if (!in_bytes) return note_codes<std::uint16_t>(column, codes + 2 * cell, first);
+        if (!note_plain_bytes(column, codes + cell, first))
+            note_codes<std::uint8_t>(column, codes + cell, first);
+    });
+}
+
+// Summarizes the columns in the bricks with this y number, from the lowest bricks up.
 void summarize_band(const BrickView& view, int by, std::vector<ColumnSummary>& columns) {
-    const grid::GridSpec& spec = *view.spec;
-    const int last_y = std::min(spec.ny, (by + 1) * brick_edge);
-    for (int iy = by * brick_edge; iy < last_y; ++iy) {
-        for (int ix = 0; ix < spec.nx; ++ix) {
-            ColumnSummary& column =
-                columns[static_cast<std::size_t>(iy) * static_cast<std::size_t>(spec.nx) +
-                        static_cast<std::size_t>(ix)];
-            const auto cell =
-                static_cast<std::size_t>((ix % brick_edge) * brick_edge + iy % brick_edge) *
-                brick_edge;
-            for (int bz = 0; bz < view.bricks_z; ++bz) {
-                const int first = bz * brick_edge;
-                note_run(column, view, view.brick_index(ix / brick_edge, by, bz),
-                         {cell, std::min(brick_edge, spec.nz() - first), first});
-            }
-        }
+    for (int bx = 0; bx < view.bricks_x; ++bx) {
+        for (int bz = 0; bz < view.bricks_z; ++bz)
+            summarize_brick(view, bx, by, bz, columns);
     }
 }
 
 }  // namespace
-
-CellStatus ColumnSummary::status() const {
-    if (max_code > 0) return CellStatus::value;
-    if (has_range_folded) return CellStatus::range_folded;
-    return has_no_echo ? CellStatus::no_echo : CellStatus::not_seen;
-}
 
 std::vector<ColumnSummary> summarize_columns(const BrickView& view, int threads) {
     std::vector<ColumnSummary> columns(view.spec->column_count());
