@@ -65,6 +65,9 @@ Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path
     std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           "127.0.0.1:0"};
     arguments.insert(arguments.end(), files.begin(), files.end());
+    // What an earlier server said must not be taken for this one's.
+    std::error_code ignored;
+    fs::remove(scratch / "serve", ignored);
     auto process =
         ChildProcess::start(std::move(arguments), scratch / "serve", processor_of_servers);
     if (!process) return pass_on(process);
