@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -20,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds step{10};
-constexpr int most_steps = 6000;
+constexpr std::chrono::milliseconds step{2};
+constexpr int most_steps = 30'000;
 constexpr int microseconds_in_a_millisecond = 1000;
 
 bool answers(int port) {
@@ -55,21 +56,16 @@ int processor_of_load() {
                                                    : processor_of_servers;
 }
 
-}  // namespace
-
-std::string WebServer::address() const {
-    return fmt::format("http://127.0.0.1:{}", port);
-}
-
-Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path& scratch) {
+// `stormcellar serve` with these words behind it. Returns when it says that it listens.
+Result<WebServer> serve_with(const std::vector<std::string>& words, const fs::path& scratch,
+                             std::optional<int> processor) {
     std::vector<std::string> arguments = {built_program("cli/stormcellar"), "serve", "--listen",
                                           "127.0.0.1:0"};
-    arguments.insert(arguments.end(), files.begin(), files.end());
-    // What an earlier server said must not be taken for this one's.
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    // What a server before this one said does not count.
     std::error_code ignored;
     fs::remove(scratch / "serve", ignored);
-    auto process =
-        ChildProcess::start(std::move(arguments), scratch / "serve", processor_of_servers);
+    auto process = ChildProcess::start(std::move(arguments), scratch / "serve", processor);
     if (!process) return pass_on(process);
     constexpr std::string_view before = "listening on http://127.0.0.1:";
     for (int i = 0; i < most_steps && process->is_running(); ++i) {
@@ -83,6 +79,21 @@ Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path
     }
     return fail(ErrorCode::not_found, "stormcellar serve did not start: see {}.err",
                 (scratch / "serve").native());
+}
+
+}  // namespace
+
+std::string WebServer::address() const {
+    return fmt::format("http://127.0.0.1:{}", port);
+}
+
+Result<WebServer> serve_files(const std::vector<fs::path>& files, const fs::path& scratch) {
+    return serve_with({files.begin(), files.end()}, scratch, processor_of_servers);
+}
+
+Result<WebServer> serve_archive(const fs::path& catalog, const fs::path& cache,
+                                const fs::path& scratch) {
+    return serve_with({"--catalog", catalog, "--cache", cache}, scratch, std::nullopt);
 }
 
 int free_port() {

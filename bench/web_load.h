@@ -28,6 +28,10 @@ struct WebServer {
 };
 [[nodiscard]] Result<WebServer> serve_files(const std::vector<std::filesystem::path>& files,
                                             const std::filesystem::path& scratch);
+// `stormcellar serve` of a catalog and a cache. It runs on any processor.
+[[nodiscard]] Result<WebServer> serve_archive(const std::filesystem::path& catalog,
+                                              const std::filesystem::path& cache,
+                                              const std::filesystem::path& scratch);
 // `stormcellar-web` with this configuration, whose [web] listen is 127.0.0.1:`port`. It runs on any
 // processor.
 [[nodiscard]] Result<WebServer> serve_configured(const std::filesystem::path& configuration,

@@ -56,8 +56,10 @@ constexpr const char* entry_columns =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, v.start_ms, v.end_ms, "
     "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation, f.modified_ns, "
     "f.content_hash ";
+// CROSS JOIN fixes the order of the tables, so that the index of volumes finds the rows, gives
+// their order, and a query with a limit stops there. Left to itself, SQLite may read a whole table.
 constexpr const char* entry_join =
-    "FROM volume v JOIN part p ON p.volume_id = v.id JOIN file f ON f.id = p.file_id ";
+    "FROM volume v CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id ";
 constexpr const char* columns_without_volume =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "
     "0, 0, 0, f.modified_ns, f.content_hash FROM file f ";
@@ -402,12 +404,22 @@ std::optional<CatalogEntry> StationDatabase::find_file(const fs::path& path) {
 }
 
 std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
-    SQLite::Statement rows(database_, std::string{entry_columns} + entry_join +
-                                          "WHERE v.start_ms BETWEEN ? AND ? "
-                                          "ORDER BY v.start_ms, v.number, v.generation, f.path");
-    rows.bind(1, milliseconds(query.from).value_or(std::numeric_limits<std::int64_t>::min()));
-    rows.bind(2, milliseconds(query.to).value_or(std::numeric_limits<std::int64_t>::max()));
-    std::vector<CatalogEntry> found = entries(rows);
+    static const auto text = [](const char* order) {
+        return std::string{entry_columns} + entry_join + "WHERE v.start_ms BETWEEN ? AND ? " +
+               order + " LIMIT ?";
+    };
+    static const std::string ascending =
+        text("ORDER BY v.start_ms, v.number, v.generation, f.path");
+    static const std::string descending =
+        text("ORDER BY v.start_ms DESC, v.number DESC, v.generation DESC, f.path DESC");
+    LentStatement rows = prepared((query.newest ? descending : ascending).c_str());
+    rows->bind(1, milliseconds(query.from).value_or(std::numeric_limits<std::int64_t>::min()));
+    rows->bind(2, milliseconds(query.to).value_or(std::numeric_limits<std::int64_t>::max()));
+    constexpr std::int64_t no_limit = -1;
+    const std::size_t most = std::min(query.newest.value_or(0), most_listed);
+    rows->bind(3, query.newest ? static_cast<std::int64_t>(most) : no_limit);
+    std::vector<CatalogEntry> found = entries(*rows);
+    if (query.newest) std::ranges::reverse(found);
     if (query.with_rejected) {
         SQLite::Statement others(
             database_, std::string{columns_without_volume} +
@@ -420,26 +432,26 @@ std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
 }
 
 std::optional<CatalogEntry> StationDatabase::first(bool latest) {
-    const std::string order = latest ? "ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC "
-                                     : "ORDER BY v.start_ms, v.generation, f.path ";
+    static const auto text = [](const char* order) {
+        return std::string{entry_columns} + entry_join + "WHERE v.start_ms <= ? " + order +
+               " LIMIT 1";
+    };
+    static const std::string ascending = text("ORDER BY v.start_ms, v.generation, f.path");
+    static const std::string descending =
+        text("ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC");
     // A volume that claims to be from the future is the latest only if there is nothing else.
     for (const UtcTime until : {now_utc() + tolerated_future, UtcTime::max()}) {
-        SQLite::Statement rows(database_, std::string{entry_columns} + entry_join +
-                                              "WHERE v.start_ms <= ? " + order + "LIMIT 1");
-        rows.bind(1, milliseconds(until).value());
-        std::vector<CatalogEntry> found = entries(rows);
+        LentStatement rows = prepared((latest ? descending : ascending).c_str());
+        rows->bind(1, milliseconds(until).value());
+        std::vector<CatalogEntry> found = entries(*rows);
         if (!found.empty()) return std::move(found.front());
     }
     return std::nullopt;
 }
 
-// CROSS JOIN fixes the order of the tables, so that the index of volumes gives the order of rows
-// and the query stops at its limit.
 std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) {
     static const auto text = [](const char* order) {
-        return std::string{entry_columns} +
-               "FROM volume v CROSS JOIN part p ON p.volume_id = v.id "
-               "CROSS JOIN file f ON f.id = p.file_id "
+        return std::string{entry_columns} + entry_join +
                "WHERE v.start_ms BETWEEN ? AND ? AND p.ordinal = 0 "
                "AND (? OR f.state <> 'gone') ORDER BY v.start_ms " +
                order + " LIMIT ?";

@@ -86,7 +86,14 @@ TEST(IndexPage, OffersOnlyWhatIsServed) {
     EXPECT_FALSE(says(index_html(facts), "thredds"));
     facts.doors.emplace_back("/thredds");
     EXPECT_TRUE(says(index_html(facts), "/storms/thredds/radarServer/catalog.xml"));
-    const ClientPlaces places{"http://h", "b", "KTLX", "KTLX", "REF", "2026/05/01"};
+    EXPECT_TRUE(says(index_html(facts),
+                     "query.stations(&#39;KTLX&#39;).time(datetime(2026, 5, 1, 11, 58))"))
+        << "2026-11-27: the example asked for now, which found nothing in an archive";
+    EXPECT_FALSE(says(index_html(facts), "href=\"/storms/zarr\""));
+    facts.doors.emplace_back("/zarr");
+    EXPECT_TRUE(says(index_html(facts), "href=\"/storms/zarr\""));
+    const ClientPlaces places{"http://h",          "b", "KTLX", "KTLX", "REF", "2026/05/01",
+                              "2026, 5, 1, 11, 58"};
     const auto xarray = [&](const std::vector<std::string>& doors) {
         for (const ClientHelp& help : client_help(places, doors))
             if (help.program == "Python: xarray") return help.code;

@@ -228,6 +228,22 @@ TEST_F(Wms, LegendShowsTheColors) {
               body_of(get(query + "KTLX:composite.REF")));
 }
 
+// JPEG has no transparency: the ground is there whatever TRANSPARENT says.
+TEST_F(Wms, JpegIsGivenWhereItIsAskedFor) {
+    const std::string query =
+        "VERSION=1.3.0&REQUEST=GetMap&LAYERS=KTLX:composite.REF&CRS=CRS:84&BBOX=-99,34,-96,37"
+        "&WIDTH=64&HEIGHT=64&FORMAT=";
+    const Answer jpeg = get(query + "image/jpeg");
+    ASSERT_EQ(jpeg.status, 200u);
+    EXPECT_EQ(header_of(jpeg, "Content-Type"), "image/jpeg");
+    EXPECT_TRUE(body_of(jpeg).starts_with("\xFF\xD8\xFF"));
+    EXPECT_EQ(body_of(get(query + "image/jpeg&TRANSPARENT=TRUE")), body_of(jpeg));
+    EXPECT_NE(body_of(get(query + "image/jpeg&BGCOLOR=0x000000")), body_of(jpeg));
+    const Answer png = get(query + "image/png");
+    EXPECT_EQ(header_of(png, "Content-Type"), "image/png");
+    EXPECT_NE(header_of(png, "ETag"), header_of(jpeg, "ETag"));
+}
+
 TEST_F(Wms, CapabilitiesNameLayersTimesAndBoxes) {
     const Answer answer = get("SERVICE=WMS&REQUEST=GetCapabilities");
     EXPECT_EQ(answer.status, 200u);
@@ -316,6 +332,13 @@ TEST_F(WmsOfGdal, ListsTheLayersAndReadsTheirPixels) {
         "/usr/bin/gdalinfo", {"WMS:" + address_ + "?SERVICE=WMS&REQUEST=GetCapabilities"});
     EXPECT_EQ(listed.status, 0) << listed.err;
     EXPECT_THAT(listed.out, HasSubstr("LAYERS=KTLX%3Acomposite.REF"));
+    // 2026-11-27: a name that GDAL itself lists asks for JPEG, which was refused.
+    const std::size_t name = listed.out.find("_NAME=WMS:") + 6;
+    const auto by_name = testing::run_program(
+        "/usr/bin/gdal_translate",
+        {"-q", "-of", "PNG", "-outsize", "64", "0",
+         listed.out.substr(name, listed.out.find('\n', name) - name), directory_ / "by-name.png"});
+    EXPECT_EQ(by_name.status, 0) << by_name.err;
 
     const std::string description = directory_ / "wms.xml";
     std::ofstream(description)

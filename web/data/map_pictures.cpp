@@ -17,6 +17,7 @@
 #include "stormcellar/base/version.h"
 #include "stormcellar/grid/projection.h"
 #include "stormcellar/render/png_file.h"
+#include "stormcellar/render/still.h"
 
 namespace stormcellar::web {
 namespace {
@@ -63,6 +64,7 @@ std::string MapPicture::key() const {
                     static_cast<int>(window.plane), window.west, window.south, window.east,
                     window.north, window.width, window.height);
     if (ground) key += fmt::format(" {:02x}", fmt::join(*ground, ""));
+    if (is_jpeg) key += " jpeg";
     for (const PictureLayer& layer : layers)
         key += fmt::format("\n{}/{}", layer.grid->id, layer.style.key);
     return key;
@@ -96,9 +98,11 @@ Result<Kept> MapPictures::draw(const MapPicture& picture) {
             lay_over(*layer, image);
         }
     }
-    const auto bytes = render::encode_png_of_few_colours(image);
+    const auto bytes = picture.is_jpeg ? render::still_format_of(".jpg")->encode_picture(image, {})
+                                       : render::encode_png_of_few_colours(image);
     if (!bytes) return pass_on(bytes);
-    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(), "image/png"};
+    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(),
+                picture.is_jpeg ? "image/jpeg" : "image/png"};
 }
 
 Result<render::Image> MapPictures::drawn(const PictureLayer& layer,

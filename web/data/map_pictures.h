@@ -1,5 +1,5 @@
 // web/data/map_pictures.h -- 2D products drawn on rectangles of a map's plane, for tiles and WMS:
-// as PNG, kept in memory.
+// as PNG or JPEG, kept in memory.
 //
 // A picture follows from the grid's bytes, the options and the rectangle alone, so its ETag is made
 // of these and is known before the picture is.
@@ -47,6 +47,7 @@ struct MapPicture {
     render::PlaneWindow window;
     // The color under the layers; none: clear.
     std::optional<render::Rgba8> ground;
+    bool is_jpeg = false;  // which needs a ground; else PNG
 
     [[nodiscard]] std::string key() const;
     [[nodiscard]] std::string etag() const;  // with its quotes

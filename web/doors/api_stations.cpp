@@ -114,9 +114,10 @@ Answer api_volumes(const ApiCall& call) {
     if (!icao) return json_error(404, "there is no such station");
     const auto catalog = call.state.catalog();
     if (!catalog) return json_error(catalog.error());
-    const auto entries = (*catalog)->list(*icao, {*from, *to, false});
-    if (!entries) return json_error(entries.error());
     const auto count = static_cast<std::size_t>(*limit);
+    // One more than wanted tells whether there are more.
+    const auto entries = (*catalog)->list(*icao, {*from, *to, false, count + 1});
+    if (!entries) return json_error(entries.error());
     const std::size_t skipped = entries->size() > count ? entries->size() - count : 0;
     ApiJson list = ApiJson::array();
     for (std::size_t i = skipped; i < entries->size(); ++i) {

@@ -7,7 +7,7 @@
 namespace stormcellar::web {
 namespace {
 
-// In `code`, {base}, {bucket}, {station}, {domain}, {moment} and {day} are filled in.
+// In `code`, {base}, {bucket}, {station}, {domain}, {moment}, {day} and {when} are filled in.
 struct ClientRow {
     std::string_view program, door;
     std::string_view unless;  // another door whose row is better; empty: none
@@ -24,7 +24,7 @@ constexpr std::array client_rows = {
               "\n"
               "server = RadarServer('{base}/thredds/radarServer/nexrad/level2/IDD/')\n"
               "query = server.query()\n"
-              "query.stations('{station}').time(datetime.utcnow())\n"
+              "query.stations('{station}').time(datetime({when}))\n"
               "for dataset in server.get_catalog(query).datasets.values():\n"
               "    dataset.download()"},
     ClientRow{"Python: xarray", "/zarr", "",
@@ -62,13 +62,14 @@ constexpr std::array client_rows = {
 };
 
 std::string filled(std::string_view code, const ClientPlaces& places) {
-    const std::array<std::pair<std::string_view, const std::string*>, 6> words = {
+    const std::array<std::pair<std::string_view, const std::string*>, 7> words = {
         {{"base", &places.base},
          {"bucket", &places.bucket},
          {"station", &places.station},
          {"domain", &places.domain},
          {"moment", &places.moment},
-         {"day", &places.day}}};
+         {"day", &places.day},
+         {"when", &places.when}}};
     std::string text;
     while (!code.empty()) {
         const std::size_t open = code.find('{');

@@ -17,6 +17,7 @@ struct ClientPlaces {
     std::string domain;   // of grids
     std::string moment;   // its name
     std::string day;      // "2026/05/01", of the newest volume
+    std::string when;     // "2026, 5, 1, 12, 0", of it
 };
 
 struct ClientHelp {

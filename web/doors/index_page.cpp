@@ -32,6 +32,16 @@ std::string readable(UtcTime time) {
     return text;
 }
 
+// "2026, 5, 1, 12, 0", for Python.
+std::string arguments_of_datetime(UtcTime time) {
+    const auto day = std::chrono::floor<days>(time);
+    const std::chrono::year_month_day date{day};
+    const std::chrono::hh_mm_ss clock{std::chrono::floor<minutes>(time - day)};
+    return fmt::format("{}, {}, {}, {}, {}", static_cast<int>(date.year()),
+                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                       clock.hours().count(), clock.minutes().count());
+}
+
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words)
@@ -137,6 +147,7 @@ void IndexPage::head() {
     link("/api/v1", "/api/v1/openapi.json", "OpenAPI");
     link("/volumes", "/volumes/", "Volumes");
     link("/thredds", "/thredds/radarServer/catalog.xml", "THREDDS");
+    link("/zarr", "/zarr", "Zarr");
     link("/tiles", "/tiles", "Tiles");
     link("/metrics", "/metrics", "Metrics");
     text_ += "</nav>\n</header>\n";
@@ -204,7 +215,8 @@ ClientPlaces IndexPage::places() const {
                         "KTLX",
                         "KTLX",
                         std::string(level2::moment_name(level2::Moment::ref)),
-                        "2026/05/01"};
+                        "2026/05/01",
+                        "2026, 5, 1, 12, 0"};
     const IndexStation* best = nullptr;
     for (const IndexStation& station : facts_.stations) {
         const auto worth = [](const IndexStation& one) {
@@ -217,6 +229,7 @@ ClientPlaces IndexPage::places() const {
         if (best->newest_volume) {
             const std::string day = whole_seconds(*best->newest_volume);
             places.day = day.substr(0, 4) + "/" + day.substr(5, 2) + "/" + day.substr(8, 2);
+            places.when = arguments_of_datetime(*best->newest_volume);
         }
         if (!best->moments.empty()) places.moment = best->moments.front();
         if (best->moments.empty() && !facts_.domains.empty()) {

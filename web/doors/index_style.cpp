@@ -73,13 +73,21 @@ footer { padding-top: 1.25rem; color: var(--soft); font-size: 0.9rem; }
 @media (min-width: 72rem) {
   main { grid-template-columns: minmax(0, 1fr) 23rem; align-items: start; }
 }
+@media (min-width: 84rem) {
+  td.links { white-space: nowrap; }
+}
 @media (max-width: 46rem) {
   thead { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
   table, tbody { display: block; }
-  tbody tr { display: grid; grid-template-columns: 1fr 1fr; gap: 0.35rem 1rem; padding: 0.9rem 0; }
+  tbody tr {
+    display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 0.35rem 0.5rem;
+    padding: 0.9rem 0;
+  }
   th, td { padding: 0; }
   tbody th { grid-column: 1; }
   td.state { grid-column: 2; justify-self: end; }
+  td.age { white-space: normal; }
+  td time { font-size: 0.8rem; }
   td.moments, td.links { grid-column: 1 / -1; }
   td.moments:empty { display: none; }
   td.age::before {

@@ -156,7 +156,7 @@ WmsDoor::FindGrid WmsDoor::opener() {
 
 WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
                                                       const FindGrid& find) const {
-    TimedPicture timed{{{}, map.window, map.ground}, {}, !map.time};
+    TimedPicture timed{{{}, map.window, map.ground, map.is_jpeg}, {}, !map.time};
     for (const WmsLayer& layer : map.layers) {
         auto shown = shown_time(pictures_->grids(), layer, map.time);
         if (!shown) return tl::unexpected(shown.error());

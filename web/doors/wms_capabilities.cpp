@@ -185,7 +185,7 @@ std::string wms_capabilities(const Request& request, MapPictures& pictures) {
     write_service(xml, address);
     xml.open("Capability").open("Request");
     write_operation(xml, "GetCapabilities", {"text/xml"}, address);
-    write_operation(xml, "GetMap", {"image/png"}, address);
+    write_operation(xml, "GetMap", {"image/png", "image/jpeg"}, address);
     write_operation(xml, "GetFeatureInfo", {"text/plain", "application/json"}, address);
     xml.close().open("Exception").leaf("Format", "XML").close();
     xml.open("Layer").leaf("Title", "stormcellar");

@@ -69,10 +69,12 @@ WmsRead<render::Rgba8> colour_of_text(std::string_view text) {
     return render::Rgba8{byte(16), byte(8), byte(0), 255};
 }
 
-WmsRead<std::optional<render::Rgba8>> ground_of(const WmsParameters& parameters) {
+// JPEG has no transparency, so the standard has TRANSPARENT do nothing there.
+WmsRead<std::optional<render::Rgba8>> ground_of(const WmsParameters& parameters, bool is_jpeg) {
     const auto transparent = parameters.find("TRANSPARENT");
-    if (transparent && same_letters(*transparent, "true")) return std::nullopt;
-    if (transparent && !same_letters(*transparent, "false"))
+    const bool is_true = transparent && same_letters(*transparent, "true");
+    if (is_true && !is_jpeg) return std::nullopt;
+    if (transparent && !is_true && !same_letters(*transparent, "false"))
         return wms_fault(
             "", fmt::format("TRANSPARENT is TRUE or FALSE, not '{}'.", shown(*transparent)));
     const auto colour = colour_of_text(parameters.find("BGCOLOR").value_or("0xFFFFFF"));
@@ -219,19 +221,21 @@ WmsRead<WmsMap> wms_map(const WmsParameters& parameters, UtcTime now) {
     if (!version) return tl::unexpected(version.error());
     const auto names = parameters.find("LAYERS");
     if (!names) return wms_fault("LayerNotDefined", "LAYERS is missing.");
-    const auto format = parameters.find("FORMAT");
-    if (format && *format != "image/png" && *format != "image/png; mode=8bit")
-        return wms_fault("InvalidFormat",
-                         fmt::format("FORMAT is image/png, not '{}'.", shown(*format)));
+    const std::string_view format = parameters.find("FORMAT").value_or("image/png");
+    const bool is_jpeg = format == "image/jpeg";
+    if (!is_jpeg && format != "image/png" && format != "image/png; mode=8bit")
+        return wms_fault(
+            "InvalidFormat",
+            fmt::format("FORMAT is image/png or image/jpeg, not '{}'.", shown(format)));
     auto layers = wms_layers(parameters, *names, parameters.find("STYLES").value_or(""));
     if (!layers) return tl::unexpected(layers.error());
     auto window = window_of_map(parameters, *version);
     if (!window) return tl::unexpected(window.error());
-    auto ground = ground_of(parameters);
+    auto ground = ground_of(parameters, is_jpeg);
     if (!ground) return tl::unexpected(ground.error());
     auto time = time_of(parameters, now);
     if (!time) return tl::unexpected(time.error());
-    return WmsMap{std::move(*layers), *window, *ground, *time};
+    return WmsMap{std::move(*layers), *window, *ground, *time, is_jpeg};
 }
 
 WmsRead<WmsPixel> wms_pixel(const WmsParameters& parameters, const render::PlaneWindow& window) {

@@ -77,6 +77,7 @@ struct WmsMap {
     std::optional<render::Rgba8> ground;  // none: transparent
     // The instant that TIME names; none: the newest grid.
     std::optional<UtcTime> time;
+    bool is_jpeg = false;  // else PNG
 };
 [[nodiscard]] WmsRead<WmsMap> wms_map(const WmsParameters& parameters, UtcTime now);
 

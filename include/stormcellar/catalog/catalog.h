@@ -106,6 +106,8 @@ struct Query {
     std::optional<UtcTime> from;  // inclusive, on the volume's start time
     std::optional<UtcTime> to;    // inclusive
     bool with_rejected = false;   // also files without a volume
+    // Only so many of the newest volumes: it goes by the index and stops there. None: all.
+    std::optional<std::size_t> newest = std::nullopt;
 };
 
 // A stretch of a station's volumes, of which at most `most` are wanted. Only the first volume of
