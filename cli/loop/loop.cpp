@@ -26,6 +26,7 @@
 #include "cli/shared/output_file.h"
 #include "cli/shared/progress.h"
 #include "render/frame/picture_metadata.h"
+#include "render/options/picture_options.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 
@@ -270,6 +271,18 @@ void take_camera_keys(LoopOptions& options) {
     if (options.camera.front().look_at) camera.look_at = options.camera.front().look_at;
 }
 
+// A scene file with panels may be used for a loop, too, if a moment is typed.
+Status refuse_panels(const LoopOptions& options) {
+    const bool is_one = render::contains(options.scene.typed, render::moment_option());
+    const bool are_in_file = !options.scene.panels.empty() && !is_one;
+    if (options.panels.empty() && !are_in_file) return {};
+    return fail(ErrorCode::bad_argument,
+                "{} is for frame, which draws several moments side by side; a loop shows one "
+                "moment, so name it with --moment",
+                options.panels.empty() ? options.scene_file.path + ": [picture] panels"
+                                       : std::string{"--panels"});
+}
+
 // What a loop of sweeps cannot do.
 Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
     if (!render::facts_of(scene.product).is_of_sweep) return {};
@@ -290,6 +303,7 @@ Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
 Result<render::Scene> check(LoopOptions& options) {
     if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return pass_on(fine);
+    if (auto fine = refuse_panels(options); !fine) return pass_on(fine);
     take_camera_keys(options);
     auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return scene;

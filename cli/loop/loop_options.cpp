@@ -49,6 +49,8 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     add_follow_options(loop, options.follow);
     loop.add_flag("--check", options.only_check, "Check the options, print what is wrong, and end")
         ->group("");  // not shown: for stormcellard --check-config
+    loop.add_option("--panels", options.panels, "For frame alone")
+        ->group("");  // not shown: whoever gives it is told what to give
     loop.add_flag("--json", options.json,
                   "Print what was done as one JSON document; with --follow, one document per line");
     loop.add_flag("--quiet", options.quiet,

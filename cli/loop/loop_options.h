@@ -36,6 +36,7 @@ struct LoopOptions : LoopSettings {
     FollowOptions follow;
     std::string interval;     // between frames; empty: one frame for each grid
     std::string time_method;  // empty: advected
+    std::string panels;       // as typed; a loop refuses them
     bool json = false;
     bool quiet = false;
     bool only_check = false;  // nothing is drawn

@@ -64,6 +64,7 @@ int run_frame(FrameOptions options) {
     const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_frame_options(options); !fine) return report_error(fine.error());
+    take_panels(options);
     if (!options.panels.empty()) return run_panels(options, start);
     auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());

@@ -1,6 +1,7 @@
 #include "cli/picture/frame_options.h"
 
 #include "cli/picture/still_output.h"
+#include "render/options/picture_options.h"
 
 namespace stormcellar::cli {
 
@@ -15,6 +16,11 @@ Status check_frame_options(const FrameOptions& options) {
                     "there is nothing to do; give -o, --probe or --probe-at");
     }
     return {};
+}
+
+void take_panels(FrameOptions& options) {
+    const bool is_one = render::contains(options.scene.typed, render::moment_option());
+    if (options.panels.empty() && !is_one) options.panels = options.scene.panels;
 }
 
 Status check_frame_output(FrameOptions& options, render::Product product) {

@@ -36,6 +36,8 @@ struct FrameOptions {
 
 // Checks that -o, --probe and --probe-at say something to do. Errors: bad_argument.
 [[nodiscard]] Status check_frame_options(const FrameOptions& options);
+// Takes the panels of a scene file, unless panels or one moment were typed.
+void take_panels(FrameOptions& options);
 // Checks what -o and --geotiff say together with the product, and takes what a GeoTIFF shall hold.
 // Errors: bad_argument, and those of check_still_output().
 [[nodiscard]] Status check_frame_output(FrameOptions& options, render::Product product);

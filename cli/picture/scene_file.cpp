@@ -16,6 +16,7 @@
 #include "base/floating_point.h"
 #include "base/toml_file.h"
 #include "cli/shared/commands.h"
+#include "render/options/panel_scenes.h"
 #include "render/options/picture_options.h"
 #include "render/plan/volume_plan.h"
 #include "stormcellar/accuracy/budget.h"
@@ -155,6 +156,23 @@ void read_row(const PictureOption& row, TomlTable& table, const std::filesystem:
     }
 }
 
+// The moments of a picture with several. Each has its own colors.
+void read_panels(TomlTable& picture, SceneOptions& scene) {
+    const auto names = picture.texts("panels");
+    if (!names) return;
+    const std::string list = fmt::format("{}", fmt::join(*names, ","));
+    if (const auto moments = render::moments_of_panels(list, "the list"); !moments)
+        return picture.complain("panels", moments.error().message);
+    for (const PictureOption* row : {&render::moment_option(), &render::colors_option()}) {
+        if (render::contains(scene.in_file, *row)) {
+            return picture.complain(
+                "panels", fmt::format("each panel has a moment and colors of its own; leave out {}",
+                                      row->key));
+        }
+    }
+    scene.panels = list;
+}
+
 void read_plan(TomlTable& plan, PicturePlanOptions& options) {
     read_text(plan, "tolerance", options.tolerance,
               [](const std::string& text) { return status_of(accuracy::parse_budget(text)); });
@@ -279,6 +297,7 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
         if (!row.section.empty()) read_row(row, tables[row.section], file.parent_path(), to);
     }
     new_scene.file_product = new_scene.product;
+    read_panels(tables["picture"], new_scene);
     read_plan(tables["plan"], new_plan);
     read_loop(tables["loop"], file.parent_path(), new_loop);
     read_camera_keys(tables["loop"], file.parent_path(), new_scene.scene.camera, new_loop.camera);

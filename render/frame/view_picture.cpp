@@ -47,7 +47,7 @@ void draw_volume(const DrawnView& drawn, const ViewGeometry& geometry, int threa
     const VolumeSlicer slicer(
         colours_of(scene), drawn.view.quantization, geometry,
         {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light},
-        &cache.transfer);
+        &cache.transfer, threads);
     slicer.prepare(drawn.view, threads, cache.room);
     slicer.cast(drawn.view, threads, cache.room);
     composite_over(cache.room.layer, picture, 0, 0, threads);
@@ -62,7 +62,7 @@ Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size
     if (auto in_grid = check_in_grid(section, *drawn.view.spec); !in_grid) return pass_on(in_grid);
     const GroundLook look{&shades_of(scene.theme), nullptr, size.scale};
     return draw_section(section, colours_of(scene), place, size.width, size.height, look,
-                        scene.units, fonts);
+                        scene.units, fonts, threads);
 }
 
 // The line from A to B in pixels: at least two points, all of them finite.
@@ -127,7 +127,7 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
                    .shades = &shades_of(scene.theme)};
     GroundLook look{lines.shades, nullptr, size.scale};
     if (fonts != nullptr) {
-        const auto map = cache.map.get(spec, geometry, size.scale);
+        const auto map = cache.map.get(spec, geometry, size.scale, threads);
         if (!map) return pass_on(map);
         lines.map = *map;
         look.water = &lines.map->water;
@@ -174,7 +174,7 @@ Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size
     const int left = first_shown(middle.x, width, size.width);
     const int top = first_shown(middle.y, height, size.height);
 
-    const auto map = cache.map.get(spec, geometry, size.scale);
+    const auto map = cache.map.get(spec, geometry, size.scale, threads);
     if (!map) return pass_on(map);
     const Shades& shades = shades_of(scene.theme);
     const auto base = paint_base({drawn.view, drawn.facts, scene, drawn.columns}, geometry,

@@ -12,6 +12,8 @@
 namespace stormcellar::render {
 namespace {
 
+constexpr double farthest_text_px = 1e6;
+
 constexpr std::array<const char*, 4> font_directories = {
     "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
     "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF"};
@@ -209,13 +211,13 @@ void Canvas::text(const Fonts& fonts, std::string_view text, Point left_baseline
     const std::string terminated(text);
     const double x = std::nearbyint(left_baseline.x);
     const double y = std::nearbyint(left_baseline.y);
-    if (halo[3] > 0) {
-        cairo_move_to(context, x, y);
-        cairo_text_path(context, terminated.c_str());
+    const bool is_near = std::abs(x) < farthest_text_px && std::abs(y) < farthest_text_px;
+    if (halo[3] > 0 && is_near) {
+        CoverMask mask =
+            halos_.halo_of(cairo_get_scaled_font(context), bold, size, terminated.c_str(),
+                           static_cast<int>(x), static_cast<int>(y), std::max(2.0, size / 4));
         use_colour(context, halo);
-        cairo_set_line_width(context, std::max(2.0, size / 4));
-        cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-        cairo_stroke(context);
+        paint_cover(context, mask);
     }
     cairo_move_to(context, x, y);
     use_colour(context, colour);

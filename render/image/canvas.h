@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/image/letter_halos.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
 
@@ -87,6 +88,7 @@ class Canvas {
     int width_, height_;
     std::unique_ptr<_cairo_surface, Surface> surface_;
     std::unique_ptr<_cairo, Context> context_;
+    LetterHalos halos_;
 };
 
 }  // namespace stormcellar::render

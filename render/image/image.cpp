@@ -1,21 +1,11 @@
 #include "stormcellar/render/image.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "render/image/level.h"
 
 namespace stormcellar::render {
-namespace {
-
-std::size_t pixel_offset(const Image& image, int x, int y) {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-            static_cast<std::size_t>(x)) *
-           4;
-}
-
-}  // namespace
 
 Rgba8 over(const Rgba8& colour, const Rgba8& below) {
     if (colour[3] == 255) return {colour[0], colour[1], colour[2], below[3]};
@@ -32,16 +22,6 @@ Image::Image(int w, int h, Rgba8 fill)
     const auto pixel = std::bit_cast<std::uint32_t>(fill);
     for (std::size_t i = 0; i < rgba.size(); i += sizeof pixel)
         std::memcpy(rgba.data() + i, &pixel, sizeof pixel);
-}
-
-Rgba8 Image::at(int x, int y) const {
-    const std::size_t at = pixel_offset(*this, x, y);
-    return {rgba[at], rgba[at + 1], rgba[at + 2], rgba[at + 3]};
-}
-
-void Image::set(int x, int y, Rgba8 colour) {
-    std::copy(colour.begin(), colour.end(),
-              rgba.begin() + static_cast<std::ptrdiff_t>(pixel_offset(*this, x, y)));
 }
 
 }  // namespace stormcellar::render

@@ -19,9 +19,7 @@ const Shades& shades_of(Theme theme) {
     return shades::dark;
 }
 
-Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
-    if (share == 0) return one;
-    if (share == 1) return {other[0], other[1], other[2], one[3]};
+Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share) {
     for (std::size_t c = 0; c < 3; ++c) {
         const double from = one[c];
         one[c] = nearest_level(from + share * (other[c] - from));

@@ -86,8 +86,14 @@ inline constexpr Shades light = {
 
 [[nodiscard]] const Shades& shades_of(Theme theme);
 
-// Returns the color between two, all of the second at a share of 1.
-[[nodiscard]] Rgba8 mixed(Rgba8 one, Rgba8 other, double share);
+// Returns the color between two, with the first one's alpha; of the second, all at a share of 1.
+[[nodiscard]] Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share);
+// The same, quick for the ends, which nearly all pixels are.
+[[nodiscard]] inline Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
+    if (share == 0) return one;
+    if (share == 1) return {other[0], other[1], other[2], one[3]};
+    return mixed_between(one, other, share);
+}
 
 // Returns the color of ground that was not seen, at a pixel of the whole picture: under thin
 // diagonal lines, at `scale` times the usual distance.

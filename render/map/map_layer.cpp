@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 
+#include "base/parallel.h"
 #include "render/image/area_mask.h"
 #include "render/map/map_ground.h"
 #include "render/products/ground.h"
@@ -277,10 +281,11 @@ class WaterPainter {
     WaterPainter(const GroundMap& ground, const Box& box, double finest_m)
         : ground_(ground), mask_(mask_over(box, finest_m)), area_(mask_.width, mask_.height) {}
 
-    // Adds a ring that is straight in degrees, with the ground of each point. The edges of tiles
-    // are long, so they are divided, and at the same places in both tiles.
-    void add(MapKind kind, const std::vector<grid::GeoPoint>& ring,
-             const std::vector<GroundPoint>& at) {
+    // Returns a ring in cells. It is straight in degrees, and comes with the ground of each point.
+    // The edges of tiles are long, so they are divided, and at the same places in both tiles. Any
+    // thread may call.
+    [[nodiscard]] std::vector<Point> cells_of(const std::vector<grid::GeoPoint>& ring,
+                                              const std::vector<GroundPoint>& at) const {
         std::vector<Point> cells;
         for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
             put(at[i], cells);
@@ -300,6 +305,10 @@ class WaterPainter {
                 put(ground_.ground(between), cells);
             }
         }
+        return cells;
+    }
+
+    void add(MapKind kind, std::vector<Point> cells) {
         if (cells.size() < 3) return;
         if (kind == MapKind::lake) {
             lakes_.push_back(std::move(cells));
@@ -347,6 +356,34 @@ class WaterPainter {
     std::vector<std::vector<Point>> lakes_;
 };
 
+// A line of the map that the picture may show.
+struct ShownLine {
+    MapKind kind;
+    const MapLine* line;
+};
+
+// In the order in which the kinds are drawn.
+std::vector<ShownLine> shown_lines(const BaseMap& map, const Box& degrees, double finest_m,
+                                   double scale) {
+    std::vector<ShownLine> shown;
+    for (const MapKind kind :
+         {MapKind::county, MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
+        if (kind == MapKind::county && county_m / finest_m < least_county_px * scale) continue;
+        const MapSet* set = best_set(map, kind, most_thinned_px * finest_m);
+        if (set == nullptr) continue;
+        for (const MapLine& line : set->lines) {
+            if (touches(line, degrees)) shown.push_back({kind, &line});
+        }
+    }
+    return shown;
+}
+
+struct TracedLine {
+    std::vector<MapStroke> strokes;
+    std::vector<Point> cells;  // of an area, in its raster
+    std::optional<Error> error;
+};
+
 struct Look {
     double width;
     Rgba8 colour;
@@ -371,31 +408,35 @@ Look look_of(MapKind kind, const Shades& shades) {
 }  // namespace
 
 Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
-                             const ViewGeometry& geometry, double scale) {
+                             const ViewGeometry& geometry, double scale, int threads) {
     MapLayer layer;
     const Box box = visible_ground(geometry);
     if (!(box.west < box.east && box.south < box.north)) return layer;
     const GroundMap ground(spec);
     const Box degrees = degrees_of(ground, box);
     const double finest_m = finest_metres_per_pixel(geometry);
-    Tracer tracer(ground, geometry, box, finest_m, layer.strokes);
     WaterPainter painter(ground, box, finest_m);
-    std::vector<GroundPoint> at;
-    for (const MapKind kind :
-         {MapKind::county, MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
-        if (kind == MapKind::county && county_m / finest_m < least_county_px * scale) continue;
-        const MapSet* set = best_set(map, kind, most_thinned_px * finest_m);
-        if (set == nullptr) continue;
-        for (const MapLine& line : set->lines) {
-            if (!touches(line, degrees)) continue;
-            const auto points = map.points_of(line);
-            if (!points) return pass_on(points);
-            at.clear();
-            for (const grid::GeoPoint& place : *points)
-                at.push_back(ground.ground(place));
-            tracer.trace(kind, *points, at);
-            if (is_area(kind)) painter.add(kind, *points, at);
+    const auto lines = shown_lines(map, degrees, finest_m, scale);
+    std::vector<TracedLine> traced(lines.size());
+    for_each_piece(static_cast<int>(lines.size()), threads, [&](int i) {
+        const auto& [kind, line] = lines[static_cast<std::size_t>(i)];
+        TracedLine& result = traced[static_cast<std::size_t>(i)];
+        const auto points = map.points_of(*line);
+        if (!points) {
+            result.error = points.error();
+            return;
         }
+        std::vector<GroundPoint> at;
+        at.reserve(points->size());
+        for (const grid::GeoPoint& place : *points)
+            at.push_back(ground.ground(place));
+        Tracer(ground, geometry, box, finest_m, result.strokes).trace(kind, *points, at);
+        if (is_area(kind)) result.cells = painter.cells_of(*points, at);
+    });
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (traced[i].error) return tl::unexpected(*traced[i].error);
+        std::ranges::move(traced[i].strokes, std::back_inserter(layer.strokes));
+        if (is_area(lines[i].kind)) painter.add(lines[i].kind, std::move(traced[i].cells));
     }
     layer.water = painter.finish();
     add_cities(map, ground, geometry, box_of_cities(geometry, box), degrees, layer);
@@ -403,7 +444,7 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
 }
 
 Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
-                                      double scale) {
+                                      double scale, int threads) {
     // Four points of a plane, no three of them on a line, identify the view of it.
     std::vector<double> view = {static_cast<double>(geometry.width()),
                                 static_cast<double>(geometry.height()), scale};
@@ -418,9 +459,9 @@ Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeom
     const bool is_known =
         std::all_of(view.begin(), view.end(), [](double v) { return std::isfinite(v); });
     if (times_made_ > 0 && is_known && view == view_ && spec == spec_) return &layer_;
-    const auto map = BaseMap::built_in();
+    static const Result<BaseMap> map = BaseMap::built_in();
     if (!map) return pass_on(map);
-    auto layer = prepare_map(*map, spec, geometry, scale);
+    auto layer = prepare_map(*map, spec, geometry, scale, threads);
     if (!layer) return pass_on(layer);
     layer_ = std::move(*layer);
     spec_ = spec;

@@ -44,9 +44,10 @@ struct MapLayer {
 };
 
 // Prepares the layer. `scale` is that of lines and text. Errors: corrupt if the map's lines
-// contradict themselves.
+// contradict themselves. The layer does not depend on the number of threads.
 [[nodiscard]] Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
-                                           const ViewGeometry& geometry, double scale);
+                                           const ViewGeometry& geometry, double scale,
+                                           int threads = 1);
 
 // Keeps the map of the last picture, because the frames of a loop need it only once. It may be used
 // by one thread at a time.
@@ -55,7 +56,8 @@ class MapCache {
     // Returns the layer, which is valid until the next call. It is made anew if the geometry of the
     // grid, the view of the ground, the size or the scale differs from the last call.
     [[nodiscard]] Result<const MapLayer*> get(const grid::GridSpec& spec,
-                                              const ViewGeometry& geometry, double scale);
+                                              const ViewGeometry& geometry, double scale,
+                                              int threads = 1);
     [[nodiscard]] int times_made() const { return times_made_; }
 
   private:

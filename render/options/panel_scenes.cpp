@@ -7,33 +7,31 @@
 #include "stormcellar/render/panels.h"
 
 namespace stormcellar::render {
-namespace {
 
-Result<std::vector<level2::Moment>> moments_of(const std::string& list, std::string_view option) {
+Result<std::vector<level2::Moment>> moments_of_panels(const std::string& list,
+                                                      std::string_view name) {
     std::vector<level2::Moment> moments;
     for (std::size_t begin = 0; begin <= list.size();) {
         const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string name = list.substr(begin, end - begin);
+        const std::string word = list.substr(begin, end - begin);
         begin = end + 1;
-        const auto moment = level2::moment_from_name(name);
+        const auto moment = level2::moment_from_name(word);
         if (!moment) {
-            return fail(ErrorCode::bad_argument, "{} must name moments ({}), not '{}'", option,
-                        level2::moment_names(", ", " or "), printable(name));
+            return fail(ErrorCode::bad_argument, "{} must name moments ({}), not '{}'", name,
+                        level2::moment_names(", ", " or "), printable(word));
         }
         if (std::ranges::find(moments, *moment) != moments.end())
-            return fail(ErrorCode::bad_argument, "{} names {} twice", option, name);
+            return fail(ErrorCode::bad_argument, "{} names {} twice", name, word);
         moments.push_back(*moment);
     }
     return moments;
 }
 
-}  // namespace
-
 Result<std::vector<PanelScene>> panel_scenes(
     const std::string& list, const SceneOptions& options,
     const std::function<Result<Scene>(const SceneOptions&)>& scene_of_panel) {
     const bool is_typed = options.spelling == Spelling::option;
-    const auto moments = moments_of(list, is_typed ? "--panels" : "panels");
+    const auto moments = moments_of_panels(list, is_typed ? "--panels" : "panels");
     if (!moments) return pass_on(moments);
     for (const PictureOption* row : {&moment_option(), &colors_option()}) {
         if (contains(options.typed, *row)) {

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/options/scene_options.h"
@@ -22,6 +23,11 @@ struct PanelScene {
     level2::Moment moment = level2::Moment::ref;
     Scene scene;
 };
+
+// Returns the moments of a list of panels. `name` is what messages call the list. Errors:
+// bad_argument for an unknown or repeated moment.
+[[nodiscard]] Result<std::vector<level2::Moment>> moments_of_panels(const std::string& list,
+                                                                    std::string_view name);
 
 // Returns the panels of a list of moments, each scene made by `scene_of_panel` of the options with
 // that moment. Errors: bad_argument for an unknown or repeated moment, for a moment or colors

@@ -9,11 +9,11 @@ namespace stormcellar::render {
 
 using grid::CellStatus;
 
-grid::Sample cell_of(const grid::BrickView& view, level2::Moment moment, int ix, int iy, int iz) {
+grid::Sample cell_of(const grid::BrickView& view, float half_period, int ix, int iy, int iz) {
     grid::Sample cell;
     cell.status = view.status(ix, iy, iz);
     if (cell.status == CellStatus::value) cell.value = view.value(ix, iy, iz);
-    cell.half_period = grid::half_period_of(moment, 0);
+    cell.half_period = half_period;
     return cell;
 }
 

@@ -19,9 +19,10 @@
 
 namespace stormcellar::render {
 
-// Returns what a cell holds. The cell must exist.
-[[nodiscard]] grid::Sample cell_of(const grid::BrickView& view, level2::Moment moment, int ix,
-                                   int iy, int iz);
+// Returns what a cell holds. The cell must exist. `half_period` is that of its moment, for a
+// Nyquist velocity that is not known.
+[[nodiscard]] grid::Sample cell_of(const grid::BrickView& view, float half_period, int ix, int iy,
+                                   int iz);
 
 // Mixes up to eight cells with weights of 0 to 1.
 class CellMixer {

@@ -22,7 +22,11 @@ struct ColumnSummary {
 
     // Returns the state of the column maximum: a value if any cell has one; else range folded if
     // any cell is, because the echo behind it is unknown; else no echo if any cell was seen.
-    [[nodiscard]] grid::CellStatus status() const;
+    [[nodiscard]] grid::CellStatus status() const {
+        if (max_code > 0) return grid::CellStatus::value;
+        if (has_range_folded) return grid::CellStatus::range_folded;
+        return has_no_echo ? grid::CellStatus::no_echo : grid::CellStatus::not_seen;
+    }
 };
 
 // Returns true if all bricks one over another at this place are uniform: then the columns on them

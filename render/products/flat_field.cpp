@@ -136,11 +136,6 @@ FlatField::FlatField(int columns, int rows)
       values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)),
       status(values.size(), CellStatus::not_seen) {}
 
-void FlatField::put(std::size_t place, CellStatus state, float value) {
-    status[place] = state;
-    values[place] = state == CellStatus::value ? value : 0;
-}
-
 void read_column(const BrickView& view, int ix, int iy, ColumnCells& cells) {
     const int nz = view.spec->nz();
     cells.status.resize(static_cast<std::size_t>(nz));
@@ -196,12 +191,20 @@ Result<FlatField> cappi_field(const BrickView& view, level2::Moment moment, doub
     const auto levels = levels_about(*view.spec, height_m);
     if (!levels) return pass_on(levels);
     FlatField field(view.spec->nx, view.spec->ny);
+    const float half_period = grid::half_period_of(moment, 0);
     for_each_piece(field.height, threads, [&](int iy) {
         CellMixer mixer(moment);
         for (int ix = 0; ix < field.width; ++ix) {
+            const grid::Sample lower = cell_of(view, half_period, ix, iy, levels->lower);
+            const grid::Sample upper = cell_of(view, half_period, ix, iy, levels->upper);
+            // Most columns are clear or were not seen at both levels.
+            if (lower.status == upper.status && lower.status != CellStatus::value) {
+                field.put(field.index(ix, iy), lower.status, 0);
+                continue;
+            }
             mixer.clear();
-            mixer.add(cell_of(view, moment, ix, iy, levels->lower), 1 - levels->upper_share);
-            mixer.add(cell_of(view, moment, ix, iy, levels->upper), levels->upper_share);
+            mixer.add(lower, 1 - levels->upper_share);
+            mixer.add(upper, levels->upper_share);
             const grid::CellResult cell = mixer.result();
             field.put(field.index(ix, iy), cell.status, cell.value);
         }

@@ -59,7 +59,10 @@ struct FlatField {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(x);
     }
-    void put(std::size_t place, grid::CellStatus state, float value);
+    void put(std::size_t place, grid::CellStatus state, float value) {
+        status[place] = state;
+        values[place] = state == grid::CellStatus::value ? value : 0;
+    }
 };
 
 [[nodiscard]] FlatField composite_field(const grid::BrickView& view,

@@ -21,8 +21,20 @@ class ColumnFinder {
 
     // Returns -1 beyond the grid.
     [[nodiscard]] std::ptrdiff_t at(GroundPoint p) const {
-        const double x = p.x_m / cell_width_m_ + 0.5 * nx_;
-        const double y = p.y_m / cell_height_m_ + 0.5 * ny_;
+        return holding(p.x_m / cell_width_m_ + 0.5 * nx_, p.y_m / cell_height_m_ + 0.5 * ny_);
+    }
+
+    // The same in two steps: where the points of a row are, counted in columns, and which column
+    // holds such a place.
+    void places_of(const GroundRow& row, std::vector<double>& x, std::vector<double>& y) const {
+        x.resize(row.x_m.size());
+        y.resize(row.y_m.size());
+        for (std::size_t i = 0; i < x.size(); ++i)
+            x[i] = row.x_m[i] / cell_width_m_ + 0.5 * nx_;
+        for (std::size_t i = 0; i < y.size(); ++i)
+            y[i] = row.y_m[i] / cell_height_m_ + 0.5 * ny_;
+    }
+    [[nodiscard]] std::ptrdiff_t holding(double x, double y) const {
         if (!(x >= 0 && x < nx_ && y >= 0 && y < ny_)) return -1;
         return static_cast<std::ptrdiff_t>(y) * nx_ + static_cast<std::ptrdiff_t>(x);
     }
@@ -47,39 +59,74 @@ constexpr double farthest_m = 2e6;
 
 constexpr int band_rows = 8;
 
-// Calls work(y, ground of the row) for every row of a picture.
+// Calls work(first row, end) for bands of rows of a picture.
 template <class Work>
-void for_each_row(const ViewGeometry& geometry, int threads, Work work) {
+void for_each_band(const ViewGeometry& geometry, int threads, Work work) {
     const int height = geometry.height();
     for_each_piece((height + band_rows - 1) / band_rows, threads, [&](int band) {
-        GroundRow row;
-        for (int y = band * band_rows; y < std::min((band + 1) * band_rows, height); ++y) {
-            geometry.ground_of_row(y, row);
-            work(y, row);
-        }
+        work(band * band_rows, std::min((band + 1) * band_rows, height));
     });
 }
+
+// Finds what is under the pixels of a row: the column of each, and its share of water. All
+// divisions of a row are made first, in loops that the compiler makes many of at once.
+class RowFinder {
+  public:
+    RowFinder(const grid::GridSpec& spec, const WaterMask* water)
+        : columns_(spec), water_(water != nullptr && !water->water.empty() ? water : nullptr) {}
+
+    void find(const GroundRow& row) {
+        columns_.places_of(row, column_x_, column_y_);
+        if (water_ != nullptr) water_->places_of(row, water_x_, water_y_);
+    }
+    // Returns -1 beyond the grid and in the sky.
+    [[nodiscard]] std::ptrdiff_t column(std::size_t x) const {
+        return columns_.holding(column_x_[x], column_y_[x]);
+    }
+    // Not for the sky.
+    [[nodiscard]] double water(std::size_t x) const {
+        return water_ == nullptr ? 0 : water_->share_at(water_x_[x], water_y_[x]);
+    }
+
+  private:
+    ColumnFinder columns_;
+    const WaterMask* water_;
+    std::vector<double> column_x_, column_y_, water_x_, water_y_;
+};
 
 // Calls shade(column, patch) for every pixel over the grid.
 template <class Shade>
 Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, const GroundLook& look,
             int threads, Shade shade) {
     Image image(geometry.width(), geometry.height(), look.shades->page);
-    const ColumnFinder columns(spec);
-    for_each_row(geometry, threads, [&](int y, const GroundRow& row) {
-        for (int x = 0; x < image.width; ++x) {
-            const auto place = static_cast<std::size_t>(x);
-            if (row.is_sky(place)) continue;
-            const GroundPoint p = {row.x_m[place], row.y_m[place]};
-            const std::ptrdiff_t column = columns.at(p);
-            if (column < 0 && look.water == nullptr) continue;
-            const GroundPatch patch{x, y, look.water != nullptr ? look.water->water_at(p) : 0, p};
-            image.set(x, y,
-                      column >= 0 ? shade(static_cast<std::size_t>(column), patch)
-                                  : patch.shade(look, &GroundShades::beyond));
+    for_each_band(geometry, threads, [&](int first_row, int end_row) {
+        RowFinder finder(spec, look.water);
+        GroundRow row;
+        for (int y = first_row; y < end_row; ++y) {
+            geometry.ground_of_row(y, row);
+            finder.find(row);
+            for (int x = 0; x < image.width; ++x) {
+                const auto place = static_cast<std::size_t>(x);
+                if (row.is_sky(place)) continue;
+                const std::ptrdiff_t column = finder.column(place);
+                if (column < 0 && look.water == nullptr) continue;
+                const GroundPatch patch{
+                    x, y, finder.water(place), {row.x_m[place], row.y_m[place]}};
+                image.set(x, y,
+                          column >= 0 ? shade(static_cast<std::size_t>(column), patch)
+                                      : patch.shade(look, &GroundShades::beyond));
+            }
         }
     });
     return image;
+}
+
+// Returns how far from the grid a point of the ground is; 0 on the grid.
+double beyond_grid_m(const ViewGeometry& geometry, double x_m, double y_m) {
+    const double aside_m = std::max(0.0, std::abs(x_m) - geometry.half_x_m());
+    const double ahead_m = std::max(0.0, std::abs(y_m) - geometry.half_y_m());
+    if (aside_m == 0 || ahead_m == 0) return std::max(aside_m, ahead_m);
+    return std::hypot(aside_m, ahead_m);
 }
 
 }  // namespace
@@ -157,16 +204,18 @@ double reach_beyond_m(const ViewGeometry& geometry) {
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture) {
     if (is_from_above(geometry)) return;
     const double reach_m = reach_beyond_m(geometry);
-    for_each_row(geometry, threads, [&](int y, const GroundRow& row) {
-        for (int x = 0; x < picture.width; ++x) {
-            const auto place = static_cast<std::size_t>(x);
-            if (row.is_sky(place)) continue;
-            const double aside_m = std::max(0.0, std::abs(row.x_m[place]) - geometry.half_x_m());
-            const double ahead_m = std::max(0.0, std::abs(row.y_m[place]) - geometry.half_y_m());
-            if (aside_m == 0 && ahead_m == 0) continue;
-            const double beyond_m = std::hypot(aside_m, ahead_m);
-            const double share = std::min(1.0, beyond_m / reach_m);
-            picture.set(x, y, mixed(picture.at(x, y), shades.page, share * (2 - share)));
+    for_each_band(geometry, threads, [&](int first_row, int end_row) {
+        GroundRow row;
+        for (int y = first_row; y < end_row; ++y) {
+            geometry.ground_of_row(y, row);
+            for (int x = 0; x < picture.width; ++x) {
+                const auto place = static_cast<std::size_t>(x);
+                if (row.is_sky(place)) continue;
+                const double beyond_m = beyond_grid_m(geometry, row.x_m[place], row.y_m[place]);
+                if (beyond_m == 0) continue;
+                const double share = std::min(1.0, beyond_m / reach_m);
+                picture.set(x, y, mixed(picture.at(x, y), shades.page, share * (2 - share)));
+            }
         }
     });
 }

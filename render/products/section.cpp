@@ -32,9 +32,36 @@ struct Corner {
     double weight = 0;
 };
 
-grid::Sample sample_of(const ColumnCells& cells, level2::Moment moment, int level) {
+std::array<Corner, 4> corners_at(const grid::BrickView& view, const Neighbours& across,
+                                 const Neighbours& along) {
+    std::array<Corner, 4> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const bool east = i % 2 == 1;
+        const bool north = i >= 2;
+        corners[i].weight = (east ? across.second_share : 1 - across.second_share) *
+                            (north ? along.second_share : 1 - along.second_share);
+        read_column(view, east ? across.second : across.first, north ? along.second : along.first,
+                    corners[i].cells);
+    }
+    return corners;
+}
+
+grid::Sample sample_of(const ColumnCells& cells, float half_period, int level) {
     const auto i = static_cast<std::size_t>(level);
-    return {cells.status[i], cells.values[i], 0, grid::half_period_of(moment, 0)};
+    return {cells.status[i], cells.values[i], 0, half_period};
+}
+
+// Returns for each level the state that all four columns have there; value where they differ, or
+// have values.
+std::vector<grid::CellStatus> states_of_all(const std::array<Corner, 4>& corners) {
+    std::vector<grid::CellStatus> states = corners.front().cells.status;
+    for (const Corner& corner : corners) {
+        for (std::size_t level = 0; level < states.size(); ++level) {
+            if (corner.cells.status[level] != states[level])
+                states[level] = grid::CellStatus::value;
+        }
+    }
+    return states;
 }
 
 }  // namespace
@@ -60,6 +87,7 @@ Section cut_section(const grid::BrickView& view, level2::Moment moment, const Se
         rows.push_back(levels ? std::optional{*levels} : std::nullopt);
     }
     const grid::GridProjection projection(*view.spec);
+    const float half_period = grid::half_period_of(moment, 0);
     for_each_piece(width, threads, [&](int x) {
         const double arc_m = section.length_m * (x + 0.5) / width;
         const auto column = projection.to_column(start.to_geo({to_end.azimuth_deg, arc_m}));
@@ -67,24 +95,24 @@ Section cut_section(const grid::BrickView& view, level2::Moment moment, const Se
         const auto along = neighbours(column.y, view.spec->ny);
         if (!across || !along) return;
         section.in_grid[static_cast<std::size_t>(x)] = 1;
-        std::array<Corner, 4> corners;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const bool east = i % 2 == 1;
-            const bool north = i >= 2;
-            corners[i].weight = (east ? across->second_share : 1 - across->second_share) *
-                                (north ? along->second_share : 1 - along->second_share);
-            read_column(view, east ? across->second : across->first,
-                        north ? along->second : along->first, corners[i].cells);
-        }
+        const std::array<Corner, 4> corners = corners_at(view, *across, *along);
+        const auto states = states_of_all(corners);
         CellMixer mixer(moment);
         for (int y = 0; y < height; ++y) {
             const auto& levels = rows[static_cast<std::size_t>(y)];
             if (!levels) continue;
+            // Cells of one state give that state; most of a section is clear or was not seen.
+            const grid::CellStatus state = states[static_cast<std::size_t>(levels->lower)];
+            if (state != grid::CellStatus::value &&
+                state == states[static_cast<std::size_t>(levels->upper)]) {
+                section.field.put(section.field.index(x, y), state, 0);
+                continue;
+            }
             mixer.clear();
             for (const Corner& corner : corners) {
-                mixer.add(sample_of(corner.cells, moment, levels->lower),
+                mixer.add(sample_of(corner.cells, half_period, levels->lower),
                           corner.weight * (1 - levels->upper_share));
-                mixer.add(sample_of(corner.cells, moment, levels->upper),
+                mixer.add(sample_of(corner.cells, half_period, levels->upper),
                           corner.weight * levels->upper_share);
             }
             const grid::CellResult cell = mixer.result();

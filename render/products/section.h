@@ -57,7 +57,8 @@ struct SectionPlace {
 // `fonts` is null, there are no axes.
 [[nodiscard]] Image draw_section(const Section& section, const ColourTable& table,
                                  const SectionPlace& place, int width, int height,
-                                 const GroundLook& look, const Units& units, const Fonts* fonts);
+                                 const GroundLook& look, const Units& units, const Fonts* fonts,
+                                 int threads = 1);
 
 // Returns "35.333 N 97.278 W", rounded to 0.001 degrees.
 [[nodiscard]] std::string place_text(grid::GeoPoint point);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "render/image/round_step.h"
 #include "render/image/shades.h"
 #include "render/products/section.h"
@@ -120,9 +121,9 @@ std::string place_text(grid::GeoPoint point) {
 
 Image draw_section(const Section& section, const ColourTable& table, const SectionPlace& place,
                    int width, int height, const GroundLook& look, const Units& units,
-                   const Fonts* fonts) {
+                   const Fonts* fonts, int threads) {
     Image image(width, height, look.shades->page);
-    for (int y = 0; y < place.height; ++y) {
+    for_each_piece(place.height, threads, [&](int y) {
         for (int x = 0; x < place.width; ++x) {
             if (section.in_grid[static_cast<std::size_t>(x)] == 0) continue;
             const std::size_t cell = section.field.index(x, place.height - 1 - y);
@@ -130,7 +131,7 @@ Image draw_section(const Section& section, const ColourTable& table, const Secti
                 place.left + x, place.top + y,
                 shade_of(section.field, cell, table, {place.left + x, place.top + y, 0}, look));
         }
-    }
+    });
     if (fonts == nullptr) return image;
     Canvas canvas(image);
     Axes(canvas, *fonts, section, place, look, units, width).draw();

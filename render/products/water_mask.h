@@ -24,24 +24,39 @@ struct WaterMask {
     // that of the nearest cell outside the raster. An empty mask is all land.
     [[nodiscard]] double water_at(GroundPoint p) const {
         if (water.empty()) return 0;
-        const double x = std::clamp((p.x_m - west_m) / metres_per_cell - 0.5, 0.0, width - 1.0);
-        const double y = std::clamp((north_m - p.y_m) / metres_per_cell - 0.5, 0.0, height - 1.0);
-        const int left = std::min(static_cast<int>(x), std::max(0, width - 2));
-        const int top = std::min(static_cast<int>(y), std::max(0, height - 2));
-        const int right = std::min(left + 1, width - 1);
-        const int bottom = std::min(top + 1, height - 1);
-        const double corner = at(left, top);
-        // Most places are far from any shore.
-        if (corner == at(right, top) && corner == at(left, bottom) && corner == at(right, bottom))
-            return corner / 255;
-        const auto row = [&](int iy) { return std::lerp(at(left, iy), at(right, iy), x - left); };
-        return std::lerp(row(top), row(bottom), y - top) / 255;
+        return share_at((p.x_m - west_m) / metres_per_cell - 0.5,
+                        (north_m - p.y_m) / metres_per_cell - 0.5);
     }
 
-  private:
-    [[nodiscard]] double at(int x, int y) const {
-        return water[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                     static_cast<std::size_t>(x)];
+    // The same in two steps: where the points of a row are in the raster, and the share at such a
+    // place of a mask that is not empty.
+    void places_of(const GroundRow& row, std::vector<double>& x, std::vector<double>& y) const {
+        x.resize(row.x_m.size());
+        y.resize(row.y_m.size());
+        for (std::size_t i = 0; i < x.size(); ++i)
+            x[i] = (row.x_m[i] - west_m) / metres_per_cell - 0.5;
+        for (std::size_t i = 0; i < y.size(); ++i)
+            y[i] = (north_m - row.y_m[i]) / metres_per_cell - 0.5;
+    }
+    [[nodiscard]] double share_at(double place_x, double place_y) const {
+        const double x = std::clamp(place_x, 0.0, width - 1.0);
+        const double y = std::clamp(place_y, 0.0, height - 1.0);
+        const int left = std::min(static_cast<int>(x), std::max(0, width - 2));
+        const int top = std::min(static_cast<int>(y), std::max(0, height - 2));
+        const std::size_t to_right = width > 1 ? 1 : 0;
+        const std::size_t down = height > 1 ? static_cast<std::size_t>(width) : 0;
+        const std::uint8_t* const corner =
+            water.data() + static_cast<std::size_t>(top) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(left);
+        // Most places are far from any shore.
+        const bool is_plain = corner[0] == corner[to_right] && corner[0] == corner[down] &&
+                              corner[0] == corner[down + to_right];
+        if (is_plain) return corner[0] == 0 ? 0 : corner[0] / 255.0;
+        const auto row = [&](const std::uint8_t* cells) {
+            return std::lerp(static_cast<double>(cells[0]), static_cast<double>(cells[to_right]),
+                             x - left);
+        };
+        return std::lerp(row(corner), row(corner + down), y - top) / 255;
     }
 };
 

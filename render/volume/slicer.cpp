@@ -30,11 +30,12 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
 
 VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
                            const ViewGeometry& geometry, const VolumeOptions& options,
-                           TransferCache* keeper)
+                           TransferCache* cache, int threads)
     : geometry_(geometry), table_(table), options_(options) {
     TransferCache own;
-    transfer_ = (keeper != nullptr ? *keeper : own)
-                    .get(table, quantization, options.opacity, step_m(), options.integration);
+    transfer_ =
+        (cache != nullptr ? *cache : own)
+            .get(table, quantization, options.opacity, step_m(), options.integration, threads);
 }
 
 double VolumeSlicer::step_m() const {

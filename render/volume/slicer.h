@@ -64,10 +64,10 @@ struct VolumeOptions {
 // many threads may call draw().
 class VolumeSlicer {
   public:
-    // The geometry must outlive this object; `keeper` may be null.
+    // The geometry must outlive this object; `cache` may be null. `threads` make what is shared.
     VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
                  const ViewGeometry& geometry, const VolumeOptions& options,
-                 TransferCache* cache = nullptr);
+                 TransferCache* cache = nullptr, int threads = 1);
 
     // Draws a grid, which must be that of the geometry.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;

@@ -5,11 +5,11 @@ namespace stormcellar::render {
 std::shared_ptr<const TransferFunction> TransferCache::get(const ColourTable& table,
                                                            const grid::Quantization& quantization,
                                                            double opacity, double step_m,
-                                                           Integration integration) {
+                                                           Integration integration, int threads) {
     Key key{table, quantization, opacity, step_m, integration};
     if (key_ != key) {
         made_ = std::make_shared<const TransferFunction>(table, quantization, opacity, step_m,
-                                                         integration);
+                                                         integration, threads);
         key_ = std::move(key);
         ++times_made_;
     }

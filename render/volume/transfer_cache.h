@@ -17,7 +17,7 @@ class TransferCache {
     // Returns the function; makes it anew if anything differs from the last call.
     [[nodiscard]] std::shared_ptr<const TransferFunction> get(
         const ColourTable& table, const grid::Quantization& quantization, double opacity,
-        double step_m, Integration integration);
+        double step_m, Integration integration, int threads = 1);
     [[nodiscard]] int times_made() const { return times_made_; }
 
   private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "render/volume/step_integrals.h"
 
 namespace stormcellar::render {
@@ -82,20 +83,22 @@ PieceOpacities opacities_of(const BinLooks& look, std::size_t distance) {
     return opacities;
 }
 
-void fill_second_order(const BinLooks& look, Entries& entries) {
+void fill_second_order(const BinLooks& look, int threads, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         if (look.depth[i] <= 0) continue;
         entries[i * bins + i] =
             entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
     }
-    StepIntegrals steps;
-    for (std::size_t distance = 1; distance < bins; ++distance) {
+    // Each distance has entries of its own.
+    for_each_piece(static_cast<int>(bins) - 1, threads, [&](int piece) {
+        const auto distance = static_cast<std::size_t>(piece) + 1;
+        StepIntegrals steps;
         const PieceOpacities opacities = opacities_of(look, distance);
         for (const StepDirection direction : {StepDirection::rising, StepDirection::falling}) {
             integrate_steps(look, opacities, distance, direction, steps);
             put_steps(steps, distance, direction, entries);
         }
-    }
+    });
 }
 
 }  // namespace
@@ -129,7 +132,8 @@ void TransferFunction::choose_bins(const ColourTable& table) {
 }
 
 TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
-                                   double opacity, double step_m, Integration integration)
+                                   double opacity, double step_m, Integration integration,
+                                   int threads)
     : entries_(bins * bins), visible_below_(bins + 1) {
     choose_bins(table);
     const auto step = static_cast<double>(quantization.step);
@@ -152,7 +156,7 @@ TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantiz
         visible_below_[i + 1] = visible_below_[i] + (look.depth[i] > 0 ? 1 : 0);
     if (integration == Integration::riemann) fill_riemann(look, entries_);
     if (integration == Integration::first_order) fill_first_order(look, entries_);
-    if (integration == Integration::second_order) fill_second_order(look, entries_);
+    if (integration == Integration::second_order) fill_second_order(look, threads, entries_);
 }
 
 }  // namespace stormcellar::render

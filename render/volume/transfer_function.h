@@ -34,9 +34,10 @@ class TransferFunction {
   public:
     static constexpr int bin_count = 256;
 
-    // Makes the table for steps of `step_m` in the drawn scene.
+    // Makes the table for steps of `step_m` in the drawn scene. The bits do not depend on the
+    // number of threads.
     TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
-                     double opacity, double step_m, Integration integration);
+                     double opacity, double step_m, Integration integration, int threads = 1);
 
     // The bin of a code is the whole part of bin_offset + bin_slope * code, bounded. The code may
     // have a fraction (the mean of several codes). Rounding never makes the bin too low: values up

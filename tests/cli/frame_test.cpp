@@ -123,7 +123,8 @@ TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
     EXPECT_EQ(run(panels + "REF --probe 5,5"), exit_bad_usage);
     // 2026-11-26: the first error advised another product, which the second then refused.
     EXPECT_EQ(run("--domain KBGM --panels REF -o " + out("b.tif")), exit_bad_usage);
-    EXPECT_THAT(messages_, ::testing::HasSubstr("GeoTIFF and KMZ hold one map"));
+    EXPECT_THAT(messages_, ::testing::HasSubstr("GeoTIFF and KMZ hold a map of one moment; give "
+                                                "--moment instead of --panels"));
     EXPECT_THAT(messages_, ::testing::Not(::testing::HasSubstr("--product composite")));
     EXPECT_EQ(run(panels + "REF,RHO"), exit_nothing_matched);
     EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of RHO"));

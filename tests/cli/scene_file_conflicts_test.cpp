@@ -104,6 +104,42 @@ TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
 }
 
 // 2026-11-22: the number of slices was dropped beside a tolerance, and rounded by --explain.
+TEST_F(SceneFileTest, PanelsAreForFrameAlone) {
+    commit();
+    const auto with_scene = [&](const std::string& arguments) {
+        return run(fmt::format("{} KBGM --cache {} --scene {}", arguments, cache(), at("s.toml")));
+    };
+    const std::string frame = "frame --json -o " + at("a.png");
+    const std::string loop = "loop -o " + at("a.webp");
+    write("[picture]\nproduct = \"composite\"\npanels = [\"REF\"]\n");
+    const auto drawn = with_scene(frame);
+    EXPECT_EQ(drawn.status, exit_done) << drawn.err;
+    EXPECT_THAT(drawn.out, HasSubstr("\"width\": 1280")) << "the size of panels";
+    const auto one = with_scene(frame + " --moment REF");
+    EXPECT_EQ(one.status, exit_done) << one.err;
+    EXPECT_THAT(one.out, HasSubstr("\"width\": 796")) << "what is typed wins over the file";
+    const auto refused = with_scene(loop);
+    EXPECT_EQ(refused.status, exit_bad_usage);
+    EXPECT_THAT(refused.err, HasSubstr(at("s.toml") + ": [picture] panels is for frame"));
+    EXPECT_EQ(with_scene(loop + " --moment REF").status, exit_done);
+    write("[picture]\nproduct = \"composite\"\n");
+    const auto typed = with_scene(loop + " --panels REF,VEL");
+    EXPECT_EQ(typed.status, exit_bad_usage);
+    EXPECT_THAT(typed.err, HasSubstr("--panels is for frame"));
+    EXPECT_THAT(typed.err, HasSubstr("name it with --moment"));
+}
+
+TEST_F(SceneFileTest, WrongPanelsAreSaidWithTheirLine) {
+    EXPECT_EQ(complaint("[picture]\npanels = [\"REF\", \"REF\"]\n"),
+              "s.toml:2: [picture] panels: the list names REF twice");
+    EXPECT_THAT(complaint("[picture]\npanels = [\"XYZ\"]\n"),
+                HasSubstr("s.toml:2: [picture] panels: the list must name moments (REF, VEL"));
+    EXPECT_THAT(complaint("[picture]\npanels = []\n"), HasSubstr("not ''"));
+    EXPECT_EQ(complaint("[picture]\nmoment = \"VEL\"\npanels = [\"REF\", \"VEL\"]\n"),
+              "s.toml:3: [picture] panels: each panel has a moment and colors of its own; leave "
+              "out moment");
+}
+
 TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     commit();
     const auto draw = [&](const std::string& more) {

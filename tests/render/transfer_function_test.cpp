@@ -41,6 +41,22 @@ TEST(TransferFunction, BinsHoldTheirValues) {
     }
 }
 
+TEST(TransferFunction, TheNumberOfThreadsChangesNoBit) {
+    for (const Integration integration : {Integration::first_order, Integration::second_order}) {
+        const auto one = of_reflectivity(1000, integration);
+        const TransferFunction many(nws_reflectivity(), half_db, 1, 1000, integration, 5);
+        for (int near = 0; near < TransferFunction::bin_count; ++near) {
+            for (int far = 0; far < TransferFunction::bin_count; ++far) {
+                const TransferEntry &a = one.entry(near, far), &b = many.entry(near, far);
+                ASSERT_EQ(a.red, b.red) << near << " " << far;
+                ASSERT_EQ(a.green, b.green);
+                ASSERT_EQ(a.blue, b.blue);
+                ASSERT_EQ(a.depth, b.depth);
+            }
+        }
+    }
+}
+
 TEST(TransferFunction, EachClassBeginsABin) {
     const auto transfer = of_reflectivity(1000, Integration::riemann);
     for (const ColourStop& stop : nws_reflectivity().stops) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace stormcellar::render {
@@ -23,8 +24,21 @@ struct Image {
 
     Image() = default;
     Image(int w, int h, Rgba8 fill);
-    [[nodiscard]] Rgba8 at(int x, int y) const;  // the pixel must exist
-    void set(int x, int y, Rgba8 colour);
+    // The pixel must exist.
+    [[nodiscard]] Rgba8 at(int x, int y) const {
+        const std::size_t first = offset(x, y);
+        return {rgba[first], rgba[first + 1], rgba[first + 2], rgba[first + 3]};
+    }
+    void set(int x, int y, Rgba8 colour) {
+        std::memcpy(rgba.data() + offset(x, y), colour.data(), colour.size());
+    }
+
+  private:
+    [[nodiscard]] std::size_t offset(int x, int y) const {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(x)) *
+               4;
+    }
 };
 
 }  // namespace stormcellar::render

@@ -1,0 +1,52 @@
+// render/image/letter_halos.h -- the outlines of letters, which make the halo of a text.
+//
+// An outline is a letter drawn with a round pen. To draw one costs far more than to copy it, and a
+// map has the same letters again and again, so each letter of a font and a size is drawn once.
+// Letters stand on whole pixels, so that a copy is the letter to the bit. Where the outlines of two
+// letters meet in a pixel, they come from its two sides, so that their shares are added.
+//
+// Units     Pixels.
+// Threads   One thread at a time.
+// Errors    What Cairo cannot draw (no memory) is left out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+// These are Cairo's own names, so that its headers stay out of ours.
+// NOLINTBEGIN(bugprone-reserved-identifier)
+struct _cairo;
+struct _cairo_scaled_font;
+// NOLINTEND(bugprone-reserved-identifier)
+
+namespace stormcellar::render {
+
+// The share of each pixel that is covered, 0 to 255, row by row from the top.
+struct CoverMask {
+    int left = 0, top = 0;  // of the mask, from the place of the letter or in the picture
+    int width = 0, height = 0;
+    int stride = 0;  // bytes from row to row
+    std::vector<std::uint8_t> cover;
+};
+
+class LetterHalos {
+  public:
+    // Returns the outline of a text that starts at x on its baseline y, drawn with a pen of this
+    // width. `bold` and `size` tell the fonts of a canvas apart.
+    [[nodiscard]] CoverMask halo_of(_cairo_scaled_font* font, bool bold, double size,
+                                    const char* text, int x, int y, double pen);
+
+  private:
+    using Key = std::tuple<bool, double, unsigned long>;  // bold, size, number of the glyph
+    const CoverMask& letter(_cairo_scaled_font* font, const Key& key, double pen);
+
+    std::map<Key, CoverMask> letters_;
+};
+
+// Paints what the mask covers with the context's source.
+void paint_cover(_cairo* context, CoverMask& mask);
+
+}  // namespace stormcellar::render
