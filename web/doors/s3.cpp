@@ -96,7 +96,10 @@ std::optional<Answer> S3Door::answer_at_once(const Request& request) {
         return std::nullopt;
     }
     const auto key = parse_s3_key(path.key);
-    return key ? volume_answer_at_once(request, *files_, key->station, key->name) : std::nullopt;
+    if (!key) return std::nullopt;
+    auto answer = volume_answer_at_once(request, *files_, key->station, key->name);
+    // What is refused is refused in the words of S3: see object_answer().
+    return answer && answer->status < 400 ? std::move(answer) : std::nullopt;
 }
 
 Answer S3Door::answer(const Request& request) {

@@ -1,0 +1,132 @@
+// Raw volumes by station and name (docs/web/raw.md).
+#include "web/doors/volumes.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/web/served_volumes.h"
+
+namespace stormcellar::web {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* new_name = "KTLX20170101_030027_V06";
+constexpr const char* new_path = "/volumes/KTLX/KTLX20170101_030027_V06";
+
+class Volumes : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        door_ = std::make_unique<VolumesDoor>(served_volumes().files());
+    }
+    Answer get(std::string_view target, Fields headers = {}) {
+        return asked(*door_, target, std::move(headers));
+    }
+    json list(std::string_view target) { return json::parse(body_of(get(target))); }
+    static std::string bytes_of_file(const std::string& name) {
+        const auto bytes = read_file(*testing::data_directory() / "volumes" / name).value();
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+    std::unique_ptr<VolumesDoor> door_;
+};
+
+TEST_F(Volumes, StationsAreListedWithTheirPlaces) {
+    EXPECT_EQ(header_of(get("/volumes"), "Location"), "http://localhost:8090/volumes/");
+    const json stations = list("/volumes/").at("stations");
+    ASSERT_EQ(stations.size(), 2U);
+    EXPECT_EQ(stations[0].at("station"), "KABR");
+    EXPECT_EQ(stations[1].at("station"), "KTLX");
+    EXPECT_EQ(stations[1].at("name"), "Oklahoma City");
+    EXPECT_NEAR(stations[1].at("latitude_deg").get<double>(), 35.333, 0.001);
+}
+
+TEST_F(Volumes, AStationsVolumesAreListedNewestFirst) {
+    const json all = list("/volumes/KTLX/");
+    EXPECT_EQ(all.at("station"), "KTLX");
+    EXPECT_EQ(all.at("is_cut"), false);
+    ASSERT_EQ(all.at("volumes").size(), 2U);
+    const json newest = all.at("volumes").at(0);
+    EXPECT_EQ(newest.at("name"), new_name);
+    EXPECT_EQ(newest.at("size_bytes"), 488081);
+    EXPECT_EQ(newest.at("growing"), false);
+    EXPECT_EQ(newest.at("href"), std::string("http://localhost:8090") + new_path);
+    EXPECT_EQ(newest.at("start").get<std::string>().substr(0, 19), "2017-01-01T03:00:27");
+
+    EXPECT_EQ(list("/volumes/KTLX/?limit=1").at("volumes"), json::array({newest}));
+    EXPECT_EQ(list("/volumes/KTLX/?limit=1").at("is_cut"), true);
+    EXPECT_EQ(list("/volumes/KTLX/?from=2017-01-01").at("volumes"), json::array({newest}));
+    EXPECT_EQ(list("/volumes/KTLX/?to=1991-07-21").at("volumes").at(0), all.at("volumes").at(1));
+    EXPECT_EQ(list("/volumes/KTLX/?from=2018-01-01").at("volumes").size(), 0U);
+}
+
+TEST_F(Volumes, BytesAreThoseOfTheFileInRangesToo) {
+    const std::string whole = bytes_of_file(new_name);
+    const Answer answer = get(new_path);
+    EXPECT_EQ(answer.status, 200U);
+    EXPECT_TRUE(body_of(answer) == whole);
+    EXPECT_EQ(header_of(answer, "Accept-Ranges"), "bytes");
+    EXPECT_NE(header_of(answer, "Last-Modified"), "");
+    const Answer part = get(new_path, {{"Range", "bytes=100-199"}});
+    EXPECT_EQ(part.status, 206U);
+    EXPECT_EQ(body_of(part), whole.substr(100, 100));
+    EXPECT_EQ(header_of(part, "Content-Range"), "bytes 100-199/488081");
+    EXPECT_EQ(body_of(get(new_path, {{"Range", "bytes=-7"}})), whole.substr(whole.size() - 7));
+    EXPECT_EQ(get(new_path, {{"Range", "bytes=488081-"}}).status, 416U);
+    EXPECT_EQ(get(new_path, {{"If-None-Match", header_of(answer, "ETag")}}).status, 304U);
+    const Answer several = get(new_path, {{"Range", "bytes=0-3,8-11"}});
+    EXPECT_EQ(several.status, 206U);
+    EXPECT_EQ(header_of(several, "Content-Type").substr(0, 21), "multipart/byteranges;");
+    for (const std::string& piece : {whole.substr(0, 4), whole.substr(8, 4)})
+        EXPECT_NE(body_of(several).find("\r\n\r\n" + piece + "\r\n"), std::string::npos);
+}
+
+TEST_F(Volumes, WhatIsNotThereIsNotFoundAndWhatMakesNoSenseIsRefused) {
+    for (const char* target :
+         {"/volumes/KZZZ/", "/volumes/KTLX/KTLX20170101_030028_V06", "/volumes/KABR/x",
+          "/volumes/KABR/KTLX20170101_030027_V06", "/volumes/KTLX/KTLX20170101_030027_V06/",
+          "/volumes/KTLX/KTLX20170101_030027_V06/x"})
+        EXPECT_EQ(get(target).status, 404U) << target;
+    for (const char* query : {"limit=0", "limit=10001", "limit=-1", "limit=1x", "from=never"})
+        EXPECT_EQ(get(std::string("/volumes/KTLX/?") + query).status, 400U) << query;
+}
+
+TEST_F(Volumes, ADroppedFileIsFoundByItsOwnNameAndGoneWhenItIsDeleted) {
+    ServedVolumes served(false);
+    served.take(*testing::data_directory() / "volumes" / new_name,
+                "Level2_KTLX_20170101_0300.ar2v");
+    door_ = std::make_unique<VolumesDoor>(served.files());
+    const std::string name = list("/volumes/KTLX/").at("volumes").at(0).at("name");
+    EXPECT_EQ(name.substr(0, 19), "KTLX20170101_030027");
+    EXPECT_TRUE(body_of(get("/volumes/KTLX/" + name)) == bytes_of_file(new_name));
+    EXPECT_TRUE(body_of(get("/volumes/KTLX/Level2_KTLX_20170101_0300.ar2v")) ==
+                bytes_of_file(new_name));
+    std::filesystem::remove(served.drop() / "Level2_KTLX_20170101_0300.ar2v");
+    // An open file is kept for two seconds; a door of its own has none.
+    EXPECT_EQ(
+        VolumesDoor(RawFiles::open_catalog({.catalog = served.state() / "catalog", .scratch = {}}))
+            .answer(request_for("/volumes/KTLX/" + name))
+            .status,
+        410U);
+}
+
+TEST_F(Volumes, AVolumeThatGrowsIsGivenWithWhatIsThere) {
+    ServedVolumes served(false);
+    const auto take = [&](std::size_t count) {
+        const std::string bytes = served.take_chunks(count);
+        door_ = std::make_unique<VolumesDoor>(
+            RawFiles::open_catalog({.catalog = served.state() / "catalog", .scratch = {}}));
+        const json volume = list("/volumes/KLOT/").at("volumes").at(0);
+        EXPECT_EQ(volume.at("size_bytes"), bytes.size());
+        const Answer answer = get("/volumes/KLOT/" + volume.at("name").get<std::string>());
+        EXPECT_EQ(answer.status, 200U);
+        EXPECT_TRUE(body_of(answer) == bytes);
+        return volume.at("growing").get<bool>();
+    };
+    EXPECT_TRUE(take(10));
+    EXPECT_TRUE(take(20));
+    EXPECT_FALSE(take(1000)) << "its last chunk came";
+}
+
+}  // namespace
+}  // namespace stormcellar::web
