@@ -246,8 +246,11 @@ Image Canvas::image() const {
     cairo_surface_flush(surface_.get());
     const unsigned char* pixels = cairo_image_surface_get_data(surface_.get());
     const int stride = cairo_image_surface_get_stride(surface_.get());
-    Image image(width_, height_, {0, 0, 0, 255});
+    Image image;  // every byte of it is set below
+    image.width = width_;
+    image.height = height_;
     const auto width = static_cast<std::size_t>(width_);
+    image.rgba.resize(4 * width * static_cast<std::size_t>(height_));
     for (int y = 0; y < height_; ++y) {
         swap_red_and_blue(pixels + static_cast<std::ptrdiff_t>(y) * stride,
                           image.rgba.data() + 4 * static_cast<std::size_t>(y) * width, width);

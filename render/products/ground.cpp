@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "render/products/smooth_field.h"
+#include "render/products/water_rows.h"
 #include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
@@ -72,12 +74,12 @@ void for_each_band(const ViewGeometry& geometry, int threads, Work work) {
 // divisions of a row are made first, in loops that the compiler makes many of at once.
 class RowFinder {
   public:
-    RowFinder(const grid::GridSpec& spec, const WaterMask* water)
-        : columns_(spec), water_(water != nullptr && !water->water.empty() ? water : nullptr) {}
+    // `water` may be null.
+    RowFinder(const grid::GridSpec& spec, const WaterRows* water) : columns_(spec), water_(water) {}
 
     void find(const GroundRow& row) {
         columns_.places_of(row, column_x_, column_y_);
-        if (water_ != nullptr) water_->places_of(row, water_x_, water_y_);
+        if (water_ != nullptr) water_->find(row, water_at_);
     }
     // Returns -1 beyond the grid and in the sky.
     [[nodiscard]] std::ptrdiff_t column(std::size_t x) const {
@@ -85,13 +87,14 @@ class RowFinder {
     }
     // Not for the sky.
     [[nodiscard]] double water(std::size_t x) const {
-        return water_ == nullptr ? 0 : water_->share_at(water_x_[x], water_y_[x]);
+        return water_ == nullptr ? 0 : water_at_.share[x];
     }
 
   private:
     ColumnFinder columns_;
-    const WaterMask* water_;
-    std::vector<double> column_x_, column_y_, water_x_, water_y_;
+    const WaterRows* water_;
+    std::vector<double> column_x_, column_y_;
+    WaterRow water_at_;
 };
 
 // Calls shade(column, patch) for every pixel over the grid.
@@ -99,8 +102,10 @@ template <class Shade>
 Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, const GroundLook& look,
             int threads, Shade shade) {
     Image image(geometry.width(), geometry.height(), look.shades->page);
+    std::optional<WaterRows> water;
+    if (look.water != nullptr && !look.water->water.empty()) water.emplace(*look.water);
     for_each_band(geometry, threads, [&](int first_row, int end_row) {
-        RowFinder finder(spec, look.water);
+        RowFinder finder(spec, water ? &*water : nullptr);
         GroundRow row;
         for (int y = first_row; y < end_row; ++y) {
             geometry.ground_of_row(y, row);
@@ -125,8 +130,7 @@ Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, const Grou
 double beyond_grid_m(const ViewGeometry& geometry, double x_m, double y_m) {
     const double aside_m = std::max(0.0, std::abs(x_m) - geometry.half_x_m());
     const double ahead_m = std::max(0.0, std::abs(y_m) - geometry.half_y_m());
-    if (aside_m == 0 || ahead_m == 0) return std::max(aside_m, ahead_m);
-    return std::hypot(aside_m, ahead_m);
+    return std::sqrt(aside_m * aside_m + ahead_m * ahead_m);
 }
 
 }  // namespace

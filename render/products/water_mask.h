@@ -28,16 +28,8 @@ struct WaterMask {
                         (north_m - p.y_m) / metres_per_cell - 0.5);
     }
 
-    // The same in two steps: where the points of a row are in the raster, and the share at such a
-    // place of a mask that is not empty.
-    void places_of(const GroundRow& row, std::vector<double>& x, std::vector<double>& y) const {
-        x.resize(row.x_m.size());
-        y.resize(row.y_m.size());
-        for (std::size_t i = 0; i < x.size(); ++i)
-            x[i] = (row.x_m[i] - west_m) / metres_per_cell - 0.5;
-        for (std::size_t i = 0; i < y.size(); ++i)
-            y[i] = (north_m - row.y_m[i]) / metres_per_cell - 0.5;
-    }
+    // The same for a place in the raster, counted in cells from the middle of the first one; the
+    // mask must not be empty.
     [[nodiscard]] double share_at(double place_x, double place_y) const {
         const double x = std::clamp(place_x, 0.0, width - 1.0);
         const double y = std::clamp(place_y, 0.0, height - 1.0);

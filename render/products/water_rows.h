@@ -1,0 +1,47 @@
+// render/products/water_rows.h -- the share of water under each pixel of a row.
+//
+// Most places are far from any shore. So the mask is divided into blocks, and where all blocks
+// under a run of pixels are plain land or plain water, the run is not looked at pixel by pixel.
+//
+// Accuracy  The bits of WaterMask::water_at().
+// Threads   Immutable; each thread has a WaterRow of its own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/products/water_mask.h"
+#include "stormcellar/render/view_geometry.h"
+
+namespace stormcellar::render {
+
+struct WaterRow {
+    std::vector<double> share;  // of each pixel, 0..1; nothing is said about the sky
+    std::vector<double> x, y;   // where the pixels are in the raster
+};
+
+class WaterRows {
+  public:
+    // The mask must not be empty and must outlive this object.
+    explicit WaterRows(const WaterMask& mask);
+
+    void find(const GroundRow& row, WaterRow& found) const;
+
+  private:
+    static constexpr std::int16_t shore = -1;  // of a block whose cells differ
+
+    // Returns what all cells about the pixels from `first` to `end` have, or `shore`.
+    [[nodiscard]] std::int16_t common(const WaterRow& row, std::size_t first,
+                                      std::size_t end) const;
+    [[nodiscard]] std::int16_t& block(int bx, int by) {
+        return blocks_[static_cast<std::size_t>(by) * static_cast<std::size_t>(across_) +
+                       static_cast<std::size_t>(bx)];
+    }
+
+    const WaterMask& mask_;
+    int across_, down_;
+    std::vector<std::int16_t> blocks_;
+};
+
+}  // namespace stormcellar::render
