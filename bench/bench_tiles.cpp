@@ -1,7 +1,8 @@
 // bench_tiles: how long a tile of the data server takes, of a site's grid and of a national mosaic.
 //
-// usage: bench_tiles [--data DIR] [--tiles N] [--json] [FILE]
-//   (bench/request.h; a busy volume unless one is named; 20 tiles a row)
+// usage: bench_tiles [--data DIR] [--tiles N] [--cache DIR] [--json] [FILE]
+//   (bench/request.h; a busy volume unless one is named; 20 tiles a row; with --cache, the mosaic
+//   stays in that directory for the next time)
 // `stormcellar serve` has the site's grids, and then a cache with 7000 x 3500 x 33 cells of the
 // United States (bench/us_storms.h). One client asks for one tile at a time, each by a connection
 // of its own. There is a row for each product of reflectivity and zoom:
@@ -78,7 +79,7 @@ class TileBench {
         double first_ms = std::numeric_limits<double>::quiet_NaN();
         const std::string layer = row.domain + " " + row.layer;
         if (layer != last_layer_) {
-            const auto first = time_of(paths_about(row, count + 1).back() + "?smooth=cubic");
+            const auto first = time_of(paths_about(row, 1).front() + "?smooth=cubic");
             if (!first) return pass_on(first);
             first_ms = *first;
             last_layer_ = layer;
@@ -155,7 +156,8 @@ Status measure_rows(Result<WebServer> server, const TileRow& place,
     return {};
 }
 
-Status measure_all(const fs::path& file, std::size_t count, const fs::path& scratch, Table& table) {
+Status measure_all(const fs::path& file, std::size_t count, const fs::path& cache,
+                   const fs::path& scratch, Table& table) {
     std::vector<std::string_view> layers;
     for (const render::ProductFacts& facts : render::all_products())
         if (facts.view == render::View::map && !facts.is_of_sweep) layers.push_back(facts.name);
@@ -168,10 +170,11 @@ Status measure_all(const fs::path& file, std::size_t count, const fs::path& scra
                                  {site, {}, station->latitude_deg, station->longitude_deg}, layers,
                                  site_zooms, count, scratch, table);
     if (!status) return status;
-    if (status = fill(scratch / "cache"); !status) return status;
+    if (!fs::exists(cache / "US"))
+        if (status = fill(cache); !status) return status;
     constexpr std::array nation_zooms{4, 6, 8, 10};
-    return measure_rows(serve_files({"--cache", scratch / "cache"}, scratch), {"US", {}, 37.5, -95},
-                        layers, nation_zooms, count, scratch, table);
+    return measure_rows(serve_files({"--cache", cache}, scratch), {"US", {}, 37.5, -95}, layers,
+                        nation_zooms, count, scratch, table);
 }
 
 std::optional<fs::path> file_of(const Request& request) {
@@ -192,7 +195,8 @@ int run(const Request& request) {
     const auto count =
         static_cast<std::size_t>(std::stoul(request.value("--tiles").value_or("20")));
     Table table(request.json);
-    const Status status = measure_all(*file, count, scratch, table);
+    const fs::path cache = request.value("--cache").value_or((scratch / "cache").native());
+    const Status status = measure_all(*file, count, cache, scratch, table);
     table.finish();
     std::error_code ignored;
     fs::remove_all(scratch, ignored);
@@ -212,7 +216,7 @@ int main(int argc, char** argv) {
         .name = "bench_tiles",
         .files = "[FILE]",
         .purpose = "how long a tile takes, of a site and of the United States; --tiles N",
-        .values = {"--tiles"}};
+        .values = {"--tiles", "--cache"}};
     const auto read = bench::read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
     return read.request ? bench::run(*read.request) : read.status;
 }

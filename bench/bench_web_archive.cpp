@@ -4,9 +4,9 @@
 //                          [--requests 300] [--work DIR] [--json]
 //   (bench/request.h; --rows are those of a station's catalog, --grids all of the cache)
 // It makes a catalog and a cache (bench/made_archive.h) in --work, where they stay and are used
-// again, or in a temporary directory. Then it starts the server --runs times, and one client asks
-// --requests times for each thing, one request after another, each for another station and time. A
-// row has:
+// again, or in a temporary directory. Then it starts `stormcellar serve` and stormcellar-web --runs
+// times each, and one client asks the latter --requests times for each thing, one request after
+// another, each for another station and time. A row has:
 //   what        what was started or asked for
 //   count       how often
 //   first_ms    the first time
@@ -153,6 +153,18 @@ std::vector<AskedList> lists_of_volumes(const ScatteredTimes& times) {
     };
 }
 
+// One request for each day, of which the server has seen none, and then again.
+std::vector<AskedList> lists_of_chunks(const MadeArchive& archive) {
+    const auto path = [&archive](std::size_t i) {
+        std::string key = format_utc(archive.start_of(0) + std::chrono::days{i}).substr(0, 10);
+        std::ranges::replace(key, '-', '/');
+        return fmt::format("/s3/unidata-nexrad-level2?list-type=2&prefix={}/{}/", key,
+                           archive.station_of_chunks());
+    };
+    return {{"S3, a day of chunks, first", path, day_reach_ms},
+            {"S3, a day of chunks, again", path, day_reach_ms}};
+}
+
 std::vector<AskedList> lists_of_the_rest(const ScatteredTimes& times) {
     return {
         {"API, stations", [](std::size_t) { return "/api/v1/stations"; }},
@@ -222,15 +234,23 @@ Status measure_archive(const MadeArchive& archive, std::size_t volumes, const Re
         "[web]\nlisten = [\"127.0.0.1:{1}\"]\n",
         directory.native(), port);
     {
-        auto service = measure_starts(
-            "stormcellar-web, start", request.runs,
-            [&] { return serve_configured(configuration, port, directory); }, table);
-        if (!service) return pass_on(service);
+        auto own = measure_starts(
+            "stormcellar serve, start", request.runs,
+            [&] { return serve_archive(archive.catalog(), archive.cache(), directory); }, table);
+        if (!own) return pass_on(own);
     }
     auto server = measure_starts(
-        "stormcellar serve, start", request.runs,
-        [&] { return serve_archive(archive.catalog(), archive.cache(), directory); }, table);
+        "stormcellar-web, start", request.runs,
+        [&] { return serve_configured(configuration, port, directory); }, table);
     if (!server) return pass_on(server);
+    constexpr std::size_t volumes_of_a_day = 288;
+    const std::size_t days = archive.volumes_of_chunks() / volumes_of_a_day;
+    for (const AskedList& asked : lists_of_chunks(archive)) {
+        KeptClient client(server->port);
+        if (days == 0) break;
+        if (Status measured = measure_list(asked, days, client, *server, table); !measured)
+            return measured;
+    }
     const ScatteredTimes times(archive, volumes);
     for (const auto& lists : {lists_of_volumes(times), lists_of_the_rest(times)}) {
         for (const AskedList& asked : lists) {

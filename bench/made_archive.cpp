@@ -25,16 +25,20 @@ constexpr std::size_t rows_at_once = 5000;
 // ext4 takes 65,000 names of a file.
 constexpr std::size_t most_links = 60'000;
 
-catalog::FileFacts row_of(const std::string& station, UtcTime start, std::size_t number,
-                          const fs::path& drop) {
+catalog::FileFacts row_of(const std::string& station, const fs::path& path, UtcTime start,
+                          std::size_t number) {
     constexpr std::uint64_t scatter = 0x9E37'79B9'7F4A'7C15;
     catalog::FileFacts facts;
-    facts.path = drop / station / fmt::format("{}{}_V06", station, format_compact(start));
+    facts.path = path;
     facts.station = station;
     facts.size_bytes = 4'000'000 + number * 37 % 3'000'000;
     facts.modified_ns = (start + between_volumes).time_since_epoch().count() * 1'000'000;
     facts.content_hash = scatter * (number + 1);
     facts.state = catalog::FileState::complete;
+    return facts;
+}
+
+catalog::VolumeFacts volume_of(UtcTime start, std::size_t number) {
     catalog::VolumeFacts volume;
     volume.start_time = start;
     volume.end_time = start + between_volumes;
@@ -43,8 +47,7 @@ catalog::FileFacts row_of(const std::string& station, UtcTime start, std::size_t
     volume.sweep_count = 14;
     volume.radial_count = 6480;
     volume.complete = true;
-    facts.volumes = {volume};
-    return facts;
+    return volume;
 }
 
 // 64 x 64 x 16 cells of a round shower, so that some bricks are stored and some are not.
@@ -89,7 +92,7 @@ Result<fs::path> write_source(const grid::Grid& made, const fs::path& directory)
 }
 
 std::string text_of(const ArchiveSize& size) {
-    return fmt::format("{} stations, {} volumes each, {} grids\n", size.stations,
+    return fmt::format("{} stations, {} rows each, and one of chunks; {} grids\n", size.stations,
                        size.volumes_of_a_station, size.grids);
 }
 
@@ -98,14 +101,20 @@ std::string text_of(const ArchiveSize& size) {
 MadeArchive::MadeArchive(fs::path directory, ArchiveSize size)
     : directory_(std::move(directory)), size_(size) {
     for (const Station& station : all_stations()) {
+        if (station.kind != RadarKind::nexrad) continue;
+        station_of_chunks_ = station.icao;
         if (stations_.size() == size.stations) break;
-        if (station.kind == RadarKind::nexrad) stations_.emplace_back(station.icao);
+        stations_.emplace_back(station.icao);
     }
 }
 
 UtcTime MadeArchive::start_of(std::size_t volume) const {
     constexpr UtcTime first{std::chrono::sys_days{std::chrono::year{2024} / 6 / 1}};
     return first + static_cast<int>(volume) * between_volumes;
+}
+
+std::size_t MadeArchive::volumes_of_chunks() const {
+    return size_.volumes_of_a_station / chunks_of_a_volume;
 }
 
 std::size_t MadeArchive::grids_of_a_moment() const {
@@ -138,11 +147,34 @@ Status MadeArchive::fill_catalog() const {
     for (const std::string& station : stations_) {
         std::vector<catalog::FileFacts> rows;
         for (std::size_t i = 0; i < size_.volumes_of_a_station; ++i) {
-            rows.push_back(row_of(station, start_of(i), i, options.drop));
+            const UtcTime start = start_of(i);
+            const std::string name = fmt::format("{}{}_V06", station, format_compact(start));
+            rows.push_back(row_of(station, options.drop / station / name, start, i));
+            rows.back().volumes = {volume_of(start, i)};
             if (rows.size() < rows_at_once && i + 1 < size_.volumes_of_a_station) continue;
             if (Status taken = writer->register_files(station, rows); !taken) return taken;
             rows.clear();
         }
+    }
+    return fill_with_chunks(*writer);
+}
+
+// Of the chunks of a volume only the first has the volume in its row.
+Status MadeArchive::fill_with_chunks(catalog::CatalogWriter& writer) const {
+    const fs::path directory = fs::canonical(drop()) / station_of_chunks_;
+    for (std::size_t i = 0; i < volumes_of_chunks(); ++i) {
+        const UtcTime start = start_of(i);
+        std::string time = format_compact(start);
+        std::ranges::replace(time, '_', '-');
+        std::vector<catalog::FileFacts> rows;
+        for (std::size_t number = 1; number <= chunks_of_a_volume; ++number) {
+            const char kind = number == 1 ? 'S' : number < chunks_of_a_volume ? 'I' : 'E';
+            rows.push_back(row_of(station_of_chunks_,
+                                  directory / fmt::format("{}-{:03}-{}", time, number, kind), start,
+                                  i * chunks_of_a_volume + number));
+        }
+        rows.front().volumes = {volume_of(start, i)};
+        if (Status taken = writer.register_files(station_of_chunks_, rows); !taken) return taken;
     }
     return {};
 }

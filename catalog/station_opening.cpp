@@ -27,6 +27,8 @@ constexpr int most_log_bytes = 512 << 10;
 // KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200 stations
 // would be more than everything else. The kernel's cache has the rest.
 constexpr int most_cached_kib = 128;
+// The same for a reader, which walks through lists.
+constexpr int most_cached_by_reader_kib = 256;
 
 // So that no character of the path has a meaning; `query` is "" or begins with '?'.
 std::string uri_of(const std::filesystem::path& path, std::string_view query) {
@@ -200,6 +202,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(
         std::unique_ptr<StationDatabase> opened(
             new StationDatabase(uri, SQLite::OPEN_READONLY, station));
         if (Status ours = check_identity(opened->database_, path); !ours) return pass_on(ours);
+        opened->database_.exec(fmt::format("PRAGMA cache_size = -{}", most_cached_by_reader_kib));
         opened->is_snapshot_ = uri.ends_with("immutable=1");
         return opened;
     });

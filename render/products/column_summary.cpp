@@ -109,12 +109,8 @@ void summarize_brick(const BrickView& view, int bx, int by, int bz,
     }
     if (entry.kind == BrickKind::status_only) {
         const int cells = std::min(brick_edge, view.spec->nz() - first);
-        const std::byte* const states =
-            view.states.data() + std::size_t{entry.status_index} * (grid::brick_cells / 4);
         for_each_column(view, bx, by, columns, [&](ColumnSummary& column, std::size_t cell) {
-            std::uint32_t run = 0;
-            std::memcpy(&run, states + cell / 4, sizeof run);
-            note_packed_states(column, run, cells, first);
+            note_packed_states(column, states_of_run(view, entry, cell), cells, first);
         });
         return;
     }
@@ -138,6 +134,21 @@ void summarize_band(const BrickView& view, int by, std::vector<ColumnSummary>& c
 }
 
 }  // namespace
+
+std::uint32_t states_of_run(const BrickView& view, const BrickEntry& entry, std::size_t cell) {
+    std::uint32_t states = 0;
+    std::memcpy(
+        &states,
+        view.states.data() + std::size_t{entry.status_index} * (grid::brick_cells / 4) + cell / 4,
+        sizeof states);
+    return states;
+}
+
+bool is_uniform_stack(const BrickView& view, int bx, int by) {
+    for (int bz = 0; bz < view.bricks_z; ++bz)
+        if (view.bricks[view.brick_index(bx, by, bz)].kind != BrickKind::uniform) return false;
+    return true;
+}
 
 std::vector<ColumnSummary> summarize_columns(const BrickView& view, int threads) {
     std::vector<ColumnSummary> columns(view.spec->column_count());

@@ -29,6 +29,15 @@ struct ColumnSummary {
     }
 };
 
+// Returns true if all bricks one over another at this place are uniform: then the columns on them
+// are all the same, and have no value.
+[[nodiscard]] bool is_uniform_stack(const grid::BrickView& view, int bx, int by);
+
+// Returns the states of the 16 cells one over another in a brick of states, from this cell of the
+// brick on: two bits each, the lowest cell in the lowest bits.
+[[nodiscard]] std::uint32_t states_of_run(const grid::BrickView& view,
+                                          const grid::BrickEntry& entry, std::size_t cell);
+
 // Summarizes all columns, from west to east in rows from south to north. The result is the same for
 // any number of threads.
 [[nodiscard]] std::vector<ColumnSummary> summarize_columns(const grid::BrickView& view,

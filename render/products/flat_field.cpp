@@ -22,11 +22,20 @@ using grid::CellStatus;
 template <class Work>
 FlatField for_each_column(const BrickView& view, int threads, const Work& work) {
     FlatField field(view.spec->nx, view.spec->ny);
-    for_each_piece(field.height, threads, [&](int iy) {
+    for_each_piece(view.bricks_y, threads, [&](int by) {
         ColumnCells cells;
-        for (int ix = 0; ix < field.width; ++ix) {
-            read_column(view, ix, iy, cells);
-            work(cells, field, field.index(ix, iy));
+        for (int bx = 0; bx < view.bricks_x; ++bx) {
+            bool must_read = true;
+            const bool all_same = is_uniform_stack(view, bx, by);
+            for (int iy = by * brick_edge; iy < std::min(field.height, (by + 1) * brick_edge);
+                 ++iy) {
+                for (int ix = bx * brick_edge; ix < std::min(field.width, (bx + 1) * brick_edge);
+                     ++ix) {
+                    if (must_read) read_column(view, ix, iy, cells);
+                    must_read = !all_same;
+                    work(cells, field, field.index(ix, iy));
+                }
+            }
         }
     });
     return field;
@@ -89,6 +98,7 @@ double linear_z(CellStatus status, float dbz) {
 }
 
 double liquid(double z, double thickness_m) {
+    if (z <= 0) return 0;
     return 3.44e-6 * std::pow(z, 4.0 / 7) * thickness_m;
 }
 
@@ -100,18 +110,21 @@ double vil_of(const ColumnCells& cells, const std::vector<double>& levels_m,
     const auto z_of = [&](std::size_t i) { return linear_z(cells.status[i], cells.values[i]); };
     const std::size_t last = levels_m.size() - 1;
     double sum = 0;
-    if (is_known(0)) sum += liquid(z_of(0), levels_m.front() - range.bottom_m);
+    double below = z_of(0);
+    if (is_known(0)) sum += liquid(below, levels_m.front() - range.bottom_m);
     for (std::size_t i = 0; i < last; ++i) {
         const double thickness_m = levels_m[i + 1] - levels_m[i];
+        const double above = z_of(i + 1);
         if (is_known(i) && is_known(i + 1)) {
-            sum += liquid((z_of(i) + z_of(i + 1)) / 2, thickness_m);
+            sum += liquid((below + above) / 2, thickness_m);
         } else if (is_known(i)) {
-            sum += liquid(z_of(i), thickness_m / 2);
+            sum += liquid(below, thickness_m / 2);
         } else if (is_known(i + 1)) {
-            sum += liquid(z_of(i + 1), thickness_m / 2);
+            sum += liquid(above, thickness_m / 2);
         }
+        below = above;
     }
-    if (is_known(last)) sum += liquid(z_of(last), range.top_m - levels_m.back());
+    if (is_known(last)) sum += liquid(below, range.top_m - levels_m.back());
     return sum;
 }
 
@@ -139,8 +152,12 @@ void read_column(const BrickView& view, int ix, int iy, ColumnCells& cells) {
             continue;
         }
         if (entry.kind == grid::BrickKind::status_only) {
-            for (int z = 0; z < count; ++z)
-                cells.status[at + static_cast<std::size_t>(z)] = view.status(ix, iy, first + z);
+            std::uint32_t states = states_of_run(
+                view, entry,
+                static_cast<std::size_t>((ix % brick_edge) * brick_edge + iy % brick_edge) *
+                    brick_edge);
+            for (std::size_t z = 0; z < static_cast<std::size_t>(count); ++z, states >>= 2)
+                cells.status[at + z] = static_cast<CellStatus>(states & 3U);
             continue;
         }
         const std::size_t offset = view.offset_x(ix) + view.offset_y(iy) + view.offset_z(first);

@@ -13,8 +13,10 @@ Result<FlatField> still_field(const StillMap& map, int threads) {
                     product_name(map.scene.product), product_name(Product::composite));
     }
     if (auto valid = check_frame(map.view, map.facts, map.scene); !valid) return pass_on(valid);
-    const auto columns = map.view.sweep != nullptr ? std::vector<ColumnSummary>{}
-                                                   : summarize_columns(map.view, threads);
+    // Other products do not use the columns.
+    const auto columns = map.scene.product == Product::composite
+                             ? summarize_columns(map.view, threads)
+                             : std::vector<ColumnSummary>{};
     return map_field(map.view, map.facts, map.scene, columns, threads);
 }
 

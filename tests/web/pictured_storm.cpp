@@ -59,7 +59,8 @@ std::shared_ptr<const OpenGrid> PicturedStorm::grid(level2::Moment moment) const
 
 void PictureTest::SetUp() {
     STORMCELLAR_NEED_DATA();
-    storm_ = std::make_unique<PicturedStorm>();
+    static const auto storm = std::make_shared<const PicturedStorm>();
+    storm_ = storm;
 }
 
 render::Rgba8 composite_colour_at(const OpenGrid& grid, const render::Scene& scene,

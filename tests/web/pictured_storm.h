@@ -37,11 +37,12 @@ class PicturedStorm {
     std::shared_ptr<Grids> grids_;
 };
 
-// Tests on it are skipped where there are no real volumes.
+// Tests on it are skipped where there are no real volumes. All of them share one storm, because to
+// make it takes longer than most of them: no test may change its files.
 class PictureTest : public ::testing::Test {
   protected:
     void SetUp() override;
-    std::unique_ptr<PicturedStorm> storm_;
+    std::shared_ptr<const PicturedStorm> storm_;
 };
 
 // The color that the column maximum of the grid has at a place, by the grid's own cells one by one.

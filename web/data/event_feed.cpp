@@ -12,7 +12,6 @@
 
 #include "base/steady_time.h"
 #include "stormcellar/base/station_table.h"
-#include "stormcellar/catalog/catalog.h"
 #include "web/data/catalog_changes.h"
 #include "web/data/grid_events.h"
 
@@ -72,7 +71,8 @@ struct EventFeed::Impl {
         : options(std::move(given)),
           book(options.silent_after),
           grid_events(options.grids, book, file_clock_ns()),
-          catalog_changes(options.catalog) {}
+          catalog_changes(options.catalog),
+          reader(options.reader) {}
 
     void begin();
     void run();
@@ -92,7 +92,7 @@ struct EventFeed::Impl {
     StationBook book;
     GridEvents grid_events;
     CatalogChanges catalog_changes;
-    std::optional<catalog::CatalogReader> reader;
+    std::shared_ptr<const catalog::CatalogReader> reader;
     struct Asked {
         SteadyTime spoke{};  // a grid of the station came
         SteadyTime asked{};
@@ -106,12 +106,12 @@ struct EventFeed::Impl {
 };
 
 const catalog::CatalogReader* EventFeed::Impl::catalog() {
-    if (reader) return &*reader;
+    if (reader) return reader.get();
     if (options.catalog.empty()) return nullptr;
     auto opened = catalog::CatalogReader::open(options.catalog);
     if (!opened) return nullptr;
-    reader.emplace(std::move(*opened));
-    return &*reader;
+    reader = std::make_shared<const catalog::CatalogReader>(std::move(*opened));
+    return reader.get();
 }
 
 // The newest grids and volumes that are there are known, and no news.

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "stormcellar/catalog/catalog.h"
 #include "web/data/event_hub.h"
 #include "web/data/grids.h"
 #include "web/data/station_book.h"
@@ -24,6 +25,8 @@ namespace stormcellar::web {
 struct EventFeedOptions {
     std::shared_ptr<Grids> grids;   // null: no cache
     std::filesystem::path catalog;  // empty: none
+    // The same, if it is open already.
+    std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<EventHub> hub;
     std::chrono::seconds silent_after{1200};
     std::chrono::milliseconds look_every{2000};  // at the catalog

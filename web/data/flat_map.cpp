@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
 #include "render/options/scene_options.h"
 #include "render/still/map_raster.h"
 #include "stormcellar/render/product.h"
@@ -17,6 +18,7 @@ namespace {
 using grid::CellStatus;
 
 constexpr int smallest_side = 32;
+constexpr int rows_of_a_band = 32;
 
 enum class Mixing { largest, farthest_from_zero, mean, first };
 
@@ -95,7 +97,7 @@ Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const rend
     field->at_least = {};
     map->levels.push_back(std::move(*field));
     while (std::max(map->levels.back().width, map->levels.back().height) > smallest_side)
-        map->levels.push_back(halved_field(map->levels.back(), scene));
+        map->levels.push_back(halved_field(map->levels.back(), scene, threads));
     return std::shared_ptr<const FlatMap>(std::move(map));
 }
 
@@ -108,15 +110,18 @@ std::uint64_t FlatMap::bytes() const {
     return bytes;
 }
 
-render::FlatField halved_field(const render::FlatField& field, const render::Scene& scene) {
+render::FlatField halved_field(const render::FlatField& field, const render::Scene& scene,
+                               int threads) {
     const Mixing mixing = mixing_of(scene);
     render::FlatField half((field.width + 1) / 2, (field.height + 1) / 2);
-    for (int y = 0; y < half.height; ++y) {
+    const auto halve_row = [&](int y) {
+        const int rows = std::min(2 * y + 2, field.height) - 2 * y;
         for (int x = 0; x < half.width; ++x) {
+            const int columns = std::min(2 * x + 2, field.width) - 2 * x;
             CellsTogether cells;
-            for (int row = 2 * y; row < std::min(2 * y + 2, field.height); ++row) {
-                for (int column = 2 * x; column < std::min(2 * x + 2, field.width); ++column) {
-                    const std::size_t place = field.index(column, row);
+            for (int row = 0; row < rows; ++row) {
+                for (int column = 0; column < columns; ++column) {
+                    const std::size_t place = field.index(2 * x + column, 2 * y + row);
                     cells.add(field.status[place], field.values[place]);
                 }
             }
@@ -124,7 +129,13 @@ render::FlatField halved_field(const render::FlatField& field, const render::Sce
             half.put(half.index(x, y), status,
                      status == CellStatus::value ? cells.value(mixing) : 0);
         }
-    }
+    };
+    const int bands = (half.height + rows_of_a_band - 1) / rows_of_a_band;
+    for_each_piece(bands, threads, [&](int band) {
+        const int end = std::min(half.height, (band + 1) * rows_of_a_band);
+        for (int y = band * rows_of_a_band; y < end; ++y)
+            halve_row(y);
+    });
     return half;
 }
 

@@ -41,7 +41,7 @@ struct FlatMap {
 
 // Returns the field with half the columns and rows.
 [[nodiscard]] render::FlatField halved_field(const render::FlatField& field,
-                                             const render::Scene& scene);
+                                             const render::Scene& scene, int threads = 1);
 
 class FlatMaps {
   public:

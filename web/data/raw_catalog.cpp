@@ -64,7 +64,9 @@ RawVolume volume_of(const CatalogEntry& entry) {
 class CatalogRawFiles final : public RawFiles {
   public:
     explicit CatalogRawFiles(RawFilesOptions options)
-        : options_(std::move(options)), opener_(options_.scratch, options_.most_joined) {}
+        : options_(std::move(options)),
+          opener_(options_.scratch, options_.most_joined),
+          reader_(options_.reader) {}
 
     Result<std::vector<RawStation>> stations() override;
     Result<std::vector<RawVolume>> list(std::string_view station, const RawRange& range) override;

@@ -31,6 +31,7 @@
 
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
+#include "stormcellar/catalog/catalog.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -89,6 +90,8 @@ struct GivenVolume {
 
 struct RawFilesOptions {
     std::filesystem::path catalog;
+    // The same, if it is open already.
+    std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     // Joined chunks stand here, in files without a name. Empty: the system's temporary directory.
     std::filesystem::path scratch;
     std::size_t most_joined = 16;      // joined volumes kept; each has at most 1 GiB, usually 10 MB

@@ -34,6 +34,8 @@ using ApiJson = nlohmann::ordered_json;
 struct ApiSources {
     std::shared_ptr<Grids> grids;   // null: no cache is served
     std::filesystem::path catalog;  // empty: no catalog is served
+    // The same, if it is open already.
+    std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
     // How many answers that take long may be in the making: more are asked to come back.
     int most_computations = 2;
@@ -41,7 +43,8 @@ struct ApiSources {
 
 class ApiState {
   public:
-    explicit ApiState(ApiSources sources) : sources_(std::move(sources)) {}
+    explicit ApiState(ApiSources sources)
+        : sources_(std::move(sources)), catalog_(sources_.reader) {}
     [[nodiscard]] const ApiSources& sources() const { return sources_; }
 
     // Held while an answer is computed. None: as many are being computed as may be.

@@ -143,7 +143,8 @@ Answer S3Door::bucket_answer(const Request& request) const {
 Answer S3Door::list_answer(const Request& request) const {
     const auto options = read_s3_list_options(request);
     if (!options) return s3_error(options.error(), request);
-    const auto listing = list_s3_objects(keys_, *options);
+    S3Keys keys(files_);
+    const auto listing = list_s3_objects(keys, *options);
     if (!listing) return s3_error(listing.error(), request);
     return s3_xml_answer(200, s3_listing_xml(bucket_, *options, *listing));
 }

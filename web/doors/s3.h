@@ -17,7 +17,6 @@
 #include <string>
 
 #include "web/data/raw_files.h"
-#include "web/doors/s3_keys.h"
 #include "web/http/door.h"
 
 namespace stormcellar::web {
@@ -32,7 +31,7 @@ inline constexpr std::string_view s3_namespace = "http://s3.amazonaws.com/doc/20
 class S3Door final : public Door {
   public:
     S3Door(std::shared_ptr<RawFiles> files, std::string bucket)
-        : files_(std::move(files)), keys_(files_), bucket_(std::move(bucket)) {}
+        : files_(std::move(files)), bucket_(std::move(bucket)) {}
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
@@ -42,7 +41,6 @@ class S3Door final : public Door {
     [[nodiscard]] Answer list_answer(const Request& request) const;
     [[nodiscard]] Answer object_answer(const Request& request, std::string_view key) const;
     const std::shared_ptr<RawFiles> files_;
-    const S3Keys keys_;
     const std::string bucket_;
 };
 

@@ -59,22 +59,26 @@ std::optional<S3Key> parse_s3_key(std::string_view key) {
     return parsed;
 }
 
-Result<S3Keys::Stations> S3Keys::stations() const {
+Status S3Keys::find_stations() {
+    if (stations_) return {};
     const auto known = files_->stations();
     if (!known) return pass_on(known);
-    Stations names;
+    stations_.emplace();
     for (const RawStation& station : *known)
-        names.push_back(station.icao);
-    return names;
+        stations_->push_back(station.icao);
+    return {};
 }
 
+// `from` and `end` are what stands behind the day: "KTLX/KTLX20220317_0008" or less, and empty if
+// all of the day counts.
 Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from,
-                                             const Stations& stations, std::size_t most) const {
+                                             std::string_view end, std::size_t most) const {
     std::vector<S3Object> objects;
     const std::string_view station_from = from.substr(0, station_size);
-    for (const std::string& station : stations) {
+    for (const std::string& station : *stations_) {
         const std::string text = station + "/";
         if (text < station_from) continue;
+        if (!end.empty() && text >= end) break;
         const std::string_view name_from =
             text == station_from ? from.substr(station_size) : std::string_view{};
         RawRange range;
@@ -89,6 +93,7 @@ Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from
         if (!volumes) return pass_on(volumes);
         for (RawVolume& volume : *volumes) {
             if (volume.name < name_from || objects.size() == most) continue;
+            if (!end.empty() && text + volume.name >= end) break;
             std::string key = s3_key(volume);
             objects.push_back({std::move(key), std::move(volume)});
         }
@@ -97,9 +102,9 @@ Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from
     return objects;
 }
 
-Result<std::optional<sys_days>> S3Keys::next_day(sys_days day, const Stations& stations) const {
+Result<std::optional<sys_days>> S3Keys::next_day(sys_days day) const {
     std::optional<sys_days> next;
-    for (const std::string& station : stations) {
+    for (const std::string& station : *stations_) {
         RawRange range;
         range.from = UtcTime{day};
         range.most = 1;
@@ -113,18 +118,21 @@ Result<std::optional<sys_days>> S3Keys::next_day(sys_days day, const Stations& s
     return next;
 }
 
-Result<std::vector<S3Object>> S3Keys::from(std::string_view from, std::size_t most) const {
-    const auto names = stations();
-    if (!names) return pass_on(names);
+Result<std::vector<S3Object>> S3Keys::between(std::string_view from, std::string_view end,
+                                              std::size_t most) {
+    if (Status found = find_stations(); !found) return pass_on(found);
+    // What stands behind the day in one of the bounds, if the bound is within the day.
+    const auto within = [](std::string_view bound, sys_days day) {
+        const bool is_within = bound.substr(0, day_size) == day_text(day);
+        return is_within ? bound.substr(day_size) : std::string_view{};
+    };
     std::optional<sys_days> day = day_not_less(from.substr(0, day_size));
-    // Behind the first day, all of a day counts.
-    bool is_first = day && day_text(*day) == from.substr(0, day_size);
-    while (day) {
-        const std::string_view rest = is_first ? from.substr(day_size) : std::string_view{};
-        is_first = false;
-        auto objects = of_day(*day, rest, *names, most);
+    while (day && (end.empty() || day_text(*day) < end)) {
+        auto objects = of_day(*day, within(from, *day), within(end, *day), most);
         if (!objects || !objects->empty()) return objects;
-        const auto next = next_day(*day + days{1}, *names);
+        const sys_days following = *day + days{1};
+        if (!end.empty() && day_text(following) >= end) break;
+        const auto next = next_day(following);
         if (!next) return pass_on(next);
         day = *next;
     }

@@ -49,8 +49,9 @@ std::string encoded_key(std::string_view key, const S3ListOptions& options) {
 // A listing that grows.
 class S3Lister {
   public:
-    S3Lister(const S3Keys& keys, const S3ListOptions& options) : keys_(keys), options_(options) {
+    S3Lister(S3Keys& keys, const S3ListOptions& options) : keys_(keys), options_(options) {
         place_ = std::max(options.prefix, options.after);
+        end_ = behind_all(options.prefix);
         // A common prefix that was the last entry of the previous answer is done with.
         if (!options.after.empty()) {
             const bool is_prefix = options.after.starts_with(options.prefix) &&
@@ -64,7 +65,7 @@ class S3Lister {
         while (!is_over_) {
             // While directories are listed, one key of each is enough.
             const std::size_t wanted = skips_ ? 1 : options_.most - count() + 1;
-            const auto batch = keys_.from(place_, wanted);
+            const auto batch = keys_.between(place_, end_, wanted);
             if (!batch) return pass_on(batch);
             if (batch->empty()) break;
             take(*batch);
@@ -102,10 +103,10 @@ class S3Lister {
         }
     }
 
-    const S3Keys& keys_;
+    S3Keys& keys_;
     const S3ListOptions& options_;
     S3Listing listing_;
-    std::string place_, last_;
+    std::string place_, end_, last_;
     bool is_over_ = false;
     bool skips_ = !options_.delimiter.empty();
 };
@@ -155,7 +156,7 @@ Result<S3ListOptions> read_s3_list_options(const Request& request) {
     return options;
 }
 
-Result<S3Listing> list_s3_objects(const S3Keys& keys, const S3ListOptions& options) {
+Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options) {
     if (options.most == 0) return S3Listing{};
     return S3Lister(keys, options).list();
 }

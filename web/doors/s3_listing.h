@@ -1,6 +1,6 @@
 // web/doors/s3_listing.h -- ListObjects and ListObjectsV2 over the volumes of a bucket.
 //
-// Threads   Pure functions over S3Keys.
+// Threads   Functions without state.
 // Errors    bad_argument for parameters that make no sense, and those of S3Keys.
 #pragma once
 
@@ -30,7 +30,7 @@ struct S3Listing {
     std::vector<std::string> common_prefixes;
     std::string next;  // the last entry, if there are more
 };
-[[nodiscard]] Result<S3Listing> list_s3_objects(const S3Keys& keys, const S3ListOptions& options);
+[[nodiscard]] Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options);
 
 // ListBucketResult.
 [[nodiscard]] std::string s3_listing_xml(std::string_view bucket, const S3ListOptions& options,

@@ -56,6 +56,10 @@ void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAn
     doors.add("/zarr3", std::make_shared<ZarrDoor>(shared, ZarrVersion::three));
 }
 
+// Databases of the catalog that are open at a time, each with three descriptors. There are some 200
+// radars, and a list of all stations asks each of them.
+constexpr std::size_t most_databases = 256;
+
 // What events, metrics and the index need to know of the daemon's work.
 struct Watched {
     std::shared_ptr<EventHub> hub = EventHub::make();
@@ -65,6 +69,7 @@ Watched watch_over(const Sources& sources) {
     Watched watched;
     watched.feed = EventFeed::open({.grids = sources.grids,
                                     .catalog = sources.setup.catalog,
+                                    .reader = sources.catalog,
                                     .hub = watched.hub,
                                     .silent_after = sources.setup.web.silent});
     return watched;
@@ -84,7 +89,7 @@ void add_events(Doors& doors, const Watched& watched, const WebLimits& limits) {
 Result<Sources> open_sources(WebSetup setup) {
     Sources sources;
     if (!setup.catalog.empty()) {
-        auto catalog = catalog::CatalogReader::open(setup.catalog);
+        auto catalog = catalog::CatalogReader::open(setup.catalog, most_databases);
         if (catalog) {
             sources.catalog = std::make_shared<const catalog::CatalogReader>(std::move(*catalog));
         } else if (catalog.error().code != ErrorCode::not_found) {
@@ -104,7 +109,8 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const WebSetup& setup = sources.setup;
     const WebLimits& limits = setup.web.limits;
     auto doors = std::make_shared<Doors>();
-    const auto files = RawFiles::open_catalog({.catalog = setup.catalog, .scratch = {}});
+    const auto files = RawFiles::open_catalog(
+        {.catalog = setup.catalog, .reader = sources.catalog, .scratch = {}});
     if (setup.web.serves(WebPart::volumes))
         doors->add("/volumes", std::make_shared<VolumesDoor>(files));
     if (setup.web.serves(WebPart::polling))
@@ -123,6 +129,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
         doors->add("/api/v1",
                    std::make_shared<ApiDoor>(ApiSources{.grids = sources.grids,
                                                         .catalog = setup.catalog,
+                                                        .reader = sources.catalog,
                                                         .kept = kept,
                                                         .most_computations = limits.renders}));
     }
