@@ -109,8 +109,7 @@ double Fonts::width(std::string_view text, double size, bool bold) const {
     cairo_matrix_init_scale(&scale, size, size);
     cairo_matrix_init_identity(&identity);
     cairo_font_options_t* options = text_options();
-    cairo_scaled_font_t* font =
-        cairo_scaled_font_create(bold ? bold_.get() : regular_.get(), &scale, &identity, options);
+    cairo_scaled_font_t* font = cairo_scaled_font_create(face(bold), &scale, &identity, options);
     cairo_text_extents_t extents{};
     cairo_scaled_font_text_extents(font, std::string(text).c_str(), &extents);
     cairo_scaled_font_destroy(font);
@@ -207,7 +206,7 @@ void Canvas::unclip() {
 void Canvas::text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
                   bool bold, Rgba8 colour, Rgba8 halo) {
     cairo_t* context = context_.get();
-    use_font(context, bold ? fonts.bold_.get() : fonts.regular_.get(), size);
+    use_font(context, fonts.face(bold), size);
     const std::string terminated(text);
     const double x = std::nearbyint(left_baseline.x);
     const double y = std::nearbyint(left_baseline.y);

@@ -44,9 +44,11 @@ class Fonts {
     // Returns how far text of this size (pixels) moves the pen. The text is ASCII or Latin-1, in
     // UTF-8.
     [[nodiscard]] double width(std::string_view text, double size, bool bold) const;
+    [[nodiscard]] _cairo_font_face* face(bool bold) const {
+        return bold ? bold_.get() : regular_.get();
+    }
 
   private:
-    friend class Canvas;
     using Face = std::shared_ptr<_cairo_font_face>;
     Face regular_, bold_;
 };

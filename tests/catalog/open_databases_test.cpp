@@ -133,6 +133,10 @@ TEST_F(OpenDatabasesTest, ManyThreadsUseMoreDatabasesThanMayBeOpen) {
 
 // 2026-11-24: without a descriptor left, no station could register anything any more.
 TEST_F(OpenDatabasesTest, WhereDescriptorsRunOutDatabasesAreClosed) {
+#if defined(STORMCELLAR_SANITIZED)
+    GTEST_SKIP()
+        << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
+#endif
     auto catalog = open(256);
     for (int k = 0; k < 10; ++k)
         ASSERT_TRUE(catalog.register_file(file("/d/" + station(k), {}, station(k))));

@@ -17,12 +17,10 @@ namespace {
 
 constexpr int halo_width = 160, halo_height = 40;
 
-// A font of Cairo's own choice; what the letters look like does not matter here.
 class Pen {
   public:
-    explicit Pen(double size) {
-        cairo_select_font_face(context_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                               CAIRO_FONT_WEIGHT_NORMAL);
+    Pen(const Fonts& fonts, double size) {
+        cairo_set_font_face(context_, fonts.face(false));
         cairo_set_font_size(context_, size);
         cairo_font_options_t* options = cairo_font_options_create();
         cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_SLIGHT);
@@ -70,7 +68,8 @@ struct Difference {
 };
 
 Difference difference_of(const std::string& text, double size, int x, int y) {
-    const Pen slow(size), quick(size);
+    const Fonts fonts = Fonts::load().value();
+    const Pen slow(fonts, size), quick(fonts, size);
     LetterHalos halos;
     slow.draw_as_one_path(text, x, y, 2.5);
     quick.draw_copied(halos, size, text, x, y, 2.5);
@@ -113,7 +112,8 @@ TEST(LetterHalos, EdgesOfThePictureCutIt) {
 }
 
 TEST(LetterHalos, ATextWithoutLettersHasNone) {
-    const Pen pen(10);
+    const Fonts fonts = Fonts::load().value();
+    const Pen pen(fonts, 10);
     LetterHalos halos;
     for (const char* text : {"", "   "}) {
         const CoverMask mask =
