@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/shared/problem_notes.h"
+#include "level2/decode/problem_notes.h"
 #include "level2/decode/volume_checks.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/export/cfradial.h"
@@ -15,7 +15,7 @@ Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t num
     const level2::Volume& volume = volumes[number];
     netcdf::VolumeWriteOptions options;
     options.source_file = source.filename().string();
-    options.notes = notes_of(report);
+    options.notes = level2::notes_of(report);
     options.complete = report.complete;
     if (volumes.size() > 1) {
         options.complete = !report.damaged && level2::is_complete(volume);

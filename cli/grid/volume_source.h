@@ -2,30 +2,17 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "cli/grid/grid_request.h"
+#include "grid/place/source_volume.h"
 #include "stormcellar/base/result.h"
-#include "stormcellar/grid/grid.h"
-#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::cli {
 
-struct SourceVolume {
-    level2::Volume volume;
-    grid::SitePosition site;
-    bool partial = false;
-    std::vector<std::string> notes;  // what readers of the result should know
-    // What the radar reported to be wrong, as grids store it: "KTLX: standby, ...".
-    std::vector<std::string> radar_troubles = {};
-    double read_s = 0, decode_s = 0;
-};
-
-// Chooses cuts of a volume by its pattern; empty: all. The volume has no sweeps yet.
-using ChooseCuts = std::function<std::vector<int>(const level2::Volume&)>;
+using grid::ChooseCuts;
+using grid::SourceVolume;
 
 // Returns the first volume of the file that holds one of the requested moments, with these alone.
 // Errors name the file: those of reading and decoding, and of apply_site(); not_found if the

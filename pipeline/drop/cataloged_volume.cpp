@@ -1,5 +1,6 @@
 #include "pipeline/drop/cataloged_volume.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "pipeline/drop/chunk_path.h"
@@ -61,6 +62,28 @@ Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogE
 
 bool is_of_chunks(const CatalogEntry& entry) {
     return entry.volume.start_time && is_chunk_name(entry.path);
+}
+
+Result<std::optional<catalog::CatalogEntry>> find_cataloged_volume(
+    const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
+    const std::function<bool(const catalog::CatalogEntry&)>& is_meant) {
+    auto entries = catalog.list(station, {start, start});
+    if (!entries) return pass_on(entries);
+    const auto rank = [&](const catalog::CatalogEntry& entry) {
+        return std::pair{entry.state == catalog::FileState::gone, !is_meant(entry)};
+    };
+    const auto best = std::ranges::min_element(*entries, {}, rank);
+    if (best == entries->end()) return std::optional<catalog::CatalogEntry>{};
+    return std::optional{std::move(*best)};
+}
+
+Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
+    const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
+    const std::vector<std::string>& source_files) {
+    return find_cataloged_volume(catalog, station, start, [&](const catalog::CatalogEntry& entry) {
+        return std::ranges::find(source_files, entry.path.filename().string()) !=
+               source_files.end();
+    });
 }
 
 Result<CatalogedVolume> read_cataloged_volume(const CatalogReader& catalog,

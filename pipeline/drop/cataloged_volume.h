@@ -1,4 +1,5 @@
-// pipeline/drop/cataloged_volume.h -- reads the raw bytes of a cataloged volume in one piece.
+// pipeline/drop/cataloged_volume.h -- finds a cataloged volume, and reads its raw bytes in one
+// piece.
 //
 // They come from one file, or from the chunks of a volume that came as one file for each chunk.
 // Then the row found is that of the first chunk, and the joined bytes are a volume's file. Each
@@ -8,6 +9,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,18 @@ struct CatalogedVolume {
 
 // Returns true if a volume came as one file for each chunk.
 [[nodiscard]] bool is_of_chunks(const catalog::CatalogEntry& entry);
+
+// Returns the row of the volume of a station that starts at this time; none: there is none. Of
+// several files of one volume the one that is meant is preferred, and before it those that are not
+// gone. Errors: those of the catalog.
+[[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_cataloged_volume(
+    const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
+    const std::function<bool(const catalog::CatalogEntry&)>& is_meant);
+
+// The one that a grid was made of, by the names of its files.
+[[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
+    const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
+    const std::vector<std::string>& source_files);
 
 // Chunks are joined in the order of their numbers, one for each number, as far as they exist.
 // Chunks without a row are left out. Errors: those of read_cataloged().

@@ -8,19 +8,28 @@
 #include <nlohmann/json.hpp>
 
 #include "render/options/still_frame.h"
+#include "render/options/sweep_source.h"
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/web/asked.h"
 #include "tests/web/pictured_storm.h"
 
 namespace stormcellar::web {
 namespace {
 
+std::unique_ptr<FramesDoor> door_to(const PicturedStorm& storm, std::filesystem::path catalog) {
+    return std::make_unique<FramesDoor>(
+        storm.grids(), std::make_shared<FramePictures>(FramePicturesOptions{}),
+        std::make_shared<SweepPictures>(std::make_shared<ServedCatalog>(std::move(catalog)),
+                                        FramePicturesOptions{}));
+}
+
 class Frames : public PictureTest {
   protected:
     void SetUp() override {
         PictureTest::SetUp();
         if (IsSkipped()) return;
-        door_ = std::make_unique<FramesDoor>(
-            storm_->grids(), std::make_shared<FramePictures>(FramePicturesOptions{}));
+        door_ = door_to(*storm_, storm_->catalog());
     }
     Answer get(const std::string& target, Fields headers = {}) {
         return asked(*door_, target, std::move(headers));
@@ -122,6 +131,97 @@ TEST_F(Frames, AreKeptAndHaveTags) {
     EXPECT_NE(header_of(get(std::string(small_map) + "&theme=light"), "ETag"), etag);
 }
 
+// Draws a sweep of the storm's file with the library: all cuts are decoded, and the file is read.
+std::vector<std::byte> drawn_sweep(const PicturedStorm& storm, const render::SceneOptions& options,
+                                   level2::Moment moment, double elevation_deg) {
+    level2::DecodeOptions all;
+    all.selection.moments = {moment};
+    auto decoded = level2::decode_file(storm.file(), all);
+    EXPECT_TRUE(decoded);
+    const grid::SourceWish wish{.moments = {moment}};
+    const std::string file = storm.file().filename().string();
+    auto source = grid::take_source(std::move(*decoded), file, wish);
+    EXPECT_TRUE(source);
+    const auto shared = std::make_shared<const grid::SourceVolume>(std::move(*source));
+    auto sweep = grid::SweepLookup::find({shared, &shared->volume}, shared->site, moment, 0.475,
+                                         {.elevation_deg = elevation_deg});
+    EXPECT_TRUE(sweep);
+    EXPECT_NEAR(sweep->facts().fixed_angle_deg, elevation_deg, 0.1);
+    const auto description =
+        render::describe_sweep(*sweep, render::plane_of_sweep(*sweep), *shared, file);
+    grid::BrickView view;
+    view.spec = &description.spec;
+    view.sweep = &*sweep;
+    auto scene = render::scene_of(options);
+    EXPECT_TRUE(scene);
+    const std::string domain = "KTLX";
+    const render::StillSource still{domain, view, description, options, false};
+    EXPECT_TRUE(render::fit_to_grid(still, *scene));
+    auto bytes = render::encode_still(still, *scene,
+                                      {.format = render::still_formats().front(),
+                                       .tiff = render::TiffContent::values,
+                                       .error = {},
+                                       .threads = 1,
+                                       .drawn = {}});
+    EXPECT_TRUE(bytes);
+    return std::move(*bytes);
+}
+
+TEST_F(Frames, OfSweepsAreWhatTheLibraryDraws) {
+    const Answer answer =
+        get("/frames/KTLX.png?product=ppi&moment=VEL&elevation=1.5&width=400"
+            "&height=300");
+    ASSERT_EQ(answer.status, 200u) << body_of(answer);
+    render::SceneOptions options;
+    options.product = "ppi";
+    options.moment = "VEL";
+    options.time_zone = "UTC";
+    options.scene.elevation_deg = 1.5;
+    options.scene.width = 400;
+    options.scene.height = 300;
+    const auto bytes = drawn_sweep(*storm_, options, level2::Moment::vel, 1.5);
+    const std::string body = body_of(answer);
+    ASSERT_EQ(body.size(), bytes.size());
+    EXPECT_EQ(std::memcmp(body.data(), bytes.data(), body.size()), 0);
+}
+
+TEST_F(Frames, OfSweepsAreKeptAndHavePanelsAndFormats) {
+    const std::string query = "?product=ppi&width=400&height=300";
+    const Answer first = get("/frames/KTLX.png" + query);
+    ASSERT_EQ(first.status, 200u) << body_of(first);
+    const std::string etag = header_of(first, "ETag");
+    EXPECT_EQ(get("/frames/KTLX.png" + query, {{"If-None-Match", etag}}).status, 304u);
+    EXPECT_EQ(body_of(get("/frames/KTLX.png" + query)), body_of(first));
+    EXPECT_NE(body_of(get("/frames/KTLX.png" + query + "&elevation=2.4")), body_of(first));
+    const Answer panels = get("/frames/KTLX.png?product=ppi&panels=REF,VEL&width=640&height=320");
+    ASSERT_EQ(panels.status, 200u) << body_of(panels);
+    EXPECT_EQ(decoded_png(body_of(panels)).width, 640);
+    EXPECT_TRUE(body_of(get("/frames/KTLX.tif?product=ppi")).starts_with("II*"));
+    EXPECT_EQ(get("/frames/KTLX.png?product=ppi&time=1999-05-03T20:00").status, 404u);
+    const Answer too_high = get("/frames/KTLX.png?product=ppi&elevation=45");
+    EXPECT_EQ(too_high.status, 404u) << body_of(too_high);
+    EXPECT_NE(body_of(too_high).find("19.5"), std::string::npos) << "the angles that there are";
+}
+
+TEST_F(Frames, OfSweepsNeedTheRawFile) {
+    const std::string ppi = "/frames/KTLX.png?product=ppi&width=400&height=300";
+    const auto without = door_to(*storm_, {});
+    const Answer uncataloged = asked(*without, ppi);
+    EXPECT_EQ(uncataloged.status, 404u);
+    EXPECT_NE(body_of(uncataloged).find("raw volume"), std::string::npos);
+    const PicturedStorm own;
+    const auto door = door_to(own, own.catalog());
+    std::filesystem::remove(own.file());
+    const Answer gone = asked(*door, ppi);
+    EXPECT_EQ(gone.status, 404u);
+    EXPECT_EQ(body_of(gone).find(own.file().parent_path().native()), std::string::npos)
+        << "a client learns no directory: " << body_of(gone);
+    auto catalog = catalog::CatalogWriter::open(own.catalog());
+    ASSERT_TRUE(catalog && catalog->mark_gone(own.file()));
+    EXPECT_EQ(asked(*door, ppi).status, 410u);
+    EXPECT_EQ(asked(*door, small_map).status, 200u) << "grids need no file";
+}
+
 TEST_F(Frames, TheIndexNamesEveryParameterThatIsTaken) {
     const auto index = nlohmann::json::parse(body_of(get("/frames")));
     EXPECT_EQ(index["domains"][0]["picture"], "http://localhost:8090/frames/KTLX.png");
@@ -136,8 +236,8 @@ TEST_F(Frames, TheIndexNamesEveryParameterThatIsTaken) {
 
 TEST_F(Frames, RefusesWhatMakesNoSense) {
     for (const char* query :
-         {"product=pie", "product=ppi", "moment=XYZ", "moment=REF&moment=VEL", "threads=4",
-          "width=1", "width=99999", "width=7680&height=4320", "tilt=steep", "time=soon",
+         {"product=pie", "moment=XYZ", "moment=REF&moment=VEL", "threads=4", "width=1",
+          "width=99999", "width=7680&height=4320", "tilt=steep", "time=soon",
           "time=latest&time=latest", "time-zone=../../etc/passwd", "colors=/etc/passwd.pal",
           "product=section", "panels=REF,REF", "panels=REF&moment=VEL", "geotiff=values",
           "product=composite&tilt=50", "slices=99999999"})

@@ -9,43 +9,17 @@
 // Errors    See each function.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "render/options/panel_scenes.h"
-#include "render/options/scene_options.h"
 #include "stormcellar/base/result.h"
-#include "stormcellar/render/still.h"
+#include "web/data/frame_style.h"
 #include "web/data/grids.h"
 #include "web/data/kept_answers.h"
-#include "web/http/request.h"
 
 namespace stormcellar::web {
-
-// Larger pictures would hold up all others.
-inline constexpr std::int64_t most_frame_pixels = 3840 * 2160;
-inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // pixels times slices
-
-// What a query asks for.
-struct FrameStyle {
-    render::SceneOptions options;
-    std::vector<render::PanelScene> panels;  // one, or several in one picture
-    bool has_panels = false;                 // asked for, though it may be of one moment
-    const render::StillFormat* format = nullptr;
-    render::TiffContent tiff = render::TiffContent::values;
-    std::string key;  // all of it in one text
-};
-
-// Reads the query of a picture in the format of this name's ending. Its parameters are the options
-// of `stormcellar frame` (web/data/picture_query.h), "panels" and "geotiff"; `others` are read by
-// the door. Errors: not_found for an ending that no format has; bad_argument.
-[[nodiscard]] Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
-                                             std::span<const std::string_view> others);
 
 struct FramePicturesOptions {
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
@@ -61,6 +35,9 @@ struct FramePicture {
     [[nodiscard]] std::string key() const;
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
+
+// Returns an ETag, with its quotes, for a picture of this key drawn by this version.
+[[nodiscard]] std::string etag_of_frame(const std::string& key);
 
 class FramePictures {
   public:

@@ -44,16 +44,6 @@ std::optional<ApiState::Slot> ApiState::take_slot() {
     return std::nullopt;
 }
 
-Result<std::shared_ptr<const catalog::CatalogReader>> ApiState::catalog() {
-    if (sources_.catalog.empty()) return fail(ErrorCode::not_found, "no catalog is served");
-    const std::scoped_lock lock(mutex_);
-    if (catalog_) return catalog_;
-    auto opened = catalog::CatalogReader::open(sources_.catalog);
-    if (!opened) return pass_on(opened);
-    catalog_ = std::make_shared<const catalog::CatalogReader>(std::move(*opened));
-    return catalog_;
-}
-
 ApiState::Halved ApiState::find_halved(const std::string& key) {
     const std::scoped_lock lock(mutex_);
     for (auto entry = halved_.begin(); entry != halved_.end(); ++entry) {

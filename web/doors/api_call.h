@@ -24,6 +24,7 @@
 #include "stormcellar/level2/volume.h"
 #include "web/data/grids.h"
 #include "web/data/kept_answers.h"
+#include "web/data/served_catalog.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -44,7 +45,7 @@ struct ApiSources {
 class ApiState {
   public:
     explicit ApiState(ApiSources sources)
-        : sources_(std::move(sources)), catalog_(sources_.reader) {}
+        : sources_(std::move(sources)), catalog_(sources_.catalog, sources_.reader) {}
     [[nodiscard]] const ApiSources& sources() const { return sources_; }
 
     // Held while an answer is computed. None: as many are being computed as may be.
@@ -69,7 +70,7 @@ class ApiState {
 
     // Returns the catalog. It is opened when it is first asked for, since it may come later.
     // Errors: not_found if none is served; those of CatalogReader::open().
-    [[nodiscard]] Result<std::shared_ptr<const catalog::CatalogReader>> catalog();
+    [[nodiscard]] Result<ServedCatalog::Reader> catalog() { return catalog_.get(); }
 
     // Halved grids are kept while they are looked at, the least recently used give way.
     using Halved = std::shared_ptr<const grid::BrickGrid>;
@@ -83,9 +84,9 @@ class ApiState {
 
   private:
     const ApiSources sources_;
+    ServedCatalog catalog_;
     std::atomic<int> computations_{0};
-    std::mutex mutex_;  // guards what follows
-    std::shared_ptr<const catalog::CatalogReader> catalog_;
+    std::mutex mutex_;                                  // guards what follows
     std::list<std::pair<std::string, Halved>> halved_;  // the most recently used first
     std::string volume_key_;
     DecodedVolume volume_;

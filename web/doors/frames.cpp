@@ -9,6 +9,7 @@
 
 #include "base/printable.h"
 #include "render/options/picture_options.h"
+#include "stormcellar/render/product.h"
 #include "web/data/picture_query.h"
 
 namespace stormcellar::web {
@@ -20,13 +21,13 @@ constexpr std::array<std::string_view, 1> read_by_door{"time"};
 // A grid is mostly found among the newest ones, so that not all times of a domain are listed.
 constexpr std::chrono::hours first_look{2};
 
-// Returns the newest of the rising times at which there is a grid of every panel's moment.
+// Returns the newest of the rising times at which there is a grid of every moment.
 std::optional<UtcTime> newest_in_common(const Grids& grids, std::string_view domain,
-                                        const FrameStyle& style, std::optional<UtcTime> from,
-                                        UtcTime to) {
-    auto common = grids.times(domain, style.panels.front().moment, from, to);
-    for (std::size_t i = 1; i < style.panels.size(); ++i) {
-        const auto others = grids.times(domain, style.panels[i].moment, from, to);
+                                        const std::vector<level2::Moment>& moments,
+                                        std::optional<UtcTime> from, UtcTime to) {
+    auto common = grids.times(domain, moments.front(), from, to);
+    for (std::size_t i = 1; i < moments.size(); ++i) {
+        const auto others = grids.times(domain, moments[i], from, to);
         std::erase_if(common, [&](UtcTime time) {
             return !std::binary_search(others.begin(), others.end(), time);
         });
@@ -34,22 +35,39 @@ std::optional<UtcTime> newest_in_common(const Grids& grids, std::string_view dom
     if (common.empty()) return std::nullopt;
     return common.back();
 }
-
-std::string moments_of_panels(const FrameStyle& style) {
-    std::string names;
-    for (const render::PanelScene& panel : style.panels)
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", level2::moment_name(panel.moment));
-    return names;
+std::optional<UtcTime> newest_in_common(const Grids& grids, std::string_view domain,
+                                        const std::vector<level2::Moment>& moments, UtcTime until) {
+    const auto found = newest_in_common(grids, domain, moments, until - first_look, until);
+    return found ? found : newest_in_common(grids, domain, moments, {}, until);
 }
 
-Answer no_grid_to_draw(const Grids& grids, std::string_view domain, const FrameStyle& style,
-                       std::optional<UtcTime> exact) {
-    const std::string what =
-        fmt::format("of {} in '{}'", moments_of_panels(style), printable(domain.substr(0, 80)));
-    if (exact && grids.was_evicted(domain, style.panels.front().moment, *exact))
+std::vector<level2::Moment> moments_of_panels(const FrameStyle& style) {
+    std::vector<level2::Moment> moments;
+    for (const render::PanelScene& panel : style.panels)
+        moments.push_back(panel.moment);
+    return moments;
+}
+
+// The newest grid of a domain, of any of the moments.
+std::optional<UtcTime> newest_of_any(const Grids& grids, std::string_view domain,
+                                     const std::vector<level2::Moment>& moments) {
+    std::optional<UtcTime> newest;
+    for (const level2::Moment moment : moments)
+        newest = std::max(newest, grids.newest(domain, moment));
+    return newest;
+}
+
+Answer no_grid_to_draw(std::string_view domain, const std::vector<level2::Moment>& moments,
+                       bool is_evicted, bool has_time) {
+    std::string what = "of ";
+    for (const level2::Moment moment : moments)
+        what += fmt::format("{}{}", what.size() > 3 ? ", " : "", level2::moment_name(moment));
+    what = fmt::format("{}in '{}'", moments.empty() ? "" : what + " ",
+                       printable(domain.substr(0, 80)));
+    if (is_evicted)
         return sentence(410, fmt::format("The grid {} was evicted from the cache.", what));
-    return sentence(404, exact ? fmt::format("There is no grid {} at or before this time.", what)
-                               : fmt::format("There is no grid {}.", what));
+    return sentence(404, has_time ? fmt::format("There is no grid {} at or before this time.", what)
+                                  : fmt::format("There is no grid {}.", what));
 }
 
 ordered_json json_of_parameter(const render::PictureOption& row) {
@@ -73,38 +91,60 @@ Found<FramesDoor::Asked> FramesDoor::asked(const Request& request) const {
     const std::string_view name = path[1];
     auto style = frame_style(name, request.query, read_by_door);
     if (!style) return tl::unexpected(picture_error(style.error()));
-    Asked asked{std::string(name.substr(0, name.rfind('.'))), std::move(*style), {}, {}};
+    Asked asked{std::string(name.substr(0, name.rfind('.'))), std::move(*style), {}, {}, {}};
+    asked.moments =
+        asked.is_of_sweep() ? grids_->moments(asked.domain) : moments_of_panels(asked.style);
     if (request.parameters("time").size() > 1)
         return tl::unexpected(sentence(400, "time is given more than once."));
     const std::string_view text = request.parameter("time").value_or("latest");
     std::optional<UtcTime> exact;
     std::optional<UtcTime> until;
     if (text == "latest") {
-        until = grids_->newest(asked.domain, asked.style.panels.front().moment);
+        until = newest_of_any(*grids_, asked.domain, asked.moments);
     } else {
         const auto time = parse_utc(text, now_utc());
         if (!time) return tl::unexpected(sentence(400, "time: " + time.error().message));
         exact = until = *time;
     }
-    std::optional<UtcTime> found;
-    if (until) {
-        found = newest_in_common(*grids_, asked.domain, asked.style, *until - first_look, *until);
-        if (!found) found = newest_in_common(*grids_, asked.domain, asked.style, {}, *until);
+    const bool is_found = until && find_grids(asked, *until);
+    const bool is_evicted = exact && !(is_found && asked.time == *exact) &&
+                            std::ranges::any_of(asked.moments, [&](level2::Moment moment) {
+                                return grids_->was_evicted(asked.domain, moment, *exact);
+                            });
+    if (!is_found || is_evicted) {
+        return tl::unexpected(
+            no_grid_to_draw(asked.domain, asked.moments, is_evicted, exact.has_value()));
     }
-    const bool is_evicted =
-        exact && found != exact &&
-        grids_->was_evicted(asked.domain, asked.style.panels.front().moment, *exact);
-    if (!found || is_evicted)
-        return tl::unexpected(no_grid_to_draw(*grids_, asked.domain, asked.style, exact));
-    asked.time = *found;
-    if (exact == found) asked.max_age = max_age_of("");
+    if (exact == asked.time) asked.max_age = max_age_of("");
     return asked;
+}
+
+bool FramesDoor::Asked::is_of_sweep() const {
+    return render::facts_of(style.panels.front().scene.product).is_of_sweep;
+}
+
+bool FramesDoor::find_grids(Asked& asked, UtcTime until) const {
+    if (!asked.is_of_sweep()) {
+        const auto time = newest_in_common(*grids_, asked.domain, asked.moments, until);
+        if (time) asked.time = *time;
+        return time.has_value();
+    }
+    std::optional<std::pair<UtcTime, level2::Moment>> newest;
+    for (const level2::Moment moment : asked.moments) {
+        const auto time = newest_in_common(*grids_, asked.domain, {moment}, until);
+        if (time && (!newest || *time > newest->first)) newest = {*time, moment};
+    }
+    if (!newest) return false;
+    asked.time = newest->first;
+    asked.moments = {newest->second};
+    return true;
 }
 
 std::optional<Answer> FramesDoor::answer_at_once(const Request& request) {
     auto what = asked(request);
     if (!what)
         return segments_of(request.path).size() == 1 ? std::nullopt : std::optional(what.error());
+    if (what->is_of_sweep()) return std::nullopt;
     FramePicture picture{what->domain, {}, std::move(what->style)};
     for (const render::PanelScene& panel : picture.style.panels) {
         auto grid = grids_->find_if_open(what->domain, panel.moment, what->time);
@@ -121,6 +161,7 @@ Answer FramesDoor::answer(const Request& request) {
     if (segments_of(request.path).size() == 1) return index(request);
     auto what = asked(request);
     if (!what) return what.error();
+    if (what->is_of_sweep()) return of_sweep(request, std::move(*what));
     FramePicture picture{what->domain, {}, std::move(what->style)};
     for (const render::PanelScene& panel : picture.style.panels) {
         auto grid = grid_named(*grids_, what->domain, panel.moment, format_utc(what->time));
@@ -131,6 +172,25 @@ Answer FramesDoor::answer(const Request& request) {
     const auto drawn = pictures_->find_or_draw(picture);
     if (!drawn) return picture_error(drawn.error());
     return picture_answer(request, *drawn, what->max_age);
+}
+
+Answer FramesDoor::of_sweep(const Request& request, Asked what) {
+    const auto grid = grid_named(*grids_, what.domain, what.moments.front(), format_utc(what.time));
+    if (!grid) return grid.error();
+    const auto picture = sweeps_->find(**grid, std::move(what.style));
+    if (!picture) return picture_error(picture.error());
+    if (!*picture) {
+        return sentence(404, fmt::format("A ppi is drawn of the raw volume, and the catalog has "
+                                         "none that starts at {}.",
+                                         format_utc(what.time)));
+    }
+    const SweepPicture& sweep = **picture;
+    if (sweep.volume.state == catalog::FileState::gone)
+        return sentence(410, "A ppi is drawn of the raw volume, and its file is gone.");
+    if (auto same = unchanged_answer(request, sweep.etag(), what.max_age)) return *same;
+    const auto drawn = sweeps_->find_or_draw(sweep);
+    if (!drawn) return picture_error(drawn.error());
+    return picture_answer(request, *drawn, what.max_age);
 }
 
 Answer FramesDoor::index(const Request& request) const {

@@ -42,9 +42,11 @@ void add_pictures(Doors& doors, const Sources& sources) {
     const auto wms = std::make_shared<WmsDoor>(maps);
     wms->set_workers(map_workers);
     doors.add("/wms", wms);
-    const auto frames = std::make_shared<FramesDoor>(
-        sources.grids,
-        std::make_shared<FramePictures>(FramePicturesOptions{.kept = kept, .threads = threads}));
+    const FramePicturesOptions of_frames{.kept = kept, .threads = threads};
+    const auto catalog = std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog);
+    const auto frames =
+        std::make_shared<FramesDoor>(sources.grids, std::make_shared<FramePictures>(of_frames),
+                                     std::make_shared<SweepPictures>(catalog, of_frames));
     frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
     doors.add("/frames", frames);
     doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));

@@ -1,13 +1,13 @@
-#include "cli/shared/problem_notes.h"
+#include "level2/decode/problem_notes.h"
 
 #include <fmt/format.h>
 
-namespace stormcellar::cli {
+namespace stormcellar::level2 {
 
-std::vector<std::string> notes_of(const level2::DecodeReport& report) {
+std::vector<std::string> notes_of(const DecodeReport& report) {
     constexpr std::size_t most_problems_noted = 20;
     std::vector<std::string> notes;
-    for (const level2::Problem& problem : report.problems) {
+    for (const Problem& problem : report.problems) {
         if (notes.size() == most_problems_noted) {
             notes.push_back(
                 fmt::format("and {} more problems", report.problems.size() - notes.size()));
@@ -18,4 +18,4 @@ std::vector<std::string> notes_of(const level2::DecodeReport& report) {
     return notes;
 }
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::level2

@@ -1,0 +1,113 @@
+#include "grid/place/source_volume.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/ranges.h>
+
+#include "level2/decode/problem_notes.h"
+#include "level2/decode/volume_checks.h"
+#include "stormcellar/base/station_table.h"
+
+namespace stormcellar::grid {
+namespace {
+
+bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& moments) {
+    return std::ranges::any_of(
+        moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
+}
+
+// Decodes the metadata, so that the pattern says which cuts are needed. Returns none if it does
+// not.
+std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
+                                           level2::DecodeOptions options,
+                                           const ChooseCuts& choose_cuts) {
+    constexpr int no_cut = 10'000;
+    options.selection.elevation_numbers = {no_cut};
+    const auto metadata = level2::decode(bytes, options);
+    if (!metadata || !metadata->volume.vcp_message) return std::nullopt;
+    options.selection.elevation_numbers = choose_cuts(metadata->volume);
+    if (options.selection.all_cuts()) return std::nullopt;
+    auto decoded = level2::decode(bytes, options);
+    if (!decoded || !holds_any(decoded->volume, options.selection.moments)) return std::nullopt;
+    return std::move(*decoded);
+}
+
+// If the file has several volumes, a note says so.
+level2::Volume take_volume(level2::Decoded decoded, const std::vector<level2::Moment>& moments,
+                           SourceVolume& source) {
+    const bool damaged = decoded.report.damaged;
+    std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    const auto found = std::find_if(volumes.begin(), volumes.end(),
+                                    [&](const auto& volume) { return holds_any(volume, moments); });
+    const std::size_t index =
+        found == volumes.end() ? 0 : static_cast<std::size_t>(found - volumes.begin());
+    if (volumes.size() > 1) {
+        source.partial = damaged || !level2::is_complete(volumes[index]);
+        source.notes.push_back(
+            fmt::format("the file holds {} volumes; this is number {}", volumes.size(), index + 1));
+    }
+    return std::move(volumes[index]);
+}
+
+}  // namespace
+
+level2::DecodeOptions decode_options_of(const SourceWish& wish, const std::string& file_name) {
+    level2::DecodeOptions options;
+    options.threads = wish.threads;
+    options.selection.moments = wish.moments;
+    options.fallback_station = station_in_name(file_name);
+    return options;
+}
+
+Result<level2::Decoded> decode_wished(std::span<const std::byte> bytes, const std::string& file,
+                                      const level2::DecodeOptions& options,
+                                      const ChooseCuts& choose_cuts) {
+    if (choose_cuts) {
+        auto few = decode_cuts(bytes, options, choose_cuts);
+        if (few) return std::move(*few);
+    }
+    auto decoded = level2::decode(bytes, options);
+    if (!decoded) return fail(decoded.error().code, "{}: {}", file, decoded.error().message);
+    return decoded;
+}
+
+Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
+                                 const SourceWish& wish) {
+    SourceVolume source;
+    source.partial = !decoded.report.complete;
+    std::vector<std::string> troubles;
+    if (decoded.report.rda_status) troubles = level2::rda_troubles(*decoded.report.rda_status);
+    source.notes = level2::notes_of(decoded.report);
+    source.volume = take_volume(std::move(decoded), wish.moments, source);
+    if (wish.place) {
+        if (Status placed = wish.place(source.volume); !placed)
+            return fail(placed.error().code, "{}: {}", file, placed.error().message);
+    }
+    if (!troubles.empty()) {
+        source.radar_troubles = {
+            fmt::format("{}: {}", source.volume.station, fmt::join(troubles, ", "))};
+    }
+    const auto antenna = level2::antenna_position(source.volume);
+    if (!antenna) {
+        return fail(ErrorCode::not_found,
+                    "{}: neither the file nor the station table gives the position of the radar{}",
+                    file, wish.how_to_place);
+    }
+    if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
+    source.site = {source.volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                   antenna->altitude_m};
+    return source;
+}
+
+Result<SourceVolume> decode_source(std::span<const std::byte> bytes, const std::string& file,
+                                   const SourceWish& wish) {
+    const std::string name = std::filesystem::path{file}.filename().string();
+    auto decoded = decode_wished(bytes, file, decode_options_of(wish, name), wish.choose_cuts);
+    if (!decoded) return pass_on(decoded);
+    return take_source(std::move(*decoded), file, wish);
+}
+
+}  // namespace stormcellar::grid
