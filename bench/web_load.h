@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/child_process.h"
@@ -19,13 +20,20 @@ namespace stormcellar::bench {
 
 inline constexpr int processor_of_servers = 0;
 
-// `stormcellar serve` of these files. Returns when it answers.
+// A server that answers. It is asked to end, so that it removes what it made.
 struct WebServer {
     ChildProcess process;
     int port = 0;
+
+    WebServer(ChildProcess started, int at) : process(std::move(started)), port(at) {}
+    WebServer(WebServer&&) noexcept = default;
+    WebServer& operator=(WebServer&&) noexcept = default;
+    ~WebServer() { process.stop(); }
+
     // "http://127.0.0.1:PORT" without a slash at the end.
     [[nodiscard]] std::string address() const;
 };
+// `stormcellar serve` of these files. Returns when it answers.
 [[nodiscard]] Result<WebServer> serve_files(const std::vector<std::filesystem::path>& files,
                                             const std::filesystem::path& scratch);
 // `stormcellar serve` of a catalog and a cache. It runs on any processor.

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/web/asked.h"
+#include "web/data/memory_file.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -36,7 +39,7 @@ TEST(KeptAnswers, KeepNeitherErrorsNorWhatIsTooLarge) {
     EXPECT_FALSE(kept.find_or_make("a", failing));
     EXPECT_EQ(made, 2);
     const auto large = kept.find_or_make("b", [] { return Result<Kept>(kept_bytes(5'000)); });
-    EXPECT_EQ((*large).bytes->size(), 5'000u);
+    EXPECT_EQ(size_of(large->bytes), 5'000u);
     EXPECT_FALSE(kept.find("b"));
 }
 
@@ -54,7 +57,7 @@ TEST(KeptAnswers, AreMadeOnceForAllWhoWait) {
                 released.wait();
                 return kept_bytes(100);
             });
-            if (value && value->bytes->size() == 100) ++right;
+            if (value && size_of(value->bytes) == 100) ++right;
         });
     }
     go_on.set_value();
@@ -62,6 +65,21 @@ TEST(KeptAnswers, AreMadeOnceForAllWhoWait) {
         thread.join();
     EXPECT_EQ(made, 1);
     EXPECT_EQ(right, 8);
+}
+
+TEST(MemoryFile, HoldsManyBytesAndNoFewOnes) {
+    std::string bytes(least_in_memory_file + 12'345, '\0');
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<char>(i * 2'654'435'761U >> 24);
+    const Piece piece = piece_of(bytes);
+    ASSERT_TRUE(std::holds_alternative<FileSlice>(piece));
+    EXPECT_EQ(size_of(piece), bytes.size());
+    Answer answer;
+    answer.body = part_of({piece}, 1000, 300'000 - 1000);
+    EXPECT_EQ(body_of(answer), bytes.substr(1000, 300'000 - 1000));
+    const Piece small = piece_of(bytes.substr(0, 1000));
+    ASSERT_TRUE(std::holds_alternative<Text>(small));
+    EXPECT_EQ(*std::get<Text>(small), bytes.substr(0, 1000));
 }
 
 TEST(KeptAnswers, ForgetByTheBeginningOfTheKey) {

@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint64_t overhead_bytes = 256;
 
 std::uint64_t size_in_budget(const std::string& key, const Kept& value) {
-    return key.size() + value.bytes->size() + value.etag.size() + value.notes.size() +
+    return key.size() + size_of(value.bytes) + value.etag.size() + value.notes.size() +
            overhead_bytes;
 }
 

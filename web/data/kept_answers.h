@@ -22,7 +22,7 @@
 namespace stormcellar::web {
 
 struct Kept {
-    Text bytes;
+    Piece bytes;
     std::string etag;   // with quotes
     std::string notes;  // what else the door wants to know, for example the content type
 };

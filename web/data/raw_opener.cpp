@@ -12,6 +12,7 @@
 #include "pipeline/drop/cataloged_volume.h"
 #include "pipeline/drop/chunk_path.h"
 #include "stormcellar/catalog/read_cataloged.h"
+#include "web/data/memory_file.h"
 
 namespace stormcellar::web {
 namespace {
@@ -118,15 +119,6 @@ RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks, bool grows) {
     return facts;
 }
 
-Status write_all(const Descriptor& file, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const auto done = ::write(file.number(), bytes.data(), bytes.size());
-        if (done <= 0) return fail(ErrorCode::no_space, "joined chunks cannot be written");
-        bytes = bytes.subspan(static_cast<std::size_t>(done));
-    }
-    return {};
-}
-
 }  // namespace
 
 RawOpener::State RawOpener::state_of(const struct stat& facts) {
@@ -212,9 +204,8 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
         if (size_bytes > most_raw_bytes) {
             return missing(RawMissing::changed, chunk.path.native() + ": the chunks exceed 1 GiB");
         }
-        if (Status written = write_all(*file, read->bytes); !written) {
-            return missing(RawMissing::trouble, written.error().message);
-        }
+        if (!write_all(*file, read->bytes))
+            return missing(RawMissing::trouble, "joined chunks cannot be written");
         joined.push_back(chunk);
     }
     const RawFacts facts = facts_of_rows(joined, grows);

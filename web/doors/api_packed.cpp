@@ -4,6 +4,7 @@
 #include "pipeline/mosaic/between_grids.h"
 #include "web/data/compressed.h"
 #include "web/data/halved_grid.h"
+#include "web/data/memory_file.h"
 #include "web/data/packed_grid.h"
 #include "web/doors/api_door.h"
 #include "web/doors/api_operations.h"
@@ -91,7 +92,7 @@ Result<Kept> compress_packed(const Result<std::string>& bytes, Coding coding, st
     if (!bytes) return pass_on(bytes);
     auto sent = compressed(*bytes, coding);
     if (!sent) return pass_on(sent);
-    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+    return Kept{piece_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
 }
 
 Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,

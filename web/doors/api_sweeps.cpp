@@ -6,6 +6,7 @@
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/level2/decode.h"
 #include "web/data/compressed.h"
+#include "web/data/memory_file.h"
 #include "web/data/packed_sweep.h"
 #include "web/doors/api_operations.h"
 
@@ -148,7 +149,7 @@ Answer api_gates(const ApiCall& call) {
             if (!sent) return pass_on(sent);
             std::string etag = fmt::format(
                 "\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(*bytes))), coding_name(coding));
-            return Kept{text_of(std::move(*sent)), std::move(etag),
+            return Kept{piece_of(std::move(*sent)), std::move(etag),
                         std::string(coding_name(coding))};
         });
         if (!made) return json_error(made.error());

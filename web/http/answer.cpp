@@ -9,19 +9,22 @@
 
 namespace stormcellar::web {
 
+std::uint64_t size_of(const Piece& piece) {
+    if (const auto* text = std::get_if<Text>(&piece)) return (*text)->size();
+    return std::get<FileSlice>(piece).size;
+}
+
 std::uint64_t size_of(const Pieces& pieces) {
     std::uint64_t size = 0;
-    for (const Piece& piece : pieces) {
-        if (const auto* text = std::get_if<Text>(&piece)) size += (*text)->size();
-        if (const auto* slice = std::get_if<FileSlice>(&piece)) size += slice->size;
-    }
+    for (const Piece& piece : pieces)
+        size += size_of(piece);
     return size;
 }
 
 Pieces part_of(const Pieces& pieces, std::uint64_t offset, std::uint64_t size) {
     Pieces part;
     for (const Piece& piece : pieces) {
-        const std::uint64_t length = size_of({piece});
+        const std::uint64_t length = size_of(piece);
         const std::uint64_t skipped = std::min(offset, length);
         const std::uint64_t taken = std::min(size, length - skipped);
         offset -= skipped;

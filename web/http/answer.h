@@ -35,6 +35,7 @@ struct FileSlice {
 // The bytes of a body, one piece after another.
 using Piece = std::variant<Text, FileSlice>;
 using Pieces = std::vector<Piece>;
+[[nodiscard]] std::uint64_t size_of(const Piece& piece);
 [[nodiscard]] std::uint64_t size_of(const Pieces& pieces);
 // Returns the bytes [offset, offset + size) of all, which must be there.
 [[nodiscard]] Pieces part_of(const Pieces& pieces, std::uint64_t offset, std::uint64_t size);
