@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <list>
@@ -31,6 +32,8 @@ namespace {
 
 constexpr std::size_t most_evicted_remembered = 65536;
 constexpr std::size_t opening_locks = 32;
+// The watch tells of every change but that of a directory above the cache.
+constexpr std::chrono::milliseconds look_again_after{100};
 
 GridFileStamp stamp_of_grid(const struct stat& facts) {
     return {facts.st_dev, facts.st_ino, static_cast<std::uint64_t>(facts.st_size),
@@ -68,7 +71,12 @@ struct Grids::Impl {
         GridFileStamp stamp;
         std::uint64_t bytes = 0;
         std::shared_ptr<const OpenGrid> grid;
+        // When the file was last seen to be the one that is open, and which changes were known.
+        std::chrono::steady_clock::time_point seen_at{};
+        std::uint64_t seen_changes = 0;
     };
+    // The grid that was seen a moment ago, while nothing changed since.
+    std::shared_ptr<const OpenGrid> find_seen(const cache::GridName& name);
 
     const GridsOptions options;
     std::atomic<std::uint64_t> changes{0};
@@ -147,7 +155,20 @@ std::shared_ptr<const OpenGrid> Grids::Impl::find_open(const cache::GridName& na
     const auto found = open_by_name.find(name);
     if (found == open_by_name.end() || found->second->stamp != stamp) return nullptr;
     open.splice(open.begin(), open, found->second);
+    found->second->seen_at = std::chrono::steady_clock::now();
+    found->second->seen_changes = changes;
     return found->second->grid;
+}
+
+std::shared_ptr<const OpenGrid> Grids::Impl::find_seen(const cache::GridName& name) {
+    const std::scoped_lock lock(open_mutex);
+    const auto found = open_by_name.find(name);
+    if (found == open_by_name.end()) return nullptr;
+    const Open& seen = *found->second;
+    const auto age = std::chrono::steady_clock::now() - seen.seen_at;
+    if (seen.seen_changes != changes || age > look_again_after) return nullptr;
+    open.splice(open.begin(), open, found->second);
+    return seen.grid;
 }
 
 void Grids::Impl::keep_open(const cache::GridName& name, const GridFileStamp& stamp,
@@ -155,7 +176,7 @@ void Grids::Impl::keep_open(const cache::GridName& name, const GridFileStamp& st
     drop_open(name);
     const std::scoped_lock lock(open_mutex);
     if (open_by_name.contains(name)) return;
-    open.push_front({name, stamp, memory_of(grid->file), grid});
+    open.push_front({name, stamp, memory_of(grid->file), grid, {}, 0});
     open_by_name[name] = open.begin();
     open_bytes += open.front().bytes;
     while (open.size() > 1 &&
@@ -267,6 +288,7 @@ std::shared_ptr<const OpenGrid> Grids::find_if_open(std::string_view domain, lev
     impl_->watch->catch_up();
     const cache::GridName name{std::string(domain), moment, time};
     if (!cache::is_domain_name(domain) || !cache::is_possible(time)) return nullptr;
+    if (auto seen = impl_->find_seen(name); seen && !impl_->watch->problem()) return seen;
     const Result<struct stat> facts =
         look_beneath(impl_->options.cache, impl_->options.cache / cache::relative_path(name));
     return facts ? impl_->find_open(name, stamp_of_grid(*facts)) : nullptr;
