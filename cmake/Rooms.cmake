@@ -5,16 +5,17 @@ function(stormcellar_batches target)
 endfunction()
 
 # stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]
-#                  [ALONE] [BATCHES])
+#                  [ALONE] [BATCHES [SINGLY directory...]])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
 # Headers are included by their room, as in "stormcellar/level2/volume.h". The headers beside the sources are
 # installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
 # names no other and does not use fmt, so the common precompiled headers are not for it. BATCHES is
 # for what moves files and rows, of which headers are most: see stormcellar_test. What computes is
-# compiled as it is released.
+# compiled as it is released: in rooms that do both, it stands in directories that are named SINGLY.
 function(stormcellar_room name)
-  cmake_parse_arguments(ARG "ALONE;BATCHES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;BATCHES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
+    ${ARGN})
   set(target stormcellar_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(stormcellar::${name} ALIAS ${target})
@@ -33,6 +34,11 @@ function(stormcellar_room name)
   endif()
   if(STORMCELLAR_PRECOMPILE AND ARG_BATCHES)
     stormcellar_batches(${target})
+    foreach(directory IN LISTS ARG_SINGLY)
+      set(singly ${ARG_SOURCES})
+      list(FILTER singly INCLUDE REGEX "^${directory}/")
+      set_source_files_properties(${singly} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endforeach()
   endif()
   # Each room is a component of the installed package (cmake/Install.cmake).
   install(TARGETS ${target} EXPORT stormcellar-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}

@@ -39,12 +39,12 @@ constexpr Meaning products[] = {
 };
 
 // How many of the file's units make one of ours.
-struct Unit {
+struct FileUnit {
     std::string_view word;
     double per_ours;
     std::string_view ours;
 };
-constexpr Unit units[] = {
+constexpr FileUnit units[] = {
     {"KT", 1.943844, "m/s"},  {"KTS", 1.943844, "m/s"}, {"KNOTS", 1.943844, "m/s"},
     {"MPH", 2.236936, "m/s"}, {"KMH", 3.6, "m/s"},      {"KM/H", 3.6, "m/s"},
     {"M/S", 1, "m/s"},        {"MPS", 1, "m/s"},        {"KFT", 3.280840, "km"},
@@ -255,7 +255,7 @@ class PalReader {
         const std::string word = upper(unit_);
         const bool has_meaning = moment_known_ || !table.unit.empty();
         bool unit_known = false;
-        for (const Unit& unit : units) {
+        for (const FileUnit& unit : units) {
             if (unit.word != word) continue;
             unit_known = true;
             if (!has_meaning) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/map/legend_layout.h"
+#include "render/map/picture_space.h"
 
 namespace stormcellar::render {
 namespace {
@@ -16,9 +17,8 @@ constexpr int least_panel_height = 150;
 constexpr double title_height = 20;
 constexpr double legend_height = 50;
 constexpr double gap = 8;
-// Lines and letters in a panel, of those of the whole; letters get no smaller than in any picture.
+// Lines and letters in a panel, of those of the whole.
 constexpr double panel_scale = 0.62;
-constexpr double least_scale = 0.85;
 
 struct Grid {
     int columns = 1, rows = 1;
@@ -66,7 +66,7 @@ Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene, const
                                    const PictureFacts& picture, std::span<const Legend> legends) {
     const PictureSpace space = space_of(scene.width, scene.height);
     const auto count = static_cast<int>(legends.size());
-    const double scale = std::max(least_scale, panel_scale * space.scale);
+    const double scale = std::max(least_text_scale, panel_scale * space.scale);
     const Grid grid =
         grid_of(count, scene.width, scene.height, space, count > 1 ? std::round(gap * scale) : 0);
     if (grid.width < least_panel_width || grid.height < least_panel_height) {

@@ -9,7 +9,6 @@ namespace {
 // Wider than the one is wide, narrower than the other is tall.
 constexpr double least_wide = 1.2;
 constexpr double most_tall = 0.72;
-constexpr double least_scale = 0.85;
 constexpr double most_scale = 16;
 
 // Lengths at scale 1, and the picture that has this scale.
@@ -40,7 +39,7 @@ PictureSpace space_of(int width, int height) {
     }
     const Measures at = measures_of(space.shape);
     space.scale =
-        std::clamp(std::min(width / at.width, height / at.height), least_scale, most_scale);
+        std::clamp(std::min(width / at.width, height / at.height), least_text_scale, most_scale);
     const auto scaled = [&](double length) {
         return static_cast<int>(std::lround(length * space.scale));
     };

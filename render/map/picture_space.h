@@ -12,6 +12,9 @@ namespace stormcellar::render {
 
 enum class PictureShape { wide, square, tall };
 
+// Letters get no smaller than at this scale, in panels neither.
+inline constexpr double least_text_scale = 0.85;
+
 // Lengths are in pixels.
 struct PictureSpace {
     PictureShape shape = PictureShape::wide;

@@ -72,10 +72,10 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
 }
 
 // The units that were named so far, in the order of `quantities`.
-using Named = std::array<const UnitFacts*, quantities.size()>;
+using NamedUnits = std::array<const UnitFacts*, quantities.size()>;
 
 // Says for what the unit stands, where no other does.
-Status take(const UnitFacts& facts, Named& named) {
+Status take(const UnitFacts& facts, NamedUnits& named) {
     bool is_used = false;
     const Quantity* taken = nullptr;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -115,7 +115,7 @@ Result<Units> units_from_names(std::string_view names) {
     // A unit of several things takes what the others leave.
     std::stable_partition(units.begin(), units.end(),
                           [](const UnitFacts* f) { return !is_of_several(*f); });
-    Named named{};
+    NamedUnits named{};
     for (const UnitFacts* facts : units) {
         if (Status fine = take(*facts, named); !fine) return pass_on(fine);
     }
