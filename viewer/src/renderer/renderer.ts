@@ -2,7 +2,7 @@
 // lost and is restored.
 
 import { Atlas } from '../atlas/atlas';
-import { ViewGeometry, heightRange } from '../camera/geometry';
+import { Box, ViewGeometry, heightRange } from '../camera/geometry';
 import { cellSizeM } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { Transfer, makeTransfer } from '../tables/transfer';
@@ -289,6 +289,7 @@ export class Renderer {
         }
         gl.uniform3f(at('boxLow'), -box.halfXM, -box.halfYM, box.bottomM * exaggeration);
         gl.uniform3f(at('boxHigh'), box.halfXM, box.halfYM, box.topM * exaggeration);
+        gl.uniform1fv(at('brickHeights'), brickHeights(grid, box, exaggeration));
         gl.uniform3f(at('cells'), grid.nx, grid.ny, grid.nz);
         gl.uniform2f(at('cellSize'), cellWidth, cellHeight);
         gl.uniform3iv(at('slots'), loaded.atlas.slots);
@@ -309,6 +310,17 @@ export class Renderer {
         const pixel = new Uint8Array(4);
         this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
     }
+}
+
+// A sample belongs to the layer of bricks of the level below it.
+function brickHeights(grid: PackedGrid, box: Box, exaggeration: number): Float32Array {
+    const heights = new Float32Array(66);
+    for (let layer = 0; layer < heights.length; ++layer) {
+        const level = layer * grid.brickEdge;
+        const height = layer === 0 ? box.bottomM - 1 : level < grid.nz ? grid.levelsM[level]! : box.topM + 1;
+        heights[layer] = height * exaggeration;
+    }
+    return heights;
 }
 
 function hasUnevenLevels(grid: PackedGrid): boolean {

@@ -43,6 +43,7 @@ uniform usampler3D indirection;
 uniform sampler2D transfer;
 ${variant.hasUnevenLevels ? 'uniform sampler2D levels;\nuniform vec2 levelRange; // of drawn heights' : 'uniform vec2 levelLine; // level = x + y * drawn height'}
 uniform vec3 boxLow, boxHigh;
+uniform float brickHeights[66]; // drawn, of the lower ends of layers of bricks and of the last one's upper end
 uniform vec3 cells;
 uniform vec2 cellSize;
 uniform ivec3 slots;
@@ -90,15 +91,8 @@ float leaves(vec3 start, vec3 along, ivec3 brick) {
     float first = 1e30;
     if (abs(along.x) > 1e-9) first = min(first, depth.x);
     if (abs(along.y) > 1e-9) first = min(first, depth.y);
-${
-    variant.hasUnevenLevels
-        ? '    return cells.z <= edge ? first : -1e30;'
-        : `    if (cells.z > edge && abs(along.z) > 1e-9) {
-        float level = edge * float(along.z * levelLine.y > 0.0 ? brick.z + 1 : brick.z);
-        first = min(first, ((level - levelLine.x) / levelLine.y - start.z) / along.z);
-    }
-    return first;`
-}
+    if (abs(along.z) > 1e-9) first = min(first, (brickHeights[along.z > 0.0 ? brick.z + 1 : brick.z] - start.z) / along.z);
+    return first;
 }
 void main() {
     color = vec4(0.0);
