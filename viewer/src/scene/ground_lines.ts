@@ -1,7 +1,7 @@
 // Lines and cities of the map, on the plane of a grid: what lies within reach of the picture.
 
 import { MapLines } from '../renderer/renderer';
-import { City, MapAnswer } from '../wire/api';
+import { City, MapAnswer, MapLine } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 import { GridPlane, Plane } from './projection';
 
@@ -27,12 +27,32 @@ function segmentsOf(lines: (Plane | null)[][], halfM: number): Float32Array {
     return new Float32Array(ends);
 }
 
+// Areas are cut along meridians and parallels; these cuts are no coasts.
+function withoutCuts(line: MapLine): [number, number][][] {
+    if (!line.is_area) return [line.points];
+    const pieces: [number, number][][] = [];
+    let piece: [number, number][] = [];
+    for (const point of line.points) {
+        const last = piece[piece.length - 1];
+        if (last && (last[0] === point[0] || last[1] === point[1])) {
+            pieces.push(piece);
+            piece = [];
+        }
+        piece.push(point);
+    }
+    pieces.push(piece);
+    return pieces.filter(one => one.length > 1);
+}
+
 export function mapLines(map: MapAnswer, plane: GridPlane, halfM: number): MapLines[] {
     const kinds = ['county', 'lake', 'state', 'coast', 'country'] as const;
     return kinds.map(kind => ({
         kind,
         segments: segmentsOf(
-            map.lines.filter(line => line.kind === kind).map(line => line.points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg }))),
+            map.lines
+                .filter(line => line.kind === kind)
+                .flatMap(withoutCuts)
+                .map(points => points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg }))),
             halfM,
         ),
     }));

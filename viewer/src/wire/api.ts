@@ -26,6 +26,7 @@ export interface Domain {
 }
 export interface MapLine {
     kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
+    is_area: boolean;
     points: [number, number][]; // longitude, latitude
 }
 export interface City {
