@@ -9,6 +9,7 @@ const chosen = {
     moment: 'VEL',
     time: '2016-06-01T15:00:25.180Z',
     camera: { azimuthDeg: 217.25, tiltDeg: 71.5, zoom: 3.5, fieldOfViewDeg: 0, lookAtM: [12345, -6789, 4000] as [number, number, number] },
+    hasGround: false,
     exaggeration: 2.5,
     opacity: 1.8,
     least: -12.5,

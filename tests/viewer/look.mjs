@@ -1,0 +1,121 @@
+// What the page of the viewer draws and does, in Chromium (scripts/check-viewer).
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { Browser } from './devtools.mjs';
+
+const [address, list, difference, directory, pictures] = process.argv.slice(2);
+const stations = list.split(',');
+const station = stations[0];
+const [width, height] = [400, 266];
+// The largest difference that the page may have from the slicer: CIEDE2000, 99th percentile of the pixels that show echo.
+const mostDifference = 2;
+
+let failed = false;
+function check(what, holds, more = '') {
+  console.log(holds ? what : `FAILED: ${what} ${more}`);
+  failed ||= !holds;
+}
+
+const browser = await Browser.start();
+const page = await browser.page(width, height);
+const drawn = 'document.documentElement.dataset.drawn';
+const address_of = (view) => `${address}/view/#${view}`;
+
+async function show(view) {
+  await page.evaluate(`delete ${drawn}; location.hash = ${JSON.stringify(view)}`);
+  await page.until(drawn);
+}
+
+// The pixels of the picture as bytes of a portable pixmap.
+async function pixels() {
+  const text = await page.evaluate(`(() => {
+    const picture = document.getElementById('picture');
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [picture.width, picture.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let text = '';
+    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+    return copy.width + ' ' + copy.height + ' ' + btoa(text);
+  })()`);
+  const [w, h, bytes] = text.split(' ');
+  return Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(bytes, 'base64')]);
+}
+const shadesOf = (ppm) => new Set(Array.from({ length: Math.floor((ppm.length - 15) / 3) }, (_, i) => ppm.readUIntBE(15 + 3 * i, 3)));
+
+// ---- The first picture
+const began = performance.now();
+await page.goto(address_of(''));
+await page.until(drawn);
+console.log(`first picture after ${Math.round(performance.now() - began)} ms, ${page.bytes} bytes on the wire`);
+check('the first picture has many colors', shadesOf(await pixels()).size > 200);
+check('the title names the station', (await page.evaluate('document.title')).includes(station));
+check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
+check('every request went to the server of the page', page.requests.every((url) => url.startsWith(`${address}/`) || url.startsWith('data:') || url.startsWith('blob:')), page.requests.join(' '));
+
+// ---- The volume against the slicer
+async function gridsOf(domain) {
+  for (let tries = 0; tries < 300; ++tries) {
+    const { grids } = await (await fetch(`${address}/api/v1/grids?domain=${domain}&limit=10000`)).json();
+    if (grids.some(({ moment }) => moment === 'REF')) return grids;
+    await new Promise((done) => setTimeout(done, 100));
+  }
+  throw new Error(`there is no grid of ${domain}`);
+}
+const grids = (await Promise.all(stations.map(gridsOf))).flat();
+const scenes = [
+  // number of the station, moment, azimuth, tilt, zoom, field of view, exaggeration, opacity, look at (km)
+  [0, 'REF', 180, 55, 1, 0, 5, 1, [0, 0, 5]],
+  [0, 'REF', 180, 0, 2, 0, 3, 1, [0, 0, 5]],
+  [0, 'REF', 217, 71, 3, 0, 3, 1.5, [20, -10, 4]],
+  [0, 'REF', 180, 60, 2, 40, 3, 1, [0, 0, 4]],
+  [0, 'REF', 300, 80, 4, 40, 2, 2, [-30, 20, 4]],
+  [0, 'REF', 90, 85, 2, 60, 5, 4, [10, 10, 6]],
+  [0, 'REF', 45, 30, 6, 40, 4, 1, [40, 40, 3]],
+  [0, 'REF', 180, 88, 1.5, 20, 8, 0.3, [0, 0, 5]],
+  [0, 'VEL', 180, 55, 1.5, 40, 3, 1, [0, 0, 4]],
+  [0, 'VEL', 150, 20, 3, 0, 3, 2, [0, 0, 4]],
+  [0, 'SW', 200, 65, 2, 40, 3, 1, [0, 0, 4]],
+  [0, 'ZDR', 180, 50, 2, 40, 3, 1, [0, 0, 4]],
+  [1, 'REF', 180, 65, 4, 40, 3, 1, [-20, 20, 5]],
+  [1, 'REF', 120, 78, 8, 40, 2, 1, [-30, 10, 5]],
+];
+const files = new Map();
+async function gridFile(domain, moment) {
+  const grid = grids.find((one) => one.domain === domain && one.moment === moment);
+  if (!grid) return null;
+  if (!files.has(grid.path)) {
+    const file = join(directory, `${domain}-${moment}.scg`);
+    const answer = await fetch(`${address}${grid.path}/file`);
+    writeFileSync(file, Buffer.from(await answer.arrayBuffer()));
+    files.set(grid.path, file);
+  }
+  return files.get(grid.path);
+}
+if (pictures) mkdirSync(pictures, { recursive: true });
+let compared = 0;
+for (const [number, [one, moment, azimuth, tilt, zoom, field, exaggeration, opacity, at]] of scenes.entries()) {
+  const file = stations[one] && (await gridFile(stations[one], moment));
+  if (!file) continue;
+  await show(`domain=${stations[one]}&moment=${moment}&ground=0&azimuth=${azimuth}&tilt=${tilt}&zoom=${zoom}&field-of-view=${field}` +
+    `&exaggeration=${exaggeration}&opacity=${opacity}&look-at-km=${at.join(',')}`);
+  const picture = join(pictures || directory, `scene-${number}.ppm`);
+  writeFileSync(picture, await pixels());
+  const more = pictures ? [join(pictures, `scene-${number}-slicer.png`)] : [];
+  const words = [azimuth, tilt, zoom, field, exaggeration, opacity, ...at.map((km) => km * 1000)].map(String);
+  const [p99, mean, most, count] = execFileSync(difference, [file, picture, ...words, ...more], { encoding: 'utf8' }).trim().split(' ').map(Number);
+  const ms = await page.evaluate('document.documentElement.dataset.frameMs');
+  check(`scene ${number}, ${stations[one]} ${moment}: dE ${p99} (mean ${mean}, most ${most}) over ${count} pixels, ${ms} ms`, p99 <= mostDifference && count > 300);
+  if (compared++ > 0) continue;
+  // The comparison can fail: other heights are another picture.
+  words[4] = String(exaggeration * 1.5);
+  const other = Number(execFileSync(difference, [file, picture, ...words], { encoding: 'utf8' }).split(' ')[0]);
+  check(`with other heights the difference is ${other}`, other > mostDifference);
+}
+check(`${compared} scenes were compared`, compared >= 4);
+
+await browser.end();
+process.exit(failed ? 1 : 0);
