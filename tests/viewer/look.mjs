@@ -117,5 +117,16 @@ for (const [number, [one, moment, azimuth, tilt, zoom, field, exaggeration, opac
 }
 check(`${compared} scenes were compared`, compared >= 4);
 
+// ---- What is hidden
+// Green stands for 20 to 35 dBZ; stronger echo is yellow and red.
+const echoes = `domain=${station}&moment=REF&ground=0&azimuth=180&tilt=0&zoom=1.5&field-of-view=0`;
+const colorsOf = (ppm) => [...shadesOf(ppm)].map((rgb) => [rgb >> 16, (rgb >> 8) & 255, rgb & 255]);
+const greens = (ppm) => colorsOf(ppm).filter(([r, g]) => g > r + 25).length;
+await show(echoes);
+const all = greens(await pixels());
+await show(`${echoes}&least=36`);
+const strong = await pixels();
+check(`above 36 dBZ nothing is green (${greens(strong)} shades, ${all} before)`, all > 20 && greens(strong) === 0 && shadesOf(strong).size > 5);
+
 await browser.end();
 process.exit(failed ? 1 : 0);

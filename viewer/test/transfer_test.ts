@@ -21,7 +21,7 @@ const stepped: ColorTable = {
 const quantization = { firstValue: -32, step: 0.5 };
 const opacity = 1.5;
 const stepM = 700;
-const made = makeTransfer(stepped, quantization, opacity, stepM);
+const made = makeTransfer(stepped, quantization, { opacity, least: -Infinity }, stepM);
 const entry = (front: number, back: number) => [...made.entries.subarray(4 * (front * binCount + back), 4 * (front * binCount + back) + 4)];
 const binOf = (code: number) => Math.min(255, Math.max(0, Math.floor(made.binOffset + made.binSlope * code)));
 const codeOf = (value: number) => (value - quantization.firstValue) / quantization.step + 3;
@@ -89,4 +89,13 @@ test('what is seen first hides what comes later', () => {
 test('no value below the least visible code shows', () => {
     assert.equal(binOf(made.leastVisibleCode - 1), 0);
     assert(binOf(made.leastVisibleCode) >= 1);
+});
+
+test('values below the least that is shown are clear, the others as they were', () => {
+    const above = makeTransfer(stepped, quantization, { opacity, least: 10 }, stepM);
+    const [weak, strong] = [binOf(codeOf(8)), binOf(codeOf(12))];
+    assert.deepEqual([...above.entries.subarray(4 * weak * (binCount + 1), 4 * weak * (binCount + 1) + 4)], [0, 0, 0, 0]);
+    assert.deepEqual([...above.entries.subarray(4 * strong * (binCount + 1), 4 * strong * (binCount + 1) + 4)], entry(strong, strong));
+    assert(above.leastVisibleCode > made.leastVisibleCode);
+    assert.equal(makeTransfer(stepped, quantization, { opacity, least: 1000 }, stepM).leastVisibleCode, Infinity);
 });
