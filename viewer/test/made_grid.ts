@@ -1,124 +1,92 @@
-// Packed grids for tests, written by docs/web/packed-grid.md.
+// A packed grid made by the document alone (docs/web/packed-grid.md): its bytes, and its cells.
 
 export interface Made {
+    bytes: Uint8Array;
+    code(x: number, y: number, z: number): number;
     nx: number;
     ny: number;
-    levelsM: number[];
-    codeBytes?: 1 | 2;
-    firstValue?: number;
-    step?: number;
-    spacing?: number;
-    // 0 not seen, 1 no echo, 2 range folded, from 3 on a value
-    codeOf(x: number, y: number, z: number): number;
+    nz: number;
 }
 
 const edge = 16;
-const cells = edge ** 3;
 
-interface Brick {
-    kind: number;
-    state: number;
-    count: number;
-    least: number;
-    greatest: number;
-    codes: number[];
+// Codes that tell every axis apart: echo in a slanted band, its neighborhood seen, the rest not.
+export function madeCode(x: number, y: number, z: number): number {
+    const far = Math.abs(x - 2 * y + 3 * z - 10);
+    if (far < 6) return 40 + ((x * 7 + y * 3 + z * 5) % 60);
+    if (far < 30) return 1;
+    return far < 60 && (x + y + z) % 11 === 0 ? 2 : 0;
 }
 
-function brickOf(made: Made, bx: number, by: number, bz: number): Brick {
-    const brick: Brick = { kind: 0, state: 0, count: 0, least: 0, greatest: 0, codes: [] };
-    for (let i = 0; i < cells; ++i) {
-        const [x, y, z] = [bx * edge + Math.floor(i / 256), by * edge + (Math.floor(i / 16) % 16), bz * edge + (i % 16)];
-        const inside = x < made.nx && y < made.ny && z < made.levelsM.length;
-        brick.codes.push(inside ? made.codeOf(x, y, z) : 0);
+export function makeGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 1, scale = 1): Made {
+    const code = (x: number, y: number, z: number) => {
+        const own = madeCode(x, y, z);
+        return own < 3 ? own : own * scale;
+    };
+    const bricks = [nx, ny, nz].map(n => Math.ceil(n / edge)) as [number, number, number];
+    const table: number[][] = [];
+    const states: number[][] = [];
+    const codes: number[][] = [];
+    for (let bx = 0; bx < bricks[0]; ++bx) {
+        for (let by = 0; by < bricks[1]; ++by) {
+            for (let bz = 0; bz < bricks[2]; ++bz) {
+                const cells: number[] = [];
+                for (let x = bx * edge; x < (bx + 1) * edge; ++x)
+                    for (let y = by * edge; y < (by + 1) * edge; ++y)
+                        for (let z = bz * edge; z < (bz + 1) * edge; ++z) cells.push(x < nx && y < ny && z < nz ? code(x, y, z) : 0);
+                const values = cells.filter(one => one >= 3);
+                if (values.length > 0) {
+                    table.push([2, 0, values.length, Math.min(...values), Math.max(...values), codes.length]);
+                    codes.push(cells);
+                } else if (cells.every(one => one === cells[0])) {
+                    table.push([0, cells[0]!, 0, 0, 0, 0]);
+                } else {
+                    table.push([1, 0, 0, 0, 0, states.length]);
+                    states.push(cells);
+                }
+            }
+        }
     }
-    const values = brick.codes.filter(code => code >= 3);
-    brick.count = values.length;
-    if (values.length > 0) {
-        brick.kind = 2;
-        brick.least = Math.min(...values);
-        brick.greatest = Math.max(...values);
-    } else if (brick.codes.some(code => code !== brick.codes[0])) brick.kind = 1;
-    else brick.state = brick.codes[0]!;
-    return brick;
-}
-
-export function packedGrid(made: Made): Uint8Array {
-    const { nx, ny, levelsM } = made;
-    const nz = levelsM.length;
-    const codeBytes = made.codeBytes ?? 1;
-    const counts = [nx, ny, nz].map(n => Math.ceil(n / edge)) as [number, number, number];
-    const bricks: Brick[] = [];
-    for (let x = 0; x < counts[0]; ++x) for (let y = 0; y < counts[1]; ++y) for (let z = 0; z < counts[2]; ++z) bricks.push(brickOf(made, x, y, z));
-    const stateBlocks = bricks.filter(brick => brick.kind === 1);
-    const codeBlocks = bricks.filter(brick => brick.kind === 2);
+    const cellCount = edge ** 3;
     const levelsAt = 256;
-    const sitesAt = levelsAt + 8 * nz;
+    const sitesAt = levelsAt + nz * 8;
     const tableAt = sitesAt + 32;
-    const statesAt = tableAt + 12 * bricks.length;
-    const codesAt = statesAt + (stateBlocks.length * cells) / 4;
-    const size = codesAt + codeBlocks.length * cells * codeBytes;
-    const view = new DataView(new ArrayBuffer(size));
-    [0x89, 0x53, 0x43, 0x50, 0x0d, 0x0a, 0x1a, 0x0a].forEach((byte, i) => view.setUint8(i, byte));
-    const u32 = (at: number, value: number) => view.setUint32(at, value, true);
-    const f64 = (at: number, value: number) => view.setFloat64(at, value, true);
-    const big = (at: number, value: number) => view.setBigUint64(at, BigInt(value), true);
-    u32(8, 1);
-    u32(12, 256);
-    big(16, size);
-    view.setBigUint64(24, 0xabc0123456789defn, true);
-    [nx, ny, nz].forEach((n, i) => u32(36 + 4 * i, n));
-    f64(48, 35.3331);
-    f64(56, -97.2777);
-    f64(64, made.spacing ?? 1000);
-    u32(108, codeBytes);
-    view.setFloat32(112, made.firstValue ?? -32, true);
-    view.setFloat32(116, made.step ?? 0.5, true);
-    u32(120, edge);
-    counts.forEach((n, i) => u32(124 + 4 * i, n));
-    [1000, 500, 1500].forEach((ms, i) => view.setBigInt64(136 + 8 * i, BigInt(ms), true));
-    u32(180, bricks.length);
-    u32(188, stateBlocks.length);
-    u32(196, codeBlocks.length);
-    u32(200, 1);
-    u32(204, bricks.length);
-    [levelsAt, sitesAt, tableAt, statesAt, codesAt].forEach((at, i) => big(208 + 8 * i, at));
-    levelsM.forEach((height, i) => f64(levelsAt + 8 * i, height));
-    f64(sitesAt, 35.3331);
-    f64(sitesAt + 8, -97.2777);
-    f64(sitesAt + 16, 389);
-    [...'KTLX'].forEach((letter, i) => view.setUint8(sitesAt + 24 + i, letter.charCodeAt(0)));
-    bricks.forEach((brick, i) => {
+    const statesAt = tableAt + table.length * 12 + ((4 - ((tableAt + table.length * 12) % 4)) % 4);
+    const codesAt = statesAt + (states.length * cellCount) / 4;
+    const size = codesAt + codes.length * cellCount * codeBytes;
+    const bytes = new Uint8Array(size);
+    const view = new DataView(bytes.buffer);
+    bytes.set([0x89, 0x53, 0x43, 0x50, 0x0d, 0x0a, 0x1a, 0x0a]);
+    const u32 = (at: number, ...values: number[]) => values.forEach((value, i) => view.setUint32(at + 4 * i, value, true));
+    const f64 = (at: number, ...values: number[]) => values.forEach((value, i) => view.setFloat64(at + 8 * i, value, true));
+    u32(8, 1, 256);
+    view.setBigUint64(16, BigInt(size), true);
+    view.setBigUint64(24, 0x0123456789abcdefn, true);
+    u32(32, 0, nx, ny, nz);
+    f64(48, 35.3, -97.3, 1000, 0, 0, 0, 0);
+    u32(104, 0, codeBytes);
+    view.setFloat32(112, -32, true);
+    view.setFloat32(116, 0.5 / scale, true);
+    u32(120, edge, ...bricks);
+    view.setBigInt64(136, 1_000_000n, true);
+    u32(188, states.length);
+    u32(196, codes.length, 1, table.length);
+    [levelsAt, sitesAt, tableAt, statesAt, codesAt].forEach((at, i) => view.setBigUint64(208 + 8 * i, BigInt(at), true));
+    for (let z = 0; z < nz; ++z) f64(levelsAt + 8 * z, 500 * (z + 1));
+    f64(sitesAt, 35.3, -97.3, 400);
+    bytes.set([75, 84, 76, 88], sitesAt + 24);
+    table.forEach(([kind, state, count, least, greatest, block], i) => {
         const at = tableAt + 12 * i;
-        view.setUint8(at, brick.kind);
-        view.setUint8(at + 1, brick.state);
-        view.setUint16(at + 2, brick.count, true);
-        view.setUint16(at + 4, brick.least, true);
-        view.setUint16(at + 6, brick.greatest, true);
-        u32(at + 8, brick.kind === 1 ? stateBlocks.indexOf(brick) : brick.kind === 2 ? codeBlocks.indexOf(brick) : 0);
+        bytes[at] = kind!;
+        bytes[at + 1] = state!;
+        view.setUint16(at + 2, count!, true);
+        view.setUint16(at + 4, least!, true);
+        view.setUint16(at + 6, greatest!, true);
+        u32(at + 8, block!);
     });
-    stateBlocks.forEach((brick, block) =>
-        brick.codes.forEach((code, i) => {
-            const at = statesAt + (block * cells + i) / 4;
-            view.setUint8(Math.floor(at), view.getUint8(Math.floor(at)) | (code << (2 * (i % 4))));
-        }),
+    states.forEach((cells, b) => cells.forEach((one, i) => (bytes[statesAt + (b * cellCount + i) / 4 | 0]! |= one << (2 * (i & 3)))));
+    codes.forEach((cells, b) =>
+        cells.forEach((one, i) => (codeBytes === 1 ? (bytes[codesAt + b * cellCount + i] = one) : view.setUint16(codesAt + 2 * (b * cellCount + i), one, true))),
     );
-    codeBlocks.forEach((brick, block) =>
-        brick.codes.forEach((code, i) => {
-            const at = codesAt + (block * cells + i) * codeBytes;
-            if (codeBytes === 1) view.setUint8(at, code);
-            else view.setUint16(at, code, true);
-        }),
-    );
-    return new Uint8Array(view.buffer);
-}
-
-export function evenLevels(count: number, spacingM = 500): number[] {
-    return Array.from({ length: count }, (_, i) => 500 + i * spacingM);
-}
-
-// Numbers without a pattern, the same in each run.
-export function scrambled(x: number, y: number, z: number): number {
-    let bits = (x * 73856093) ^ (y * 19349663) ^ (z * 83492791);
-    bits = Math.imul(bits ^ (bits >>> 13), 1274126177);
-    return (bits ^ (bits >>> 16)) >>> 0;
+    return { bytes, code, nx, ny, nz };
 }

@@ -1,13 +1,14 @@
-// What the tests use of node, whose types are a package of their own.
+// What the tests use of node, without its own types.
 declare module 'node:test' {
     export default function test(name: string, body: () => void | Promise<void>): void;
 }
 declare module 'node:assert/strict' {
     interface Assert {
-        (holds: unknown, message?: string): asserts holds;
+        (value: unknown, message?: string): asserts value;
         equal(actual: unknown, expected: unknown, message?: string): void;
         deepEqual(actual: unknown, expected: unknown, message?: string): void;
-        throws(body: () => unknown, expected?: unknown, message?: string): void;
+        throws(body: () => unknown, expected?: RegExp | (new (...args: never[]) => Error), message?: string): void;
+        ok(value: unknown, message?: string): asserts value;
     }
     const assert: Assert;
     export default assert;

@@ -62,7 +62,8 @@ std::optional<Answer> ViewerDoor::answer_at_once(const Request& request) {
     const std::string_view name = is_folder ? page_name : std::string_view(path[1]);
     const auto files = viewer_files();
     const auto file = std::ranges::find(files, name, &ViewerFile::name);
-    if (path.size() > 2 || file == files.end()) {
+    const bool is_file = is_folder || (path.size() == 2 && !request.path.ends_with('/'));
+    if (!is_file || file == files.end()) {
         return sentence(404, files.empty() ? "This server was built without the viewer."
                                            : "The viewer has no such file.");
     }

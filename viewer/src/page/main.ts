@@ -41,6 +41,7 @@ class Page {
     private isDrawing = false;
     private isFinal = false;
     private events: EventSource | null = null;
+    private readAt: [number, number] | null = null; // a place that was clicked, meters from the middle
 
     async begin(): Promise<void> {
         this.putTexts();
@@ -108,6 +109,7 @@ class Page {
         void this.showMap(domain, loaded);
         this.putTitle();
         this.putTables();
+        if (this.readAt) this.putReading();
         this.loadAhead();
         this.changed();
     }
@@ -241,6 +243,7 @@ class Page {
         element('opacity-name').textContent = texts.opacity;
         element('exaggeration-name').textContent = texts.exaggeration;
         for (const [id, text] of [
+            ['open', texts.settings],
             ['play', texts.play],
             ['follow', texts.latest],
         ] as const)
@@ -387,6 +390,7 @@ class Page {
 
     private showHelp(): void {
         const box = element('reading');
+        this.readAt = null;
         box.replaceChildren(
             ...texts.helpText.map(text => {
                 const line = document.createElement('p');
@@ -398,22 +402,24 @@ class Page {
     }
 
     private read(x: number, y: number): void {
-        const geometry = this.geometry();
-        const ground = geometry?.ground(x, y);
+        this.readAt = this.geometry()?.ground(x, y) ?? null;
+        this.putReading();
+    }
+
+    // Also after another volume or moment came: the same place is read again.
+    private putReading(): void {
         const box = element('reading');
-        if (!ground || !this.shown) {
-            box.hidden = true;
-            return;
-        }
+        box.hidden = !this.readAt || !this.shown;
+        if (!this.readAt || !this.shown) return;
         const { grid } = this.shown.loaded;
-        const column = columnAt(grid, ground[0], ground[1]);
-        const place = planeOf(grid).toPlace(ground);
+        const column = columnAt(grid, this.readAt[0], this.readAt[1]);
+        const place = planeOf(grid).toPlace(this.readAt);
         const title = document.createElement('h2');
         title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
         const body = document.createElement('div');
         if (column) this.putColumn(body, column);
         box.replaceChildren(title, body);
-        box.hidden = false;
+        this.draw();
     }
 
     private putColumn(body: HTMLElement, [x, y]: [number, number]): void {
@@ -447,6 +453,9 @@ class Page {
     private listen(): void {
         element<HTMLSelectElement>('domain').addEventListener('change', event => {
             this.player = { ...stopped };
+            this.readAt = null;
+            element('reading').hidden = true;
+            this.state.camera = { ...this.state.camera, lookAtM: null, zoom: 1 };
             void this.choose((event.target as HTMLSelectElement).value, this.state.moment);
         });
         element<HTMLSelectElement>('colors').addEventListener('change', event => {
@@ -471,6 +480,7 @@ class Page {
             this.player = at(this.player, Number((event.target as HTMLInputElement).value));
             void this.showTime();
         });
+        element('open').addEventListener('click', () => this.openSettings(element('settings').hidden));
         element('play').addEventListener('click', () => this.play());
         element('earlier').addEventListener('click', () => this.step(-1));
         element('later').addEventListener('click', () => this.step(1));
@@ -490,6 +500,12 @@ class Page {
             this.mapOf = '';
             if (this.shown) this.take(this.shown.loaded, this.state.domain, this.state.moment, this.shown.time);
         });
+    }
+
+    private openSettings(isOpen: boolean): void {
+        element('settings').hidden = !isOpen;
+        element('open').setAttribute('aria-expanded', String(isOpen));
+        this.draw();
     }
 
     private step(by: number): void {
@@ -572,7 +588,11 @@ class Page {
                 ',': () => this.step(-1),
                 '.': () => this.step(1),
                 '?': () => this.showHelp(),
-                Escape: () => (element('reading').hidden = true),
+                Escape: () => {
+                    this.readAt = null;
+                    element('reading').hidden = true;
+                    this.openSettings(false);
+                },
             };
             const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
             if (!action) return;

@@ -12,6 +12,7 @@ export const texts = {
     moment: 'Moment',
     time: 'Time',
     latest: 'Follow the newest',
+    settings: 'Settings',
     play: 'Play',
     pause: 'Pause',
     earlier: 'Earlier volume',

@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { Atlas, coverageOf, makeAtlas, paddedEdge } from '../src/atlas/atlas';
 import { PackedGrid, codeAt, readPackedGrid } from '../src/wire/packed_grid';
-import { Made, evenLevels, packedGrid, scrambled } from './made_grid';
+import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 
 const made: Made = {
     nx: 50,

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { PackedError, codeAt, readPackedGrid, valueOf } from '../src/wire/packed_grid';
-import { Made, evenLevels, packedGrid, scrambled } from './made_grid';
+import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 
 // Bricks of each kind: values, mixed states, one state; edges that are no whole brick.
 const mixed: Made = {
