@@ -136,6 +136,13 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
      events_parameters, events_type, events_errors, api_no_events},
     {"map", "/api/v1/map", "Coasts, borders, lakes and cities of an area.", map_parameters,
      json_type, bad_request, api_map},
+    {"tables",
+     "/api/v1/tables",
+     "The color tables of pictures, and which one each moment usually has.",
+     {},
+     json_type,
+     no_errors,
+     api_tables},
 });
 
 struct PathParameter {

@@ -56,6 +56,7 @@ Answer api_netcdf(const ApiCall& call);
 Answer api_grid_file(const ApiCall& call);
 Answer api_between(const ApiCall& call);
 Answer api_map(const ApiCall& call);
+Answer api_tables(const ApiCall& call);
 Answer api_no_events(const ApiCall& call);
 
 }  // namespace stormcellar::web

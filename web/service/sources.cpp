@@ -16,6 +16,8 @@
 #include "web/doors/s3.h"
 #include "web/doors/thredds.h"
 #include "web/doors/tiles.h"
+#include "web/doors/viewer.h"
+#include "web/doors/viewer_files.h"
 #include "web/doors/volumes.h"
 #include "web/doors/wms.h"
 #include "web/doors/zarr.h"
@@ -140,6 +142,9 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
     if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
+    // The page draws what the API gives.
+    if (setup.web.serves(WebPart::grids) && !viewer_files().empty())
+        doors->add("/view", std::make_shared<ViewerDoor>());
     doors->add("/", std::make_shared<IndexDoor>(IndexOptions{.grids = sources.grids,
                                                              .feed = watched.feed,
                                                              .doors = doors->prefixes(),

@@ -1,0 +1,59 @@
+// What mouse, keys and fingers do to a camera: pure functions from a camera to the next one.
+
+import { Camera, Vec3, ViewGeometry, plus } from './geometry';
+
+const degreesAPixel = 0.35;
+const leastZoom = 0.2;
+const mostZoom = 200;
+
+function bounded(value: number, least: number, most: number): number {
+    return Math.min(most, Math.max(least, value));
+}
+
+export function orbited(camera: Camera, dx: number, dy: number): Camera {
+    const azimuth = camera.azimuthDeg + dx * degreesAPixel;
+    return {
+        ...camera,
+        azimuthDeg: ((azimuth % 360) + 360) % 360,
+        tiltDeg: bounded(camera.tiltDeg - dy * degreesAPixel, 0, 90),
+    };
+}
+
+// What the camera looks at; the middle of the box if it was not said.
+export function lookAtOf(camera: Camera, geometry: ViewGeometry): Vec3 {
+    return camera.lookAtM ?? [geometry.middle[0], geometry.middle[1], geometry.middle[2] / geometry.exaggeration];
+}
+
+// The scene follows the pointer: what was under it stays under it, along the ground.
+export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: number): Camera {
+    const at = lookAtOf(camera, geometry);
+    const scale = geometry.metersPerPixel;
+    // Along the ground, ahead of the camera; looked at from the side, a pixel upward is farther.
+    const ahead: Vec3 = [-Math.sin((camera.azimuthDeg * Math.PI) / 180), -Math.cos((camera.azimuthDeg * Math.PI) / 180), 0];
+    const foreshortened = Math.max(0.2, Math.cos((camera.tiltDeg * Math.PI) / 180));
+    return { ...camera, lookAtM: plus(plus(at, -dx * scale, geometry.right), (dy * scale) / foreshortened, ahead) };
+}
+
+export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x?: number, y?: number): Camera {
+    const zoom = bounded(camera.zoom * factor, leastZoom, mostZoom);
+    const at = lookAtOf(camera, geometry);
+    const under = x === undefined || y === undefined ? null : geometry.ground(x, y);
+    const center = geometry.ground(geometry.width / 2, geometry.height / 2);
+    if (!under || !center) return { ...camera, zoom };
+    // The place under the pointer stays there.
+    const share = 1 - camera.zoom / zoom;
+    return { ...camera, zoom, lookAtM: [at[0] + share * (under[0] - center[0]), at[1] + share * (under[1] - center[1]), at[2]] };
+}
+
+export type NamedView = 'top' | 'south' | 'east' | 'north' | 'west' | 'oblique';
+export function namedView(camera: Camera, view: NamedView): Camera {
+    const [azimuthDeg, tiltDeg] = {
+        top: [180, 0],
+        south: [180, 85],
+        east: [90, 85],
+        north: [0, 85],
+        west: [270, 85],
+        oblique: [180, 55],
+    }[view] as [number, number];
+    return { ...camera, azimuthDeg, tiltDeg };
+}

@@ -1,0 +1,60 @@
+// Draws the marks and their names over the picture, the most important first, none over another.
+
+import { ViewGeometry } from '../camera/geometry';
+import { shades } from '../renderer/shades';
+import { Mark } from '../scene/ground_lines';
+
+interface Rect {
+    left: number;
+    top: number;
+    right: number;
+    bottom: number;
+}
+
+const overlaps = (a: Rect, b: Rect): boolean => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+
+function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y: number, color: string): void {
+    pen.lineJoin = 'round';
+    pen.lineWidth = 3.5;
+    pen.strokeStyle = shades.halo;
+    pen.strokeText(text, x, y);
+    pen.fillStyle = color;
+    pen.fillText(text, x, y);
+}
+
+// `taken` are parts of the picture that the page covers.
+export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry, marks: Mark[], taken: Rect[], pixelRatio: number): void {
+    const { width, height } = geometry;
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.clearRect(0, 0, width, height);
+    pen.scale(pixelRatio, pixelRatio);
+    const full = [...taken];
+    const most = Math.max(6, Math.round((width * height) / (pixelRatio * pixelRatio) / 22000));
+    let cities = 0;
+    for (const mark of [...marks].sort((a, b) => b.rank - a.rank)) {
+        if (mark.kind === 'city' && cities >= most) continue;
+        const pixel = geometry.project([mark.at[0], mark.at[1], geometry.groundM * geometry.exaggeration]);
+        if (!pixel) continue;
+        const [x, y] = [pixel[0] / pixelRatio, pixel[1] / pixelRatio];
+        if (x < 4 || y < 4 || x > width / pixelRatio - 4 || y > height / pixelRatio - 4) continue;
+        pen.font = mark.kind === 'site' ? 'bold 13px "DejaVu Sans", system-ui, sans-serif' : '12px "DejaVu Sans", system-ui, sans-serif';
+        pen.textBaseline = 'middle';
+        const wide = pen.measureText(mark.text).width;
+        const left = mark.kind === 'ring' ? x - wide / 2 : x + 7;
+        const rect: Rect = { left: Math.min(left, x - 4) - 2, top: y - 9, right: left + wide + 3, bottom: y + 9 };
+        if (rect.right > width / pixelRatio || full.some(other => overlaps(rect, other))) continue;
+        full.push(rect);
+        if (mark.kind === 'city') ++cities;
+        if (mark.kind !== 'ring') {
+            pen.beginPath();
+            pen.arc(x, y, mark.kind === 'site' ? 3.5 : 2.2, 0, 2 * Math.PI);
+            pen.fillStyle = shades.halo;
+            pen.lineWidth = 2;
+            pen.strokeStyle = shades.halo;
+            pen.stroke();
+            pen.fillStyle = mark.kind === 'site' ? '#ffffff' : shades.quietText;
+            pen.fill();
+        }
+        haloed(pen, mark.text, left, y, mark.kind === 'city' ? shades.text : mark.kind === 'site' ? '#ffffff' : shades.quietText);
+    }
+}

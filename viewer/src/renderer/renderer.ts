@@ -1,0 +1,333 @@
+// Draws ground, map lines and volume with WebGL2. What was uploaded is made anew when the context was
+// lost and is restored.
+
+import { Atlas } from '../atlas/atlas';
+import { Box, ViewGeometry, heightRange } from '../camera/geometry';
+import { cellSizeM } from '../scene/projection';
+import { ColorTable } from '../tables/color_table';
+import { Transfer, makeTransfer } from '../tables/transfer';
+import { PackedGrid } from '../wire/packed_grid';
+import { VolumeVariant, fullScreenVertex, groundFragment, lineFragment, lineVertex, variantName, volumeFragment } from './shaders';
+import { shades } from './shades';
+
+export interface MapLines {
+    kind: 'county' | 'state' | 'lake' | 'country' | 'coast' | 'ring' | 'border';
+    segments: Float32Array; // x, y, x, y in meters from the middle
+}
+
+// What a grid needs in the memory of the graphics processor.
+export interface LoadedGrid {
+    grid: PackedGrid;
+    atlas: Atlas;
+    coverage: Uint8Array;
+}
+
+export interface Frame {
+    geometry: ViewGeometry;
+    slices: number;
+    opacity: number;
+    table: ColorTable;
+    leastValue: number; // weaker echo is not shown
+    hasVolume: boolean;
+    hasGround: boolean;
+}
+
+interface Uploaded {
+    loaded: LoadedGrid;
+    atlas: WebGLTexture;
+    indirection: WebGLTexture;
+    coverage: WebGLTexture;
+    levels: WebGLTexture | null;
+    levelRange: [number, number];
+}
+
+interface UploadedLines {
+    lines: MapLines;
+    array: WebGLVertexArrayObject;
+    count: number;
+}
+
+const lineWidths: Record<MapLines['kind'], number> = { county: 0.7, state: 1.3, lake: 1, country: 1.6, coast: 1.3, ring: 1, border: 1 };
+const levelTexels = 1024;
+// A table is made for steps of one length. For steps nearly as long its depths are scaled while the
+// camera moves.
+const mostStretch = 1.25;
+
+export class Renderer {
+    private gl: WebGL2RenderingContext;
+    private programs = new Map<string, WebGLProgram>();
+    private uploaded: Uploaded | null = null;
+    private lines: UploadedLines[] = [];
+    private transferTexture: WebGLTexture | null = null;
+    private transfer: { made: Transfer; stepM: number; table: ColorTable; grid: PackedGrid; opacity: number } | null = null;
+
+    constructor(readonly canvas: HTMLCanvasElement) {
+        const gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true, alpha: false });
+        if (!gl) throw new Error('webgl2');
+        this.gl = gl;
+        canvas.addEventListener('webglcontextlost', event => event.preventDefault());
+    }
+
+    get mostTexels(): number {
+        return this.gl.getParameter(this.gl.MAX_3D_TEXTURE_SIZE) as number;
+    }
+    get compiledVariants(): string[] {
+        return [...this.programs.keys()];
+    }
+
+    // After the context came back: everything is uploaded again by its owner.
+    forget(): void {
+        this.programs.clear();
+        this.uploaded = null;
+        this.lines = [];
+        this.transferTexture = null;
+        this.transfer = null;
+    }
+
+    private compile(type: number, source: string): WebGLShader {
+        const shader = this.gl.createShader(type)!;
+        this.gl.shaderSource(shader, source);
+        this.gl.compileShader(shader);
+        return shader;
+    }
+
+    private program(name: string, vertex: string, fragment: string): WebGLProgram {
+        const known = this.programs.get(name);
+        if (known) return known;
+        const gl = this.gl;
+        const program = gl.createProgram()!;
+        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, vertex));
+        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, fragment));
+        gl.linkProgram(program);
+        if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+            const logs = gl.getAttachedShaders(program)!.map(shader => gl.getShaderInfoLog(shader));
+            throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);
+        }
+        this.programs.set(name, program);
+        return program;
+    }
+
+    private texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView, filter: number): WebGLTexture {
+        const gl = this.gl;
+        const texture = gl.createTexture()!;
+        gl.bindTexture(gl.TEXTURE_3D, texture);
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+        const type = data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_BYTE;
+        gl.texImage3D(gl.TEXTURE_3D, 0, internal, size[0]!, size[1]!, size[2]!, 0, format, type, data);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, name, gl.CLAMP_TO_EDGE);
+        return texture;
+    }
+
+    private texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture {
+        const gl = this.gl;
+        const texture = gl.createTexture()!;
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+        gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+        return texture;
+    }
+
+    show(loaded: LoadedGrid): void {
+        const gl = this.gl;
+        if (this.uploaded) {
+            for (const texture of [this.uploaded.atlas, this.uploaded.indirection, this.uploaded.coverage, this.uploaded.levels]) gl.deleteTexture(texture);
+        }
+        const { atlas, grid, coverage } = loaded;
+        const heights = heightRange(grid.levelsM);
+        const range: [number, number] = [heights.bottomM, heights.topM];
+        this.uploaded = {
+            loaded,
+            atlas: this.texture3d(gl.RG8, gl.RG, atlas.size, atlas.texels, gl.LINEAR),
+            indirection: this.texture3d(gl.R32UI, gl.RED_INTEGER, atlas.bricks, atlas.indirection, gl.NEAREST),
+            coverage: this.texture2d(gl.R8UI, gl.RED_INTEGER, gl.UNSIGNED_BYTE, grid.nx, grid.ny, coverage),
+            levels: hasUnevenLevels(grid) ? this.levelTable(grid, range) : null,
+            levelRange: range,
+        };
+    }
+
+    // The level, with a fraction, of evenly spaced heights.
+    private levelTable(grid: PackedGrid, [low, high]: [number, number]): WebGLTexture {
+        const table = new Float32Array(levelTexels);
+        const levels = grid.levelsM;
+        let i = 0;
+        for (let t = 0; t < levelTexels; ++t) {
+            const height = low + ((t + 0.5) / levelTexels) * (high - low);
+            while (i + 2 < levels.length && height >= levels[i + 1]!) ++i;
+            const level = i + (height - levels[i]!) / (levels[Math.min(i + 1, levels.length - 1)]! - levels[i]!);
+            table[t] = Math.min(levels.length - 1, Math.max(0, Number.isFinite(level) ? level : 0));
+        }
+        return this.texture2d(this.gl.R32F, this.gl.RED, this.gl.FLOAT, levelTexels, 1, table);
+    }
+
+    showLines(all: MapLines[]): void {
+        const gl = this.gl;
+        this.lines = all.map(lines => {
+            const array = gl.createVertexArray()!;
+            gl.bindVertexArray(array);
+            gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+            gl.bufferData(gl.ARRAY_BUFFER, lines.segments, gl.STATIC_DRAW);
+            gl.enableVertexAttribArray(0);
+            gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
+            gl.vertexAttribDivisor(0, 1);
+            gl.bindVertexArray(null);
+            return { lines, array, count: lines.segments.length / 4 };
+        });
+    }
+
+    private use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null {
+        const gl = this.gl;
+        gl.useProgram(program);
+        const at = (name: string) => gl.getUniformLocation(program, name);
+        gl.uniform2f(at('size'), geometry.width, geometry.height);
+        gl.uniform3fv(at('eye'), geometry.eye);
+        gl.uniform3fv(at('right'), geometry.right);
+        gl.uniform3fv(at('up'), geometry.up);
+        gl.uniform3fv(at('forward'), geometry.forward);
+        gl.uniform1f(at('scale'), geometry.isPerspective ? geometry.focalPixels : geometry.metersPerPixel);
+        return at;
+    }
+
+    private bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void {
+        this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+        this.gl.bindTexture(target, texture);
+        this.gl.uniform1i(at, unit);
+    }
+
+    draw(frame: Frame): void {
+        const gl = this.gl;
+        const { geometry } = frame;
+        if (this.canvas.width !== geometry.width || this.canvas.height !== geometry.height) {
+            this.canvas.width = geometry.width;
+            this.canvas.height = geometry.height;
+        }
+        gl.viewport(0, 0, geometry.width, geometry.height);
+        gl.disable(gl.BLEND);
+        gl.clearColor(frame.hasGround ? shades.page[0] / 255 : 0, frame.hasGround ? shades.page[1] / 255 : 0, frame.hasGround ? shades.page[2] / 255 : 0, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+        if (!this.uploaded) return;
+        if (frame.hasGround) {
+            this.drawGround(geometry);
+            gl.enable(gl.BLEND);
+            gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+            this.drawLines(geometry);
+        }
+        if (!frame.hasVolume) return;
+        gl.enable(gl.BLEND);
+        gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        this.drawVolume(frame);
+    }
+
+    private drawGround(geometry: ViewGeometry): void {
+        const gl = this.gl;
+        const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
+        const at = this.use(this.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)), geometry);
+        const color = (uniform: string, rgb: readonly number[]) => gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
+        this.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
+        gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
+        gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
+        for (const uniform of ['page', 'beyond', 'notSeen', 'seenAloft', 'seen', 'hatch'] as const) color(uniform, shades[uniform]);
+        gl.uniform1f(at('hatchScale'), 1);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    private drawLines(geometry: ViewGeometry): void {
+        const gl = this.gl;
+        if (this.lines.length === 0) return;
+        const at = this.use(this.program('lines', lineVertex, lineFragment), geometry);
+        gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
+        gl.uniform1i(at('isPerspective'), geometry.isPerspective ? 1 : 0);
+        for (const { lines, array, count } of this.lines) {
+            const rgba = shades[lines.kind];
+            gl.uniform4f(at('look'), rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255);
+            gl.uniform1f(at('width'), lineWidths[lines.kind]);
+            gl.bindVertexArray(array);
+            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+        }
+        gl.bindVertexArray(null);
+    }
+
+    // Returns the table, and by what its depths are multiplied.
+    private transferFor(frame: Frame, grid: PackedGrid, stepM: number): { made: Transfer; scale: number } {
+        const gl = this.gl;
+        const now = this.transfer;
+        const isSame = now && now.table === frame.table && now.grid === grid && now.opacity === frame.opacity;
+        const stretch = isSame ? stepM / now.stepM : 0;
+        if (!isSame || stretch > mostStretch || stretch < 1 / mostStretch) {
+            const made = makeTransfer(frame.table, grid, frame.opacity, stepM);
+            this.transfer = { made, stepM, table: frame.table, grid, opacity: frame.opacity };
+            gl.deleteTexture(this.transferTexture);
+            this.transferTexture = this.texture2d(gl.RGBA32F, gl.RGBA, gl.FLOAT, 256, 256, made.entries);
+            return { made, scale: 1 };
+        }
+        return { made: now!.made, scale: stretch };
+    }
+
+    private drawVolume(frame: Frame): void {
+        const gl = this.gl;
+        const { geometry } = frame;
+        const { loaded, atlas, indirection, levels, levelRange } = this.uploaded!;
+        const { grid } = loaded;
+        if (loaded.atlas.brickCount === 0) return;
+        const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null };
+        const at = this.use(this.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
+        const stepM = (geometry.farM - geometry.nearM) / frame.slices;
+        const { made, scale } = this.transferFor(frame, grid, stepM);
+        const { box, exaggeration } = geometry;
+        const [cellWidth, cellHeight] = cellSizeM(grid);
+        this.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
+        this.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
+        this.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
+        if (levels) {
+            this.bind(3, gl.TEXTURE_2D, levels, at('levels'));
+            gl.uniform2f(at('levelRange'), levelRange[0] * exaggeration, levelRange[1] * exaggeration);
+        } else {
+            const spacing = grid.nz > 1 ? grid.levelsM[1]! - grid.levelsM[0]! : 1;
+            gl.uniform2f(at('levelLine'), -grid.levelsM[0]! / spacing, 1 / (spacing * exaggeration));
+        }
+        gl.uniform3f(at('boxLow'), -box.halfXM, -box.halfYM, box.bottomM * exaggeration);
+        gl.uniform3f(at('boxHigh'), box.halfXM, box.halfYM, box.topM * exaggeration);
+        gl.uniform1fv(at('brickHeights'), brickHeights(grid, box, exaggeration));
+        gl.uniform3f(at('cells'), grid.nx, grid.ny, grid.nz);
+        gl.uniform2f(at('cellSize'), cellWidth, cellHeight);
+        gl.uniform3iv(at('slots'), loaded.atlas.slots);
+        gl.uniform3fv(at('atlasSize'), loaded.atlas.size);
+        const { codeScale, codeOffset } = loaded.atlas;
+        gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
+        const leastCode = Math.max(made.leastVisibleCode, Math.ceil((frame.leastValue - grid.firstValue) / grid.step) + 3);
+        gl.uniform1ui(at('leastShown'), Math.min(255, Math.max(1, Math.floor((leastCode - codeOffset) / codeScale))));
+        gl.uniform1f(at('near'), geometry.nearM);
+        gl.uniform1f(at('stepM'), stepM);
+        gl.uniform1f(at('slices'), frame.slices);
+        gl.uniform1f(at('depthScale'), scale);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    // Waits until everything is drawn.
+    finish(): void {
+        const pixel = new Uint8Array(4);
+        this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
+    }
+}
+
+// A sample belongs to the layer of bricks of the level below it.
+function brickHeights(grid: PackedGrid, box: Box, exaggeration: number): Float32Array {
+    const heights = new Float32Array(66);
+    for (let layer = 0; layer < heights.length; ++layer) {
+        const level = layer * grid.brickEdge;
+        const height = layer === 0 ? box.bottomM - 1 : level < grid.nz ? grid.levelsM[level]! : box.topM + 1;
+        heights[layer] = height * exaggeration;
+    }
+    return heights;
+}
+
+function hasUnevenLevels(grid: PackedGrid): boolean {
+    if (grid.nz < 3) return false;
+    const spacing = grid.levelsM[1]! - grid.levelsM[0]!;
+    for (let z = 2; z < grid.nz; ++z) {
+        if (Math.abs(grid.levelsM[z]! - grid.levelsM[z - 1]! - spacing) > 1e-6 * spacing) return true;
+    }
+    return false;
+}

@@ -1,0 +1,214 @@
+// The shaders. A variant is compiled for what a scene calls for; what it does not use is not in it.
+
+export interface VolumeVariant {
+    isPerspective: boolean;
+    hasUnevenLevels: boolean;
+}
+
+export function variantName(variant: VolumeVariant): string {
+    return `${variant.isPerspective ? 'perspective' : 'parallel'}${variant.hasUnevenLevels ? ', uneven levels' : ''}`;
+}
+
+export const fullScreenVertex = `#version 300 es
+void main() {
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    gl_Position = vec4(4.0 * corner - 1.0, 0.0, 1.0);
+}`;
+
+// Rays of the pixels, in drawn space; pixels count from the top left.
+const camera = (isPerspective: boolean) => `
+uniform vec2 size;
+uniform vec3 eye, right, up, forward;
+uniform float scale; // focal length in pixels, or meters a pixel
+vec2 pixel() { return vec2(gl_FragCoord.x, size.y - gl_FragCoord.y); }
+vec2 aside() { vec2 p = pixel(); return vec2(p.x - 0.5 * size.x, 0.5 * size.y - p.y); }
+${
+    isPerspective
+        ? `vec3 rayStart() { return eye; }
+vec3 rayStep() { vec2 a = aside() / scale; return forward + a.x * right + a.y * up; }`
+        : `vec3 rayStart() { vec2 a = aside() * scale; return eye + a.x * right + a.y * up; }
+vec3 rayStep() { return forward; }`
+}`;
+
+// Slices as render/volume/slicer.h has them. A brick without visible values is left at once: the next
+// slice that is looked at is the last one in it.
+export function volumeFragment(variant: VolumeVariant): string {
+    return `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler3D;
+precision highp usampler3D;
+uniform sampler3D atlas;
+uniform usampler3D indirection;
+uniform sampler2D transfer;
+${variant.hasUnevenLevels ? 'uniform sampler2D levels;\nuniform vec2 levelRange; // of drawn heights' : 'uniform vec2 levelLine; // level = x + y * drawn height'}
+uniform vec3 boxLow, boxHigh;
+uniform float brickHeights[66]; // drawn, of the lower ends of layers of bricks and of the last one's upper end
+uniform vec3 cells;
+uniform vec2 cellSize;
+uniform ivec3 slots;
+uniform vec3 atlasSize;
+uniform vec2 binLine; // bin = x + y * shown code
+uniform uint leastShown; // shown code
+uniform float near, stepM, slices, depthScale;
+out vec4 color;
+${camera(variant.isPerspective)}
+const float edge = 16.0, padded = 18.0, enough = 0.001;
+
+float levelOf(float height) {
+${
+    variant.hasUnevenLevels
+        ? `    float place = (height - levelRange.x) / (levelRange.y - levelRange.x);
+    return texture(levels, vec2(place, 0.5)).r;`
+        : '    return levelLine.x + levelLine.y * height;'
+}
+}
+vec3 cellOf(vec3 p) {
+    vec2 across = p.xy / cellSize + 0.5 * (cells.xy - 1.0);
+    return clamp(vec3(across, levelOf(p.z)), vec3(0.0), cells - 1.0);
+}
+// The bin and the share of cells with values; 'skip' is set in a brick that shows nothing.
+vec2 sampleAt(vec3 p, out ivec3 brick, out bool skip) {
+    vec3 cell = cellOf(p);
+    brick = ivec3(cell / edge);
+    uint entry = texelFetch(indirection, brick, 0).r;
+    skip = entry == 0u || (entry >> 24) < leastShown;
+    if (skip) return vec2(0.0);
+    int slot = int(entry & 0xFFFFFFu) - 1;
+    ivec3 place = ivec3(slot % slots.x, (slot / slots.x) % slots.y, slot / (slots.x * slots.y));
+    vec3 at = vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5;
+    vec2 found = texture(atlas, at / atlasSize).rg;
+    if (found.g < 0.002) return vec2(0.0);
+    float code = 255.0 * found.r / found.g;
+    return vec2(clamp(floor(binLine.x + binLine.y * code), 0.0, 255.0), found.g);
+}
+// The depth at which the ray leaves a brick.
+float leaves(vec3 start, vec3 along, ivec3 brick) {
+    vec2 low = (vec2(brick.xy) * edge - 0.5 * (cells.xy - 1.0)) * cellSize;
+    vec2 high = low + edge * cellSize;
+    vec2 ahead = mix(low, high, step(0.0, along.xy));
+    vec2 depth = (ahead - start.xy) / along.xy;
+    float first = 1e30;
+    if (abs(along.x) > 1e-9) first = min(first, depth.x);
+    if (abs(along.y) > 1e-9) first = min(first, depth.y);
+    if (abs(along.z) > 1e-9) first = min(first, (brickHeights[along.z > 0.0 ? brick.z + 1 : brick.z] - start.z) / along.z);
+    return first;
+}
+void main() {
+    color = vec4(0.0);
+    vec3 start = rayStart(), along = rayStep();
+    vec3 safe = mix(vec3(1e-12), along, step(1e-12, abs(along)));
+    vec3 a = (boxLow - start) / safe, b = (boxHigh - start) / safe;
+    vec3 lows = min(a, b), highs = max(a, b);
+    float enter = max(max(lows.x, lows.y), max(lows.z, near));
+    float leave = min(min(highs.x, highs.y), min(highs.z, near + slices * stepM));
+    if (!(enter < leave)) discard;
+    float lengthOfStep = depthScale * length(along);
+    float k = max(0.0, floor((enter - near) / stepM));
+    float last = min(slices, ceil((leave - near) / stepM));
+    ivec3 brick;
+    bool skip;
+    vec3 light = vec3(0.0);
+    float through = 1.0;
+    vec2 front = sampleAt(start + clamp(near + k * stepM, enter, leave) * along, brick, skip);
+    for (int guard = 0; guard < 8192; ++guard) {
+        if (k >= last || through < enough) break;
+        if (skip) {
+            float exit = min(leaves(start, along, brick), leave);
+            float ahead = floor((exit - near) / stepM);
+            if (ahead > k) { k = min(ahead, last); front = vec2(0.0); if (k >= last) break; }
+        }
+        float depth = near + (k + 1.0) * stepM;
+        vec2 back = sampleAt(start + clamp(depth, enter, leave) * along, brick, skip);
+        float share = 0.5 * (front.y + back.y);
+        if (share > 0.0) {
+            float one = front.y > 0.0 ? front.x : back.x;
+            float other = back.y > 0.0 ? back.x : front.x;
+            vec4 look = texelFetch(transfer, ivec2(int(other), int(one)), 0);
+            float inside = (min(depth, leave) - max(depth - stepM, enter)) / stepM;
+            float seen = through * (1.0 - exp(-look.a * lengthOfStep * share * max(inside, 0.0)));
+            light += seen * look.rgb;
+            through -= seen;
+        }
+        front = back;
+        k += 1.0;
+    }
+    color = vec4(light, 1.0 - through);
+}`;
+}
+
+// Land as it was seen: light from low down, darker from high up only, hatched where it was not seen.
+export function groundFragment(isPerspective: boolean): string {
+    return `#version 300 es
+precision highp float;
+precision highp usampler2D;
+uniform usampler2D coverage;
+uniform vec2 halfSize; // of the grid, in meters
+uniform float ground; // drawn height
+uniform vec3 page, beyond, notSeen, seenAloft, seen, hatch;
+uniform float hatchScale;
+out vec4 color;
+${camera(isPerspective)}
+void main() {
+    vec3 start = rayStart(), along = rayStep();
+    float depth = (ground - start.z) / along.z;
+    if (along.z > -1e-6 || ${isPerspective ? 'depth <= 0.0' : 'false'}) {
+        color = vec4(page, 1.0);
+        return;
+    }
+    vec2 at = (start + depth * along).xy;
+    vec2 place = (at + halfSize) / (2.0 * halfSize);
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) {
+        float away = length(max(abs(at) - halfSize, 0.0)) / max(halfSize.x, halfSize.y);
+        color = vec4(mix(beyond, page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
+        return;
+    }
+    uint state = texelFetch(coverage, ivec2(place * vec2(textureSize(coverage, 0))), 0).r;
+    vec3 shade = state == 2u ? seen : state == 1u ? seenAloft : notSeen;
+    if (state == 0u) {
+        vec2 p = floor(pixel());
+        float period = 9.0 * hatchScale;
+        float phase = mod(p.x + p.y, period);
+        float distance = min(phase, period - phase) / 1.41421356;
+        shade = mix(shade, hatch, clamp(0.5 * hatchScale + 0.5 - distance, 0.0, 1.0));
+    }
+    color = vec4(shade, 1.0);
+}`;
+}
+
+// Lines of the map on the ground, each segment a strip as wide as its kind.
+export const lineVertex = `#version 300 es
+layout(location = 0) in vec4 ends; // of a segment, meters from the middle
+uniform vec2 size;
+uniform vec3 eye, right, up, forward;
+uniform float scale, ground, width;
+uniform bool isPerspective;
+out float off;
+vec3 toPixel(vec2 at) {
+    vec3 p = vec3(at, ground) - eye;
+    float depth = dot(p, forward);
+    float s = isPerspective ? scale / depth : 1.0 / scale;
+    return vec3(0.5 * size.x + dot(p, right) * s, 0.5 * size.y + dot(p, up) * s, isPerspective ? depth : 1.0);
+}
+void main() {
+    vec3 a = toPixel(ends.xy), b = toPixel(ends.zw);
+    if (a.z <= 0.0 || b.z <= 0.0) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+    vec2 way = b.xy - a.xy;
+    vec2 unit = length(way) > 1e-4 ? normalize(way) : vec2(1.0, 0.0);
+    float side = float(gl_VertexID & 1) * 2.0 - 1.0;
+    bool isEnd = gl_VertexID >> 1 == 1;
+    float half_ = 0.5 * width + 0.7;
+    vec2 at = (isEnd ? b.xy + 0.3 * unit : a.xy - 0.3 * unit) + side * half_ * vec2(-unit.y, unit.x);
+    off = side * half_;
+    gl_Position = vec4(2.0 * at / size - 1.0, 0.0, 1.0);
+}`;
+export const lineFragment = `#version 300 es
+precision highp float;
+uniform vec4 look;
+uniform float width;
+in float off;
+out vec4 color;
+void main() {
+    float cover = clamp(0.5 * width + 0.5 - abs(off), 0.0, 1.0);
+    color = vec4(look.rgb, 1.0) * look.a * cover;
+}`;

@@ -1,0 +1,107 @@
+// Lines and cities of the map, on the plane of a grid: what lies within reach of the picture.
+
+import { MapLines } from '../renderer/renderer';
+import { City, MapAnswer, MapLine } from '../wire/api';
+import { Site } from '../wire/packed_grid';
+import { GridPlane, Plane } from './projection';
+
+export interface Mark {
+    kind: 'city' | 'site' | 'ring';
+    text: string;
+    at: Plane;
+    rank: number; // the greatest first
+}
+
+// Coasts may come from far away; what lies beyond this many half widths is not drawn.
+const reach = 2.2;
+
+function segmentsOf(lines: (Plane | null)[][], halfM: number): Float32Array {
+    const ends: number[] = [];
+    const isNear = (p: Plane) => Math.abs(p[0]) < reach * halfM && Math.abs(p[1]) < reach * halfM;
+    for (const line of lines) {
+        for (let i = 1; i < line.length; ++i) {
+            const [a, b] = [line[i - 1]!, line[i]!];
+            if (a && b && (isNear(a) || isNear(b))) ends.push(a[0], a[1], b[0], b[1]);
+        }
+    }
+    return new Float32Array(ends);
+}
+
+// Areas are cut along meridians and parallels; these cuts are no coasts.
+function withoutCuts(line: MapLine): [number, number][][] {
+    if (!line.is_area) return [line.points];
+    const pieces: [number, number][][] = [];
+    let piece: [number, number][] = [];
+    for (const point of line.points) {
+        const last = piece[piece.length - 1];
+        if (last && (last[0] === point[0] || last[1] === point[1])) {
+            pieces.push(piece);
+            piece = [];
+        }
+        piece.push(point);
+    }
+    pieces.push(piece);
+    return pieces.filter(one => one.length > 1);
+}
+
+export function mapLines(map: MapAnswer, plane: GridPlane, halfM: number): MapLines[] {
+    const kinds = ['county', 'lake', 'state', 'coast', 'country'] as const;
+    return kinds.map(kind => ({
+        kind,
+        segments: segmentsOf(
+            map.lines
+                .filter(line => line.kind === kind)
+                .flatMap(withoutCuts)
+                .map(points => points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg }))),
+            halfM,
+        ),
+    }));
+}
+
+export function ringSpacingM(halfM: number): number {
+    const wanted = halfM / 3;
+    const steps = [10, 25, 50, 100, 200, 500, 1000].map(km => km * 1000);
+    return steps.find(step => step >= wanted * 0.7) ?? 1e6;
+}
+
+// Rings about the first site, and the border of the grid.
+export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY: number): { lines: MapLines[]; marks: Mark[] } {
+    const border: Plane[] = [
+        [-halfX, -halfY],
+        [halfX, -halfY],
+        [halfX, halfY],
+        [-halfX, halfY],
+        [-halfX, -halfY],
+    ];
+    const lines: MapLines[] = [{ kind: 'border', segments: segmentsOf([border], Math.max(halfX, halfY)) }];
+    const marks: Mark[] = [];
+    if (sites.length === 1) {
+        const center = plane.toPlane(sites[0]!);
+        const spacing = ringSpacingM(Math.max(halfX, halfY));
+        const rings: Plane[][] = [];
+        for (let r = spacing; center && r < Math.hypot(halfX, halfY); r += spacing) {
+            const points: Plane[] = [];
+            for (let i = 0; i <= 180; ++i) {
+                const angle = (i * Math.PI) / 90;
+                points.push([center[0] + r * Math.sin(angle), center[1] + r * Math.cos(angle)]);
+            }
+            rings.push(points);
+            if (r < Math.max(halfX, halfY)) marks.push({ kind: 'ring', text: `${r / 1000} km`, at: [center[0], center[1] + r], rank: 0 });
+        }
+        lines.unshift({ kind: 'ring', segments: segmentsOf(rings, Math.max(halfX, halfY)) });
+    }
+    for (const site of sites) {
+        const at = plane.toPlane(site);
+        if (at) marks.push({ kind: 'site', text: site.icao, at, rank: 1e9 });
+    }
+    return { lines, marks };
+}
+
+export function cityMarks(cities: City[], plane: GridPlane, halfX: number, halfY: number): Mark[] {
+    const marks: Mark[] = [];
+    for (const city of cities) {
+        const at = plane.toPlane({ latitudeDeg: city.place[1], longitudeDeg: city.place[0] });
+        if (at && Math.abs(at[0]) < 1.3 * halfX && Math.abs(at[1]) < 1.3 * halfY) marks.push({ kind: 'city', text: city.name, at, rank: city.population });
+    }
+    return marks;
+}

@@ -1,0 +1,91 @@
+// What the page shows, as one value, and as the text behind # in its address.
+
+import { Camera, usualCamera } from '../camera/geometry';
+
+export interface ViewState {
+    domain: string; // empty: the first one
+    moment: string;
+    time: string; // ISO 8601, or 'latest'
+    camera: Camera;
+    exaggeration: number;
+    opacity: number;
+    least: number | null; // weaker echo is not shown
+    colors: string; // a table; empty: the moment's own
+}
+
+export const usualState: ViewState = {
+    domain: '',
+    moment: '',
+    time: 'latest',
+    camera: { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40 },
+    exaggeration: 5,
+    opacity: 1,
+    least: null,
+    colors: '',
+};
+
+const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
+
+export function addressOf(state: ViewState): string {
+    const { camera } = state;
+    const parts: [string, string][] = [
+        ['domain', state.domain],
+        ['moment', state.moment],
+        ['time', state.time],
+        ['azimuth', rounded(camera.azimuthDeg, 2)],
+        ['tilt', rounded(camera.tiltDeg, 2)],
+        ['zoom', rounded(camera.zoom, 4)],
+        ['field-of-view', rounded(camera.fieldOfViewDeg, 2)],
+        ['exaggeration', rounded(state.exaggeration, 2)],
+        ['opacity', rounded(state.opacity, 3)],
+    ];
+    if (camera.lookAtM) {
+        parts.push(['look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(',')]);
+    }
+    if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
+    if (state.colors) parts.push(['colors', state.colors]);
+    return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
+}
+
+function number(text: string | null, least: number, most: number, otherwise: number): number {
+    const value = text === null || text === '' ? NaN : Number(text);
+    return value >= least && value <= most ? value : otherwise;
+}
+
+// What makes no sense in the text is left at its usual value.
+export function stateOf(text: string): ViewState {
+    const query = new URLSearchParams(text.replace(/^#/, ''));
+    const usual = usualState;
+    const lookAt = (query.get('look-at-km') ?? '').split(',').map(Number);
+    const time = query.get('time') ?? '';
+    return {
+        domain: (query.get('domain') ?? '').slice(0, 100),
+        moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
+        time: Number.isNaN(Date.parse(time)) ? 'latest' : time,
+        camera: {
+            azimuthDeg: number(query.get('azimuth'), 0, 360, usual.camera.azimuthDeg),
+            tiltDeg: number(query.get('tilt'), 0, 90, usual.camera.tiltDeg),
+            zoom: number(query.get('zoom'), 0.01, 1000, usual.camera.zoom),
+            fieldOfViewDeg: number(query.get('field-of-view'), 0, 150, usual.camera.fieldOfViewDeg),
+            lookAtM: lookAt.length === 3 && lookAt.every(Number.isFinite) ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000] : null,
+        },
+        exaggeration: number(query.get('exaggeration'), 0.1, 100, usual.exaggeration),
+        opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
+        least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
+        colors: (query.get('colors') ?? '').slice(0, 100),
+    };
+}
+
+// The command that draws the same.
+export function commandOf(state: ViewState, width: number, height: number): string {
+    const { camera } = state;
+    const words = ['stormcellar frame', state.domain, '--moment', state.moment];
+    if (state.time !== 'latest') words.push('--time', state.time);
+    words.push('--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4));
+    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(state.exaggeration, 2));
+    words.push('--opacity', rounded(state.opacity, 3), '--light', 'none');
+    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    if (state.colors) words.push('--colors', state.colors);
+    words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
+    return words.join(' ');
+}

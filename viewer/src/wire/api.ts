@@ -1,0 +1,87 @@
+// Asks the data server (docs/web/grids.md).
+//
+// Errors: an ApiError with the status and the server's own sentence.
+
+import { ColorTable } from '../tables/color_table';
+
+export class ApiError extends Error {
+    constructor(
+        readonly status: number,
+        message: string,
+    ) {
+        super(message);
+    }
+}
+
+export interface MomentOfDomain {
+    moment: string;
+    units: string;
+    grids: number;
+    newest: string;
+}
+export interface Domain {
+    domain: string;
+    part_of: string | null;
+    moments: MomentOfDomain[];
+}
+export interface MapLine {
+    kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
+    is_area: boolean;
+    points: [number, number][]; // longitude, latitude
+}
+export interface City {
+    name: string;
+    population: number;
+    place: [number, number];
+}
+export interface MapAnswer {
+    credit: string;
+    lines: MapLine[];
+    cities: City[];
+}
+export interface ProbedLevel {
+    height_m: number;
+    state: 'value' | 'no_echo' | 'not_seen' | 'range_folded';
+    value: number | null;
+}
+
+// The page lies at BASE/view/.
+const base = new URL('..', document.baseURI);
+export const address = (path: string): string => new URL(path.replace(/^\//, ''), base).href;
+
+async function ask(path: string, signal?: AbortSignal): Promise<Response> {
+    const answer = await fetch(address(path), signal ? { signal } : {});
+    if (answer.ok) return answer;
+    let message = answer.statusText;
+    try {
+        message = ((await answer.json()) as { error: string }).error;
+    } catch {
+        // The body is no JSON: the status stays.
+    }
+    throw new ApiError(answer.status, message);
+}
+
+export async function domains(): Promise<Domain[]> {
+    return ((await (await ask('api/v1/domains')).json()) as { domains: Domain[] }).domains;
+}
+export async function times(domain: string, moment: string): Promise<string[]> {
+    const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=500`;
+    return ((await (await ask(path)).json()) as { grids: { time: string }[] }).grids.map(grid => grid.time);
+}
+export const gridPath = (domain: string, moment: string, time: string): string =>
+    `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
+export async function packed(domain: string, moment: string, time: string, signal?: AbortSignal): Promise<ArrayBuffer> {
+    return (await ask(`${gridPath(domain, moment, time)}/packed`, signal)).arrayBuffer();
+}
+export interface Tables {
+    tables: ColorTable[];
+    usual: Record<string, string>; // of a moment
+}
+export async function tables(): Promise<Tables> {
+    return (await ask('api/v1/tables')).json() as Promise<Tables>;
+}
+export async function map(west: number, south: number, east: number, north: number, detail: number): Promise<MapAnswer> {
+    const kinds = detail === 0 ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
+    const side = (degrees: number) => degrees.toFixed(3);
+    return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(east)}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
+}

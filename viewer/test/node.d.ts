@@ -1,0 +1,15 @@
+// What the tests use of node, without its own types.
+declare module 'node:test' {
+    export default function test(name: string, body: () => void | Promise<void>): void;
+}
+declare module 'node:assert/strict' {
+    interface Assert {
+        (value: unknown, message?: string): asserts value;
+        equal(actual: unknown, expected: unknown, message?: string): void;
+        deepEqual(actual: unknown, expected: unknown, message?: string): void;
+        throws(body: () => unknown, expected?: RegExp | (new (...args: never[]) => Error)): void;
+        ok(value: unknown, message?: string): asserts value;
+    }
+    const assert: Assert;
+    export default assert;
+}
