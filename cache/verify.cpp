@@ -56,10 +56,10 @@ Status GridFile::Mapping::check_metadata() const {
     std::vector<std::byte> bytes(metadata.size());
     if (Status read = read_at(file, 0, bytes); !read) return read;
     const auto field = std::span(bytes).subspan(offsetof(format::FileHeader, checksum), 8);
-    std::uint64_t checksum = 0;
-    std::memcpy(&checksum, field.data(), sizeof checksum);
+    std::uint64_t written = 0;
+    std::memcpy(&written, field.data(), sizeof written);
     std::fill(field.begin(), field.end(), std::byte{0});
-    if (bytes != metadata || checksum != xxh3_64(metadata)) {
+    if (bytes != metadata || written != xxh3_64(metadata)) {
         return fail(ErrorCode::corrupt, "header, table or states were altered");
     }
     for (const BrickEntry& entry : view.bricks) {
