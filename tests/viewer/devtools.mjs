@@ -79,6 +79,7 @@ class Page {
   async begin(width, height, ratio) {
     this.browser.listeners.push((message) => message.sessionId === this.sessionId && this.hear(message));
     for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await this.send(`${domain}.enable`);
+    await this.send('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 });
     await this.resize(width, height, ratio);
   }
   hear({ method, params }) {
@@ -98,7 +99,7 @@ class Page {
     if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
     return result.value;
   }
-  async until(expression, seconds = 60) {
+  async until(expression, seconds = 30) {
     const end = Date.now() + seconds * 1000;
     while (Date.now() < end) {
       const value = await this.evaluate(expression).catch(() => undefined);

@@ -128,5 +128,73 @@ await show(`${echoes}&least=36`);
 const strong = await pixels();
 check(`above 36 dBZ nothing is green (${greens(strong)} shades, ${all} before)`, all > 20 && greens(strong) === 0 && shadesOf(strong).size > 5);
 
+// ---- What mouse, keys and fingers do, on a page that has room beside its controls
+const told = (name) => page.evaluate(`new URLSearchParams(location.hash.slice(1)).get(${JSON.stringify(name)})`);
+const number = async (name) => Number(await told(name));
+// Waits for the fine picture after an act.
+async function settled(act) {
+  await page.evaluate(`delete ${drawn}`);
+  await act();
+  await page.until(drawn);
+}
+async function changes(what, name, act, holds) {
+  const before = await number(name);
+  await settled(act);
+  const after = await number(name);
+  check(`${what}: ${name} ${before} to ${after}`, holds(before, after));
+}
+const [x, y] = [250, 300];
+await page.resize(796, 532);
+// With little to draw, no touch waits until the browser cancels it.
+await show(`domain=${station}&moment=REF&azimuth=180&tilt=50&zoom=1.5&field-of-view=0&least=70`);
+await changes('dragging turns', 'azimuth', () => page.drag([x, y], [40, 0]), (before, after) => after !== before);
+await changes('dragging tilts', 'tilt', () => page.drag([x, y], [0, 30]), (before, after) => after < before);
+await changes('the wheel zooms', 'zoom', () => page.wheel(x, y, -300), (before, after) => after > before);
+const shift = 8;
+await settled(() => page.drag([x, y], [30, 10], { modifiers: shift }));
+check(`dragging with Shift moves: ${await told('look-at-km')}`, (await told('look-at-km')) !== null);
+await changes('an arrow turns', 'azimuth', () => page.key('ArrowRight'), (before, after) => after !== before);
+await changes('+ zooms', 'zoom', () => page.key('+'), (before, after) => after > before);
+await changes('T looks from the top', 'tilt', () => page.key('t'), (_, after) => after === 0);
+await changes('S looks from the south', 'tilt', () => page.key('s'), (_, after) => after > 80);
+await changes('P makes a perspective', 'field-of-view', () => page.key('p'), (before, after) => before === 0 && after > 0);
+await changes('two fingers zoom', 'zoom', async () => {
+  await page.touch('touchStart', [[280, 300], [320, 300]]);
+  for (const apart of [10, 20, 30]) await page.touch('touchMove', [[280 - apart, 300], [320 + apart, 300]]);
+  await page.touch('touchEnd', []);
+}, (before, after) => after > before * 1.5);
+await changes('one finger turns', 'azimuth', async () => {
+  await page.touch('touchStart', [[300, 300]]);
+  for (const on of [10, 20, 30]) await page.touch('touchMove', [[300 + on, 300]]);
+  await page.touch('touchEnd', []);
+}, (before, after) => after !== before);
+
+// ---- The column under a click, against the server's own probe
+await show(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=1.5&field-of-view=0&least=70`);
+const place = async (px, py) => {
+  await page.evaluate("document.getElementById('reading').textContent = ''");
+  await page.drag([px, py], [0, 0]);
+  return page.until("document.getElementById('reading').innerText", 5).catch(() => '');
+};
+let read = 0;
+const grid = grids.find((one) => one.domain === station && one.moment === 'REF');
+for (const [px, py] of [[150, 300], [200, 250], [250, 220], [300, 200], [330, 270], [360, 300], [420, 330]]) {
+  const text = await place(px, py);
+  if (!text) {
+    console.log(`at ${px}, ${py} is`, await page.evaluate(`document.elementFromPoint(${px}, ${py}).outerHTML.slice(0, 80)`));
+    continue;
+  }
+  const [latitude, longitude] = text.match(/-?\d+\.\d+/g).map(Number);
+  const { levels: cells } = await (await fetch(`${address}${grid.path}/probe?at=${latitude},${longitude}`)).json();
+  const values = cells.filter(({ state }) => state === 'value').map(({ value }) => value);
+  const greatest = Math.max(...values);
+  if (values.length > 0 && text.includes(String(greatest))) ++read;
+  else if (values.length === 0 && /not seen|no echo|range folded/i.test(text)) ++read;
+  else console.log(`at ${px}, ${py} the page says ${JSON.stringify(text)}, the server ${greatest}`);
+}
+// The page writes places to three decimals, which may lie in the next cell.
+check(`${read} of 7 readings are those of the server`, read >= 5);
+check('nothing failed in between', page.trouble.length === 0, page.trouble.join('\n'));
+
 await browser.end();
 process.exit(failed ? 1 : 0);

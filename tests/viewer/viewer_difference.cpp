@@ -109,7 +109,8 @@ int run(int argc, char** argv) {
     std::array<double, number_count> numbers{};
     for (int i = 0; i < number_count; ++i)
         numbers[static_cast<std::size_t>(i)] = std::stod(argv[first_number + i]);
-    const Image ours = drawn(file->view(), file->description().moment, numbers, page->width, page->height);
+    const Image ours =
+        drawn(file->view(), file->description().moment, numbers, page->width, page->height);
     const int last = first_number + number_count;
     if (argc > last && !write_png(ours, argv[last])) return complain("cannot write the picture");
     const Shown shown = shown_of(*page, ours);
