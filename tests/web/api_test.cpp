@@ -1,5 +1,7 @@
 // The API over grids, asked without a server.
 #include <cstring>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -231,6 +233,25 @@ TEST_F(Api, PackedAnswersAreCompressedAsTheClientTakesThem) {
     const Answer zstd = served_.get(packed, {{"Accept-Encoding", "gzip, zstd"}});
     EXPECT_EQ(header_of(zstd, "Content-Encoding"), "zstd");
     EXPECT_EQ(body_of(zstd).substr(0, 4), "\x28\xb5\x2f\xfd");
+}
+
+TEST_F(Api, TablesAreWholeAndSmallOnTheWire) {
+    const Answer plain = served_.get("/api/v1/tables");
+    const auto json = json_of(plain);
+    EXPECT_EQ(json["usual"]["REF"], "smooth-reflectivity");
+    std::set<std::string> names;
+    for (const auto& table : json["tables"]) {
+        names.insert(table["name"]);
+        EXPECT_FALSE(table["stops"].empty() || table["extinction"].empty()) << table["name"];
+    }
+    for (const auto& [moment, name] : json["usual"].items())
+        EXPECT_TRUE(names.contains(name)) << moment;
+    const Answer zstd = served_.get("/api/v1/tables", {{"Accept-Encoding", "zstd"}});
+    EXPECT_EQ(header_of(zstd, "Content-Encoding"), "zstd");
+    EXPECT_NE(header_of(zstd, "ETag"), header_of(plain, "ETag"));
+    EXPECT_LT(body_of(zstd).size() * 5, body_of(plain).size());
+    const std::string tag = header_of(plain, "ETag");
+    EXPECT_EQ(served_.get("/api/v1/tables", {{"If-None-Match", tag}}).status, 304u);
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ class Page {
     private readAt: [number, number] | null = null; // a place that was clicked, meters from the middle
 
     async begin(): Promise<void> {
+        this.renderer.prepare();
         this.putTexts();
         this.listen();
         [this.domains, this.tables] = await Promise.all([domains(), tables()]);
