@@ -7,7 +7,7 @@ declare module 'node:assert/strict' {
         (value: unknown, message?: string): asserts value;
         equal(actual: unknown, expected: unknown, message?: string): void;
         deepEqual(actual: unknown, expected: unknown, message?: string): void;
-        throws(body: () => unknown, expected?: RegExp | (new (...args: never[]) => Error)): void;
+        throws(body: () => unknown, expected?: RegExp | (new (...args: never[]) => Error), message?: string): void;
         ok(value: unknown, message?: string): asserts value;
     }
     const assert: Assert;

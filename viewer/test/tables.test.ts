@@ -34,7 +34,7 @@ test('colors and extinction go straight from stop to stop', () => {
 });
 
 test('a step that stays in a value has that value’s look', () => {
-    const transfer = makeTransfer(table, { firstValue: -32, step: 0.5 }, 1, 1000);
+    const transfer = makeTransfer(table, { firstValue: -32, step: 0.5 }, { opacity: 1, least: -Infinity }, 1000);
     for (const value of [10, 30, 50, 62]) {
         const code = 3 + (value + 32) / 0.5;
         const bin = Math.floor(transfer.binOffset + transfer.binSlope * code);
@@ -49,7 +49,7 @@ test('a step that stays in a value has that value’s look', () => {
 // The sum over many thin steps is what a step from end to end must be.
 test('a step between two values shows all of them in their order', () => {
     const stepM = 5000;
-    const transfer = makeTransfer(table, { firstValue: -32, step: 0.5 }, 1, stepM);
+    const transfer = makeTransfer(table, { firstValue: -32, step: 0.5 }, { opacity: 1, least: -Infinity }, stepM);
     const binOf = (value: number) => Math.floor(transfer.binOffset + transfer.binSlope * (3 + (value + 32) / 0.5));
     for (const [from, to] of [
         [20, 60],

@@ -199,7 +199,7 @@ class Page {
             table,
             leastValue: this.state.least ?? -1e9,
             hasVolume: true,
-            hasGround: true,
+            hasGround: this.state.hasGround,
         });
         this.renderer.finish();
         const ms = Math.round(performance.now() - begun);

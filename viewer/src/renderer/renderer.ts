@@ -32,6 +32,9 @@ export interface Frame {
     hasGround: boolean;
 }
 
+// What a transfer function is made of, beside the step.
+type TransferKey = readonly [ColorTable, number, number, number, number];
+
 interface Uploaded {
     loaded: LoadedGrid;
     atlas: WebGLTexture;
@@ -56,10 +59,11 @@ const mostStretch = 1.25;
 export class Renderer {
     private gl: WebGL2RenderingContext;
     private programs = new Map<string, WebGLProgram>();
+    private begun = new Map<string, WebGLProgram>(); // their compilation was not waited for yet
     private uploaded: Uploaded | null = null;
     private lines: UploadedLines[] = [];
     private transferTexture: WebGLTexture | null = null;
-    private transfer: { made: Transfer; stepM: number; table: ColorTable; grid: PackedGrid; opacity: number } | null = null;
+    private transfer: { made: Transfer; stepM: number; key: TransferKey } | null = null;
 
     constructor(readonly canvas: HTMLCanvasElement) {
         const gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true, alpha: false });
@@ -78,6 +82,7 @@ export class Renderer {
     // After the context came back: everything is uploaded again by its owner.
     forget(): void {
         this.programs.clear();
+        this.begun.clear();
         this.uploaded = null;
         this.lines = [];
         this.transferTexture = null;
@@ -91,14 +96,21 @@ export class Renderer {
         return shader;
     }
 
-    private program(name: string, vertex: string, fragment: string): WebGLProgram {
-        const known = this.programs.get(name);
-        if (known) return known;
+    private begin(name: string, vertex: string, fragment: string): WebGLProgram {
         const gl = this.gl;
         const program = gl.createProgram()!;
         gl.attachShader(program, this.compile(gl.VERTEX_SHADER, vertex));
         gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, fragment));
         gl.linkProgram(program);
+        this.begun.set(name, program);
+        return program;
+    }
+
+    private program(name: string, vertex: string, fragment: string): WebGLProgram {
+        const known = this.programs.get(name);
+        if (known) return known;
+        const gl = this.gl;
+        const program = this.begun.get(name) ?? this.begin(name, vertex, fragment);
         if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
             const logs = gl.getAttachedShaders(program)!.map(shader => gl.getShaderInfoLog(shader));
             throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);
@@ -253,11 +265,12 @@ export class Renderer {
     private transferFor(frame: Frame, grid: PackedGrid, stepM: number): { made: Transfer; scale: number } {
         const gl = this.gl;
         const now = this.transfer;
-        const isSame = now && now.table === frame.table && now.grid === grid && now.opacity === frame.opacity;
+        const key: TransferKey = [frame.table, grid.firstValue, grid.step, frame.opacity, frame.leastValue];
+        const isSame = now && now.key.every((part, i) => part === key[i]);
         const stretch = isSame ? stepM / now.stepM : 0;
         if (!isSame || stretch > mostStretch || stretch < 1 / mostStretch) {
-            const made = makeTransfer(frame.table, grid, frame.opacity, stepM);
-            this.transfer = { made, stepM, table: frame.table, grid, opacity: frame.opacity };
+            const made = makeTransfer(frame.table, grid, { opacity: frame.opacity, least: frame.leastValue }, stepM);
+            this.transfer = { made, stepM, key };
             gl.deleteTexture(this.transferTexture);
             this.transferTexture = this.texture2d(gl.RGBA32F, gl.RGBA, gl.FLOAT, 256, 256, made.entries);
             return { made, scale: 1 };
@@ -296,13 +309,33 @@ export class Renderer {
         gl.uniform3fv(at('atlasSize'), loaded.atlas.size);
         const { codeScale, codeOffset } = loaded.atlas;
         gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
-        const leastCode = Math.max(made.leastVisibleCode, Math.ceil((frame.leastValue - grid.firstValue) / grid.step) + 3);
-        gl.uniform1ui(at('leastShown'), Math.min(255, Math.max(1, Math.floor((leastCode - codeOffset) / codeScale))));
+        if (made.leastVisibleCode === Infinity) return;
+        gl.uniform1ui(at('leastShown'), Math.min(255, Math.max(1, Math.floor((made.leastVisibleCode - codeOffset) / codeScale))));
         gl.uniform1f(at('near'), geometry.nearM);
         gl.uniform1f(at('stepM'), stepM);
         gl.uniform1f(at('slices'), frame.slices);
         gl.uniform1f(at('depthScale'), scale);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    // Begins to compile what the first picture needs, while its data are still on their way.
+    prepare(): void {
+        const variant: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };
+        this.begin(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant));
+        this.begin('ground, perspective', fullScreenVertex, groundFragment(true));
+        this.begin('lines', lineVertex, lineFragment);
+    }
+
+    // Settles when everything that was asked for is drawn.
+    async finished(): Promise<void> {
+        const gl = this.gl;
+        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        if (!fence) return;
+        while (!gl.isContextLost() && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
+            await new Promise(done => setTimeout(done, 1));
+        }
+        gl.deleteSync(fence);
     }
 
     // Waits until everything is drawn.

@@ -121,7 +121,8 @@ void main() {
         float depth = near + (k + 1.0) * stepM;
         vec2 back = sampleAt(start + clamp(depth, enter, leave) * along, brick, skip);
         float share = 0.5 * (front.y + back.y);
-        if (share > 0.0) {
+        // Bin 0 is clear: between two ends in it there is nothing to see.
+        if (share > 0.0 && front.x + back.x > 0.0) {
             float one = front.y > 0.0 ? front.x : back.x;
             float other = back.y > 0.0 ? back.x : front.x;
             vec4 look = texelFetch(transfer, ivec2(int(other), int(one)), 0);

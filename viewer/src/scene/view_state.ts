@@ -7,6 +7,7 @@ export interface ViewState {
     moment: string;
     time: string; // ISO 8601, or 'latest'
     camera: Camera;
+    hasGround: boolean; // map and ground are drawn
     exaggeration: number;
     opacity: number;
     least: number | null; // weaker echo is not shown
@@ -18,6 +19,7 @@ export const usualState: ViewState = {
     moment: '',
     time: 'latest',
     camera: { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40 },
+    hasGround: true,
     exaggeration: 5,
     opacity: 1,
     least: null,
@@ -42,6 +44,7 @@ export function addressOf(state: ViewState): string {
     if (camera.lookAtM) {
         parts.push(['look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(',')]);
     }
+    if (!state.hasGround) parts.push(['ground', '0']);
     if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
     if (state.colors) parts.push(['colors', state.colors]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
@@ -69,6 +72,7 @@ export function stateOf(text: string): ViewState {
             fieldOfViewDeg: number(query.get('field-of-view'), 0, 150, usual.camera.fieldOfViewDeg),
             lookAtM: lookAt.length === 3 && lookAt.every(Number.isFinite) ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000] : null,
         },
+        hasGround: query.get('ground') !== '0',
         exaggeration: number(query.get('exaggeration'), 0.1, 100, usual.exaggeration),
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),

@@ -11,10 +11,15 @@ export interface Transfer {
     // bin = binOffset + binSlope * code; bin 0 is clear
     binOffset: number;
     binSlope: number;
-    leastVisibleCode: number;
+    leastVisibleCode: number; // infinite: nothing is visible
     // Of each pair of bins (the nearer end is the row): red, green, blue (0 to 1) and optical depth of a
     // step of the reference length.
     entries: Float32Array;
+}
+
+export interface Shown {
+    opacity: number; // scales the table's extinction
+    least: number; // values below it are clear
 }
 
 export interface Bins {
@@ -40,14 +45,15 @@ interface Looks {
     color: [Float64Array, Float64Array, Float64Array];
 }
 
-function looksOfBins(table: ColorTable, bins: Bins, opacity: number, stepM: number): Looks {
+function looksOfBins(table: ColorTable, bins: Bins, shown: Shown, stepM: number): Looks {
     const looks: Looks = {
         depth: new Float64Array(binCount),
         color: [new Float64Array(binCount), new Float64Array(binCount), new Float64Array(binCount)],
     };
     for (let i = 1; i < binCount; ++i) {
         const value = bins.lowest + (i - 0.5) * bins.width;
-        looks.depth[i] = extinctionPerM(table, value, opacity) * stepM;
+        if (value < shown.least) continue;
+        looks.depth[i] = extinctionPerM(table, value, shown.opacity) * stepM;
         const color = colorOf(table, value);
         if (color) for (let c = 0; c < 3; ++c) looks.color[c]![i] = Math.round(color[c]!) / 255;
     }
@@ -83,12 +89,12 @@ function putStep(looks: Looks, from: number, distance: number, sign: number, who
 export function makeTransfer(
     table: ColorTable,
     quantization: { firstValue: number; step: number },
-    opacity: number,
+    shown: Shown,
     stepM: number,
 ): Transfer {
     const bins = chooseBins(table);
     const codeZero = quantization.firstValue - quantization.step * firstValueCode;
-    const looks = looksOfBins(table, bins, opacity, stepM);
+    const looks = looksOfBins(table, bins, shown, stepM);
     const entries = new Float32Array(4 * binCount * binCount);
     for (let i = 0; i < binCount; ++i) {
         if (looks.depth[i]! <= 0) continue;
@@ -110,11 +116,11 @@ export function makeTransfer(
     }
     const binSlope = quantization.step / bins.width;
     const binOffset = (codeZero - bins.lowest) / bins.width + 1 + binSlack;
-    const firstVisible = Math.max(1, looks.depth.findIndex(depth => depth > 0));
+    const firstVisible = looks.depth.findIndex(depth => depth > 0);
     return {
         binOffset,
         binSlope,
-        leastVisibleCode: Math.max(firstValueCode, Math.ceil((firstVisible - binOffset) / binSlope)),
+        leastVisibleCode: firstVisible < 0 ? Infinity : Math.max(firstValueCode, Math.ceil((firstVisible - binOffset) / binSlope)),
         entries,
     };
 }

@@ -1,0 +1,40 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { advanced, at, followed, stepped, stopped, withTimes } from '../src/time/player';
+
+const times = ['a', 'b', 'c', 'd'];
+
+test('who follows sees the newest as soon as it is there', () => {
+    const player = withTimes(stopped, times);
+    assert.equal(player.at, 3);
+    assert.equal(withTimes(player, [...times, 'e']).at, 4);
+});
+
+test('who looks at a time keeps it when newer ones come and older ones go', () => {
+    const player = at(withTimes(stopped, times), 1);
+    assert.equal(player.follows, false);
+    const later = withTimes(player, ['b', 'c', 'd', 'e']);
+    assert.equal(later.times[later.at], 'b');
+});
+
+test('a time that was evicted gives way to the next one that is there', () => {
+    const player = withTimes(at(withTimes(stopped, times), 1), ['c', 'd']);
+    assert.equal(player.times[player.at], 'c');
+    assert.equal(withTimes(player, []).at, -1);
+});
+
+test('playback waits for a time that is not loaded, and says for which', () => {
+    const player = { ...at(withTimes(stopped, times), 0), isPlaying: true };
+    const waiting = advanced(player, () => false);
+    assert.deepEqual([waiting.player.at, waiting.waitsFor], [0, 'b']);
+    assert.equal(advanced(player, time => time === 'b').player.at, 1);
+});
+
+test('playback begins again after the last time, and a step ends it', () => {
+    const player = { ...at(withTimes(stopped, times), 3), isPlaying: true };
+    assert.equal(advanced(player, () => true).player.at, 0);
+    assert.equal(stepped(player, -1).isPlaying, false);
+    assert.equal(stepped(player, 5).at, 3);
+    assert.equal(followed(at(player, 0)).at, 3);
+});
