@@ -5,7 +5,7 @@
 // Codes of two bytes are shown through eight bits (codeScale, codeOffset); exact codes stay in the
 // packed grid, which the probe reads.
 
-import { BrickKind, PackedGrid, codeAt, firstValueCode } from '../wire/packed_grid';
+import { BrickKind, PackedGrid, firstValueCode } from '../wire/packed_grid';
 
 export const paddedEdge = 18;
 
@@ -74,27 +74,65 @@ interface Filling {
     shownOf: Uint8Array; // shown code of each code of a value
 }
 
-// Copies the cells [16 b - 1, 16 b + 17) along each axis into a slot. Most lie in the brick itself.
-function fillSlot(filling: Filling, bx: number, by: number, bz: number, slot: number): void {
+// A run of cells along an axis that a slot takes from one brick of the grid.
+interface Run {
+    brick: number;
+    from: number; // the first cell in that brick
+    to: number; // its place in the slot
+    count: number;
+}
+
+// The runs along an axis of the cells [16 b - 1, 16 b + 17). Beyond the grid the outermost cells go on, as
+// the slicer has it.
+function runsAlong(b: number, edge: number, cells: number): Run[] {
+    const runs: Run[] = [];
+    for (let i = 0; i < paddedEdge; ++i) {
+        const cell = Math.min(cells - 1, Math.max(0, b * edge + i - 1));
+        const brick = Math.floor(cell / edge);
+        const last = runs[runs.length - 1];
+        if (last && last.brick === brick && last.from + last.count === cell - brick * edge) ++last.count;
+        else runs.push({ brick, from: cell - brick * edge, to: i, count: 1 });
+    }
+    return runs;
+}
+
+// Copies what a slot takes from one brick with values.
+function copyRuns(filling: Filling, block: number, first: number, rows: [Run, Run, Run]): void {
     const { grid, atlas, shownOf } = filling;
+    const [xs, ys, zs] = rows;
+    const edge = grid.brickEdge;
+    const { codes } = grid;
+    const { texels, size } = atlas;
+    // Texels are written in the order in which they lie; a brick is small enough to be read in any.
+    for (let z = 0; z < zs.count; ++z) {
+        for (let y = 0; y < ys.count; ++y) {
+            let from = block * edge ** 3 + (xs.from * edge + ys.from + y) * edge + zs.from + z;
+            let to = first + 2 * (((zs.to + z) * size[1] + ys.to + y) * size[0] + xs.to);
+            for (let x = 0; x < xs.count; ++x, from += edge * edge, to += 2) {
+                const code = codes[from]!;
+                if (code < firstValueCode) continue;
+                texels[to] = shownOf[code]!;
+                texels[to + 1] = 255;
+            }
+        }
+    }
+}
+
+// Copies a brick and one cell of its neighbors on each side into a slot; where they have no values, the
+// slot stays 0.
+function fillSlot(filling: Filling, bx: number, by: number, bz: number, slot: number): void {
+    const { grid, atlas } = filling;
     const edge = grid.brickEdge;
     const [sx, sy] = atlas.slots;
-    const x0 = (slot % sx) * paddedEdge;
-    const y0 = (Math.floor(slot / sx) % sy) * paddedEdge;
-    const z0 = Math.floor(slot / (sx * sy)) * paddedEdge;
     const [width, height] = atlas.size;
-    for (let z = 0; z < paddedEdge; ++z) {
-        // Beyond the grid the outermost cells go on, as the slicer has it.
-        const cz = Math.min(grid.nz - 1, Math.max(0, bz * edge + z - 1));
-        for (let y = 0; y < paddedEdge; ++y) {
-            const cy = Math.min(grid.ny - 1, Math.max(0, by * edge + y - 1));
-            let to = 2 * (((z0 + z) * height + y0 + y) * width + x0);
-            for (let x = 0; x < paddedEdge; ++x, to += 2) {
-                const cx = Math.min(grid.nx - 1, Math.max(0, bx * edge + x - 1));
-                const code = codeAt(grid, cx, cy, cz);
-                if (code < firstValueCode) continue;
-                atlas.texels[to] = shownOf[code]!;
-                atlas.texels[to + 1] = 255;
+    const corner = [slot % sx, Math.floor(slot / sx) % sy, Math.floor(slot / (sx * sy))].map(n => n * paddedEdge) as [number, number, number];
+    const first = 2 * ((corner[2] * height + corner[1]) * width + corner[0]);
+    const [xs, ys, zs] = [runsAlong(bx, edge, grid.nx), runsAlong(by, edge, grid.ny), runsAlong(bz, edge, grid.nz)];
+    for (const x of xs) {
+        for (const y of ys) {
+            for (const z of zs) {
+                const brick = brickIndex(grid, x.brick, y.brick, z.brick);
+                if (grid.kind[brick] === BrickKind.codes) copyRuns(filling, grid.block[brick]!, first, [x, y, z]);
             }
         }
     }
@@ -168,23 +206,40 @@ export const enum Coverage {
 }
 const lowM = 3000;
 
+// Lowers `lowest`, the lowest level of each column that was seen, by the cells of one brick.
+function lowerByBrick(grid: PackedGrid, bx: number, by: number, bz: number, lowest: Uint16Array): void {
+    const edge = grid.brickEdge;
+    const brick = brickIndex(grid, bx, by, bz);
+    const kind = grid.kind[brick];
+    if (kind === BrickKind.uniform && grid.state[brick] === 0) return;
+    const depth = Math.min(edge, grid.nz - bz * edge);
+    const block = grid.block[brick]! * edge ** 3;
+    for (let x = 0; x < Math.min(edge, grid.nx - bx * edge); ++x) {
+        for (let y = 0; y < Math.min(edge, grid.ny - by * edge); ++y) {
+            const column = (by * edge + y) * grid.nx + bx * edge + x;
+            if (lowest[column]! <= bz * edge) continue;
+            const from = block + (x * edge + y) * edge;
+            let z = 0;
+            if (kind === BrickKind.codes) while (z < depth && grid.codes[from + z] === 0) ++z;
+            else if (kind === BrickKind.states) while (z < depth && ((grid.states[(from + z) >> 2]! >> (2 * ((from + z) & 3))) & 3) === 0) ++z;
+            if (z < depth) lowest[column] = Math.min(lowest[column]!, bz * edge + z);
+        }
+    }
+}
+
 // What was seen of each column, x fastest.
 export function coverageOf(grid: PackedGrid): Uint8Array {
-    const edge = grid.brickEdge;
-    const coverage = new Uint8Array(grid.nx * grid.ny);
-    for (let y = 0; y < grid.ny; ++y) {
-        for (let x = 0; x < grid.nx; ++x) {
-            for (let z = 0; z < grid.nz; ++z) {
-                const brick = brickIndex(grid, Math.floor(x / edge), Math.floor(y / edge), Math.floor(z / edge));
-                if (grid.kind[brick] === BrickKind.uniform && grid.state[brick] === 0) {
-                    z = (Math.floor(z / edge) + 1) * edge - 1;
-                    continue;
-                }
-                if (codeAt(grid, x, y, z) === 0) continue;
-                coverage[y * grid.nx + x] = grid.levelsM[z]! < lowM ? Coverage.low : Coverage.high;
-                break;
-            }
+    const never = 65535;
+    const lowest = new Uint16Array(grid.nx * grid.ny).fill(never);
+    for (let x = 0; x < grid.bricks[0]; ++x) {
+        for (let y = 0; y < grid.bricks[1]; ++y) {
+            for (let z = 0; z < grid.bricks[2]; ++z) lowerByBrick(grid, x, y, z, lowest);
         }
+    }
+    const coverage = new Uint8Array(lowest.length);
+    for (let i = 0; i < lowest.length; ++i) {
+        const level = lowest[i]!;
+        if (level !== never) coverage[i] = grid.levelsM[level]! < lowM ? Coverage.low : Coverage.high;
     }
     return coverage;
 }

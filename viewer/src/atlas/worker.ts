@@ -28,5 +28,7 @@ self.onmessage = (event: MessageEvent<AtlasRequest>) => {
         (self as unknown as Worker).postMessage({ number, error: answer.error });
         return;
     }
-    (self as unknown as Worker).postMessage(answer, [answer.atlas.texels.buffer, answer.coverage.buffer]);
+    // The same buffer may hold codes and states.
+    const buffers = [answer.atlas.texels, answer.coverage, answer.grid.codes, answer.grid.states].map(array => array.buffer);
+    (self as unknown as Worker).postMessage(answer, [...new Set(buffers)]);
 };
