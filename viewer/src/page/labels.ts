@@ -22,12 +22,15 @@ function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y: numbe
     pen.fillText(text, x, y);
 }
 
+export function clearLabels(pen: CanvasRenderingContext2D, pixelRatio: number): void {
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.clearRect(0, 0, pen.canvas.width, pen.canvas.height);
+    pen.scale(pixelRatio, pixelRatio);
+}
+
 // `taken` are parts of the picture that the page covers.
 export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry, marks: Mark[], taken: Rect[], pixelRatio: number): void {
     const { width, height } = geometry;
-    pen.setTransform(1, 0, 0, 1, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    pen.scale(pixelRatio, pixelRatio);
     const full = [...taken];
     const most = Math.max(6, Math.round((width * height) / (pixelRatio * pixelRatio) / 22000));
     let cities = 0;

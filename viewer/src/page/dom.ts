@@ -1,0 +1,35 @@
+// Short words for what the panels do with the document.
+
+export function element<T extends HTMLElement>(id: string): T {
+    return document.getElementById(id) as T;
+}
+
+export function button(id: string, text: string, action: () => void): HTMLButtonElement {
+    const made = document.createElement('button');
+    made.id = id;
+    made.textContent = text;
+    made.addEventListener('click', action);
+    return made;
+}
+
+export function paragraph(text: string): HTMLParagraphElement {
+    const made = document.createElement('p');
+    made.textContent = text;
+    return made;
+}
+
+// Fills a list with names, of which one is chosen.
+export function putOptions(select: HTMLSelectElement, names: string[], chosen: string | undefined): void {
+    select.replaceChildren(
+        ...names.map(name => {
+            const option = document.createElement('option');
+            option.value = option.textContent = name;
+            option.selected = name === chosen;
+            return option;
+        }),
+    );
+}
+
+export function press(id: string, isPressed: boolean): void {
+    element(id).setAttribute('aria-pressed', String(isPressed));
+}

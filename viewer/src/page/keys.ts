@@ -1,0 +1,77 @@
+// The keys of the picture.
+
+import { NamedView, namedView, orbited, panned, zoomed } from '../camera/controls';
+import { App } from './app';
+import { Drawing } from './drawing';
+
+const usualFieldOfViewDeg = 40;
+const keyStep = 20; // pixels of a drag that an arrow stands for
+
+export class Keys {
+    private actions = new Map<string, () => void>();
+
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+    ) {
+        for (const [name, view] of [
+            ['t', 'top'],
+            ['s', 'south'],
+            ['o', 'oblique'],
+        ] as const)
+            this.add(name, () => this.look(view));
+        for (const name of ['+', '=']) this.add(name, () => this.zoom(1.25));
+        this.add('-', () => this.zoom(0.8));
+        this.add('p', () => this.togglePerspective());
+        this.add('l', () => app.follow());
+        this.add(' ', () => app.play());
+        this.add(',', () => app.step(-1));
+        this.add('.', () => app.step(1));
+    }
+
+    // Letters are small; others are named as KeyboardEvent.key has them. The first action of a name stays,
+    // but Escape ends everything.
+    add(name: string, action: () => void): void {
+        const known = this.actions.get(name);
+        if (known && name !== 'Escape') throw new Error(`the key '${name}' is taken`);
+        this.actions.set(name, known ? () => (known(), action()) : action);
+    }
+
+    begin(): void {
+        this.drawing.picture.addEventListener('keydown', event => this.press(event));
+    }
+
+    look(view: NamedView): void {
+        this.app.moved(namedView(this.app.state.camera, view));
+    }
+    togglePerspective(): void {
+        const { camera } = this.app.state;
+        this.app.moved({ ...camera, fieldOfViewDeg: camera.fieldOfViewDeg > 0 ? 0 : usualFieldOfViewDeg });
+    }
+    private zoom(factor: number): void {
+        const geometry = this.drawing.geometry();
+        if (geometry) this.app.moved(zoomed(this.app.state.camera, geometry, factor));
+    }
+
+    private press(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const ways: Record<string, [number, number]> = {
+            ArrowLeft: [-keyStep, 0],
+            ArrowRight: [keyStep, 0],
+            ArrowUp: [0, -keyStep],
+            ArrowDown: [0, keyStep],
+        };
+        const way = ways[event.key];
+        const geometry = this.drawing.geometry();
+        const action = this.actions.get(event.key.length === 1 ? event.key.toLowerCase() : event.key);
+        if (way && geometry) {
+            const { camera } = this.app.state;
+            this.app.moved(event.shiftKey ? panned(camera, geometry, 2 * way[0], 2 * way[1]) : orbited(camera, way[0], way[1]));
+        } else if (action) {
+            action();
+        } else {
+            return;
+        }
+        event.preventDefault();
+    }
+}

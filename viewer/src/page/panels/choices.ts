@@ -1,0 +1,32 @@
+// The head of the page: domain, moments, and what is shown.
+
+import { App } from '../app';
+import { button, element, press, putOptions } from '../dom';
+import { texts } from '../texts';
+
+function putChoices(app: App): void {
+    const { state, domain } = app;
+    putOptions(
+        element<HTMLSelectElement>('domain'),
+        app.domains.map(one => one.domain),
+        state.domain,
+    );
+    element('moments').replaceChildren(
+        ...(domain?.moments ?? []).map(({ moment }) => button(`moment-${moment}`, moment, () => void app.choose(state.domain, moment))),
+    );
+    for (const { moment } of domain?.moments ?? []) press(`moment-${moment}`, moment === state.moment);
+}
+
+function putTitle(app: App): void {
+    const { grid } = app.shown!.loaded;
+    const names = grid.sites.map(site => site.icao).join(', ');
+    const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
+    element('title').textContent = `${names}  ${time}${grid.isPartial ? `  ${texts.partial}` : ''}`;
+    document.title = `${app.state.domain} ${app.state.moment} ${time} · ${texts.title}`;
+}
+
+export function addChoices(app: App): void {
+    app.on('choices', () => putChoices(app));
+    app.on('shown', () => putTitle(app));
+    element<HTMLSelectElement>('domain').addEventListener('change', event => void app.chooseDomain((event.target as HTMLSelectElement).value));
+}

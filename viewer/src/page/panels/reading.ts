@@ -1,0 +1,93 @@
+// The numbers of the column under a click. After another volume came the same place is read again.
+
+import { Plane, planeOf } from '../../scene/projection';
+import { App } from '../app';
+import { button, element, paragraph } from '../dom';
+import { Drawing } from '../drawing';
+import { Keys } from '../keys';
+import { Tool } from '../pointers';
+import { ColumnReading, columnAt, readColumn } from '../reading';
+import { texts } from '../texts';
+
+const mostRows = 10;
+const km = (meters: number) => (meters / 1000).toFixed(1);
+
+function summaryOf({ greatest, seenFromM }: ColumnReading, unit: string): string {
+    if (greatest) return `${texts.highest} ${greatest.value} ${unit} at ${km(greatest.heightM)} ${texts.heightAbove}`;
+    return seenFromM === null ? texts.notSeen : texts.noEcho;
+}
+
+function putColumn(body: HTMLElement, reading: ColumnReading, unit: string): void {
+    body.append(paragraph(summaryOf(reading, unit)));
+    if (reading.seenFromM !== null) {
+        body.append(paragraph(`${texts.seenTo} ${km(reading.seenFromM)} – ${km(reading.seenToM!)} ${texts.heightAbove}`));
+    }
+    const table = document.createElement('table');
+    const told = reading.levels.filter(level => level.value !== null || level.code === 2);
+    const every = Math.ceil(told.length / mostRows);
+    for (const level of told.filter((_, i) => i % every === 0).reverse()) {
+        const row = table.insertRow();
+        row.insertCell().textContent = `${km(level.heightM)} km`;
+        row.insertCell().textContent = level.value === null ? texts.rangeFolded : `${level.value} ${unit}`;
+    }
+    body.append(table);
+}
+
+export class Reader implements Tool {
+    private at: Plane | null = null; // the place that was clicked, meters from the middle
+    private domain = '';
+
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+    ) {}
+
+    begin(keys: Keys): void {
+        this.app.on('choices', () => this.takeDomain());
+        this.app.on('shown', () => {
+            if (this.at) this.put();
+        });
+        keys.add('Escape', () => this.clear());
+        keys.add('?', () => this.showHelp());
+        element('actions').append(button('help', texts.help, () => this.showHelp()));
+    }
+
+    click(x: number, y: number): void {
+        this.at = this.drawing.geometry()?.ground(x, y) ?? null;
+        this.put();
+    }
+
+    // The place stays with another moment, but not elsewhere.
+    private takeDomain(): void {
+        if (this.domain !== this.app.state.domain) this.clear();
+        this.domain = this.app.state.domain;
+    }
+
+    private clear(): void {
+        this.at = null;
+        element('reading').hidden = true;
+    }
+
+    private put(): void {
+        const box = element('reading');
+        const { shown } = this.app;
+        box.hidden = !this.at || !shown;
+        if (!this.at || !shown) return;
+        const { grid } = shown.loaded;
+        const column = columnAt(grid, ...this.at);
+        const place = planeOf(grid).toPlace(this.at);
+        const title = document.createElement('h2');
+        title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
+        const body = document.createElement('div');
+        if (column) putColumn(body, readColumn(grid, ...column), this.app.unit);
+        box.replaceChildren(title, body);
+        this.drawing.draw();
+    }
+
+    private showHelp(): void {
+        this.clear();
+        const box = element('reading');
+        box.replaceChildren(...texts.helpText.map(paragraph));
+        box.hidden = false;
+    }
+}

@@ -1,0 +1,110 @@
+// Mouse and fingers on the picture. They move the camera, unless a tool takes them.
+
+import { orbited, panned, zoomed } from '../camera/controls';
+import { App } from './app';
+import { Drawing } from './drawing';
+
+// What takes what is dragged or clicked, in pixels of the picture. A tool that does not take a press
+// (false) leaves the drag to the camera; a click is a press that did not travel.
+export interface Tool {
+    press?(x: number, y: number): boolean;
+    drag?(x: number, y: number): void;
+    release?(x: number, y: number): void;
+    click?(x: number, y: number): void;
+    hover?(x: number, y: number): void;
+    end?(): void; // another tool takes over, or Escape was pressed
+}
+
+const farthestClick = 4; // pixels
+
+export class Pointers {
+    private pointers = new Map<number, PointerEvent>();
+    private travelled = 0;
+    private isTaken = false; // by the tool
+    private tool: Tool;
+
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+        private usual: Tool,
+    ) {
+        this.tool = usual;
+    }
+
+    get current(): Tool {
+        return this.tool;
+    }
+    // Another tool takes what follows; none: the usual one.
+    use(tool: Tool | null): void {
+        this.tool.end?.();
+        this.tool = tool ?? this.usual;
+        this.drawing.draw();
+    }
+
+    begin(): void {
+        const { picture } = this.drawing;
+        picture.addEventListener('pointerdown', event => this.down(event));
+        picture.addEventListener('pointermove', event => this.move(event));
+        picture.addEventListener('pointerup', event => this.up(event));
+        picture.addEventListener('pointercancel', event => this.up(event));
+        picture.addEventListener('contextmenu', event => event.preventDefault());
+        picture.addEventListener('wheel', event => this.wheel(event), { passive: false });
+    }
+
+    private get ratio(): number {
+        return window.devicePixelRatio || 1;
+    }
+    private at(event: MouseEvent): [number, number] {
+        return [event.offsetX * this.ratio, event.offsetY * this.ratio];
+    }
+
+    private down(event: PointerEvent): void {
+        this.drawing.picture.setPointerCapture(event.pointerId);
+        this.pointers.set(event.pointerId, event);
+        this.travelled = 0;
+        const isPlain = this.pointers.size === 1 && event.button === 0 && !event.shiftKey;
+        this.isTaken = isPlain && (this.tool.press?.(...this.at(event)) ?? false);
+    }
+
+    private move(event: PointerEvent): void {
+        const before = this.pointers.get(event.pointerId);
+        if (!before) return this.tool.hover?.(...this.at(event));
+        const geometry = this.drawing.geometry();
+        if (!geometry) return;
+        const [dx, dy] = [event.clientX - before.clientX, event.clientY - before.clientY];
+        this.travelled += Math.abs(dx) + Math.abs(dy);
+        this.pointers.set(event.pointerId, event);
+        const { camera } = this.app.state;
+        if (this.pointers.size === 2) {
+            this.pinch(before, event, dx, dy);
+        } else if (this.isTaken) {
+            this.tool.drag?.(...this.at(event));
+        } else if (event.shiftKey || (event.buttons & 2) !== 0) {
+            this.app.moved(panned(camera, geometry, dx * this.ratio, dy * this.ratio));
+        } else {
+            this.app.moved(orbited(camera, dx, dy));
+        }
+    }
+
+    private pinch(before: PointerEvent, event: PointerEvent, dx: number, dy: number): void {
+        const geometry = this.drawing.geometry()!;
+        const fixed = [...this.pointers.values()].find(one => one.pointerId !== event.pointerId)!;
+        const was = Math.hypot(before.clientX - fixed.clientX, before.clientY - fixed.clientY);
+        const is = Math.hypot(event.clientX - fixed.clientX, event.clientY - fixed.clientY);
+        const nearer = zoomed(this.app.state.camera, geometry, is / Math.max(1, was));
+        this.app.moved(panned(nearer, geometry, (dx / 2) * this.ratio, (dy / 2) * this.ratio));
+    }
+
+    private up(event: PointerEvent): void {
+        if (!this.pointers.delete(event.pointerId)) return;
+        if (this.isTaken) this.tool.release?.(...this.at(event));
+        this.isTaken = false;
+        if (event.type === 'pointerup' && this.travelled < farthestClick) this.tool.click?.(...this.at(event));
+    }
+
+    private wheel(event: WheelEvent): void {
+        event.preventDefault();
+        const geometry = this.drawing.geometry();
+        if (geometry) this.app.moved(zoomed(this.app.state.camera, geometry, Math.exp(-event.deltaY * 0.0015), ...this.at(event)));
+    }
+}
