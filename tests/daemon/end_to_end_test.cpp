@@ -121,12 +121,12 @@ TEST(EndToEnd, AllMomentsOfAVolumeComeOutOfOneDecoding) {
         "[ingest]\nquiet_seconds = 2\n"
         "moments = [\"REF\", \"VEL\", \"SW\", \"ZDR\", \"PHI\", \"RHO\"]\n");
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
-        return s["ingested"] == 1 && everything_is_done(s) && !s["latest"].empty();
+        return s["ingested"] == 1 && everything_is_done(s) && !s["volumes"].empty();
     })) << daemon.log();
     EXPECT_EQ(rows(daemon, "KLOT").size(), 1U);
     const json status = daemon.status();
     EXPECT_EQ(status["grids"], 6) << status.dump(1);
-    EXPECT_EQ(status["latest"].size(), 1U) << "one volume was taken in, once";
+    EXPECT_EQ(status["volumes"].size(), 1U) << "one volume was taken in, once";
     EXPECT_EQ(verified_grids(daemon.cache()), 6U);
     const auto store = cache::StoreReader::open(daemon.cache());
     ASSERT_TRUE(store);
