@@ -1,7 +1,8 @@
 # Compiles a target's sources sixteen at once.
 function(stormcellar_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
-  target_compile_options(${target} PRIVATE -Wno-shadow)  # of names in another file of the batch
+  # A name may be that of another file of the batch; what one function hides of its own is found still.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 endfunction()
 
 # stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]

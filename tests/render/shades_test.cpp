@@ -96,7 +96,7 @@ TEST_P(ShadesOfTheme, GroundsDiffer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShadesOfTheme, ::testing::Values(Theme::dark, Theme::light),
-                         [](const auto& info) { return std::string(theme_name(info.param)); });
+                         [](const auto& named) { return std::string(theme_name(named.param)); });
 
 TEST(Theme, NamesAreReadBack) {
     for (const Theme theme : {Theme::dark, Theme::light})
