@@ -44,9 +44,9 @@ export const texts = {
     notSeen: 'not seen',
     noEcho: 'no echo',
     rangeFolded: 'range folded',
-    highest: 'Greatest',
-    seenTo: 'seen',
-    heightAbove: 'km above sea level',
+    greatestAt: (value: string, height: string) => `Greatest ${value} at ${height} above sea level`,
+    seenBetween: (from: string, to: string) => `seen ${from} – ${to} above sea level`,
+    units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
     partial: 'Partial volume',
     steps: (slices: number, ms: number) => `${slices} slices, ${ms} ms a frame`,
 } as const;

@@ -1,6 +1,7 @@
 // What the page shows, as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
+import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 
 export interface ViewState {
     domain: string; // empty: the first one
@@ -12,6 +13,7 @@ export interface ViewState {
     opacity: number;
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
+    units: Units;
 }
 
 export const usualState: ViewState = {
@@ -24,6 +26,7 @@ export const usualState: ViewState = {
     opacity: 1,
     least: null,
     colors: '',
+    units: usualUnits,
 };
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
@@ -47,6 +50,7 @@ export function addressOf(state: ViewState): string {
     if (!state.hasGround) parts.push(['ground', '0']);
     if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
     if (state.colors) parts.push(['colors', state.colors]);
+    if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
 
@@ -77,6 +81,7 @@ export function stateOf(text: string): ViewState {
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
+        units: unitsOf(query.get('units') ?? ''),
     };
 }
 
@@ -90,6 +95,7 @@ export function commandOf(state: ViewState, width: number, height: number): stri
     words.push('--opacity', rounded(state.opacity, 3), '--light', 'none');
     if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
     if (state.colors) words.push('--colors', state.colors);
+    if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
     return words.join(' ');
 }
