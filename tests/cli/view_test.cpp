@@ -84,7 +84,9 @@ TEST_F(ViewCommand, OpensTheBrowserOfTheDesktop) {
     const Environment path("PATH", at("bin") + ":" + std::getenv("PATH"));
     const Environment display("DISPLAY", ":0");
     testing::RunningProgram view(STORMCELLAR_PROGRAM, {"view", at("volumes")});
-    ASSERT_TRUE(testing::RunningProgram::wait_for([&] { return !opened().empty(); })) << view.err();
+    ASSERT_TRUE(testing::RunningProgram::wait_for([&] {
+        return !opened().empty() && view.out().find("Ctrl-C") != std::string::npos;
+    })) << view.err();
     EXPECT_NE(view.out().find("the viewer is at " + opened() + "\nCtrl-C ends it\n"),
               std::string::npos)
         << view.out() << opened();
