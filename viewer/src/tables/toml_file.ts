@@ -77,7 +77,7 @@ class TomlColors {
     }
 
     private moment(): string | null {
-        const name = this.text(this.root, 'moment')?.toUpperCase() ?? null;
+        const name = this.text(this.root, 'moment');
         const unit = this.text(this.root, 'unit');
         if (name === null) return null;
         const known = Object.prototype.hasOwnProperty.call(knownMoments, name) ? knownMoments[name]! : undefined;

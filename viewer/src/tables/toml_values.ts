@@ -43,6 +43,7 @@ const escapes: Record<string, string> = { b: '\b', t: '\t', n: '\n', f: '\f', r:
 
 class TomlReader {
     private at = 0;
+    private counted = { to: 0, line: 1 };
 
     constructor(
         private text: string,
@@ -62,9 +63,12 @@ class TomlReader {
     }
 
     private get line(): number {
-        let line = 1;
-        for (let i = this.text.indexOf('\n'); i >= 0 && i < this.at; i = this.text.indexOf('\n', i + 1)) ++line;
-        return line;
+        const { counted } = this;
+        for (let i = this.text.indexOf('\n', counted.to); i >= 0 && i < this.at; i = this.text.indexOf('\n', counted.to)) {
+            ++counted.line;
+            counted.to = i + 1;
+        }
+        return counted.line;
     }
     private refuse(why: string): never {
         throw new TableError(`${this.name}:${this.line}: ${why}`);
