@@ -7,10 +7,11 @@ import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
 import { Units, namesOf } from '../tables/units';
 import { PlayerState, advanced, at, followed, stepped, stopped, withTimes } from '../time/player';
-import { ApiError, Domain, Tables, domains, tables, times } from '../wire/api';
+import { ApiError, Domain, domains, tables, times } from '../wire/api';
 import { element } from './dom';
 import { Loader } from './loader';
 import { rememberUnits, rememberedUnits } from './remembered';
+import { TableBook } from './table_book';
 import { texts } from './texts';
 
 const msAFrame = 250; // of playback
@@ -36,7 +37,7 @@ function stateOfAddress(): ViewState {
 export class App {
     state: ViewState = stateOfAddress();
     domains: Domain[] = [];
-    tables: Tables = { tables: [], usual: {} };
+    book: TableBook | null = null; // once the server has told its tables
     player: PlayerState = { ...stopped, follows: this.state.time === 'latest' };
     shown: Shown | null = null;
     private heard = new Map<Happening, (() => void)[]>();
@@ -62,8 +63,7 @@ export class App {
     // -- the view
 
     get table(): ColorTable | undefined {
-        const own = this.tables.tables.find(table => table.name === this.state.colors && table.moment === this.state.moment);
-        return own ?? this.tables.tables.find(table => table.name === this.tables.usual[this.state.moment]);
+        return this.book?.of(this.state, this.state.moment);
     }
     get unit(): string {
         return this.domain?.moments.find(one => one.moment === this.state.moment)?.units ?? '';
@@ -102,7 +102,8 @@ export class App {
     // -- what is shown
 
     async begin(): Promise<void> {
-        [, this.tables] = await Promise.all([this.findDomains(), tables()]);
+        const [, known] = await Promise.all([this.findDomains(), tables()]);
+        this.book = new TableBook(known);
         if (this.domains.length === 0) return this.say(texts.noGrids);
         await this.choose(this.state.domain, this.state.moment);
     }

@@ -12,6 +12,14 @@ export function button(id: string, text: string, action: () => void): HTMLButton
     return made;
 }
 
+// A button that shows a sign; its name is a text.
+export function labeledButton(id: string, sign: string, name: string, action: () => void): HTMLButtonElement {
+    const made = button(id, sign, action);
+    made.setAttribute('aria-label', name);
+    made.title = name;
+    return made;
+}
+
 export function paragraph(text: string): HTMLParagraphElement {
     const made = document.createElement('p');
     made.textContent = text;
@@ -28,6 +36,14 @@ export function putOptions(select: HTMLSelectElement, names: string[], chosen: s
             return option;
         }),
     );
+}
+
+export function saveFile(name: string, text: string): void {
+    const link = document.createElement('a');
+    link.download = name;
+    link.href = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
+    link.click();
+    window.setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
 export function press(id: string, isPressed: boolean): void {

@@ -7,12 +7,14 @@ import { Keys } from './keys';
 import { hear } from './live';
 import { Loader } from './loader';
 import { addChoices } from './panels/choices';
+import { Editor } from './panels/editor';
 import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
 import { addTimeline } from './panels/timeline';
 import { addUnits } from './panels/units';
 import { Pointers } from './pointers';
+import { TableEditing } from './table_editing';
 import { texts } from './texts';
 
 async function begin(): Promise<void> {
@@ -21,12 +23,14 @@ async function begin(): Promise<void> {
     drawing.begin(app);
     const keys = new Keys(app, drawing);
     const reader = new Reader(app, drawing);
+    const editing = new TableEditing(app);
     const pointers = new Pointers(app, drawing, reader);
     addChoices(app);
-    addLook(app, drawing, keys);
+    addLook(app, drawing, keys, editing);
+    new Editor(app, drawing, editing).begin(keys);
     addUnits(app);
     addTimeline(app);
-    addShare(app, drawing);
+    addShare(app, drawing, editing);
     reader.begin(keys);
     keys.add('Escape', () => pointers.use(null));
     pointers.begin();

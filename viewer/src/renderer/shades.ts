@@ -14,6 +14,8 @@ export const shades = {
     coast: [138, 158, 182, 240],
     lake: [138, 158, 182, 200],
     border: [120, 130, 146, 255],
+    axis: 'rgba(120, 130, 146, 0.35)',
+    histogram: 'rgba(166, 177, 192, 0.30)',
     text: 'rgb(234, 238, 243)',
     quietText: 'rgb(166, 177, 192)',
     halo: 'rgba(8, 10, 14, 0.88)',

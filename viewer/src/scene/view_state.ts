@@ -1,6 +1,8 @@
 // What the page shows, as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
+import { Draft } from '../tables/draft';
+import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 
 export interface ViewState {
@@ -13,6 +15,7 @@ export interface ViewState {
     opacity: number;
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
+    drafts: Draft[]; // tables that the user made, at most one of a moment; they go before `colors`
     units: Units;
 }
 
@@ -26,8 +29,11 @@ export const usualState: ViewState = {
     opacity: 1,
     least: null,
     colors: '',
+    drafts: [],
     units: usualUnits,
 };
+
+const mostDrafts = 7; // as many as there are moments
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
 
@@ -48,10 +54,21 @@ export function addressOf(state: ViewState): string {
         parts.push(['look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(',')]);
     }
     if (!state.hasGround) parts.push(['ground', '0']);
-    if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
+    if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
     if (state.colors) parts.push(['colors', state.colors]);
+    for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
     if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
+}
+
+// The last one of each moment; what makes no sense is none.
+function draftsOf(words: string[]): Draft[] {
+    const drafts = new Map<string, Draft>();
+    for (const word of words.slice(0, mostDrafts)) {
+        const draft = draftOfText(word);
+        if (draft) drafts.set(draft.moment, draft);
+    }
+    return [...drafts.values()];
 }
 
 function number(text: string | null, least: number, most: number, otherwise: number): number {
@@ -81,12 +98,13 @@ export function stateOf(text: string): ViewState {
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
+        drafts: draftsOf(query.getAll('table')),
         units: unitsOf(query.get('units') ?? ''),
     };
 }
 
-// The command that draws the same.
-export function commandOf(state: ViewState, width: number, height: number): string {
+// The command that draws the same with a table or a file of colors; empty: the usual ones.
+export function commandOf(state: ViewState, width: number, height: number, colors: string): string {
     const { camera } = state;
     const words = ['stormcellar frame', state.domain, '--moment', state.moment];
     if (state.time !== 'latest') words.push('--time', state.time);
@@ -94,7 +112,7 @@ export function commandOf(state: ViewState, width: number, height: number): stri
     words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(state.exaggeration, 2));
     words.push('--opacity', rounded(state.opacity, 3), '--light', 'none');
     if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
-    if (state.colors) words.push('--colors', state.colors);
+    if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
     return words.join(' ');

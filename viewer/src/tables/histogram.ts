@@ -15,13 +15,16 @@ export function countCodes(grid: PackedGrid): Uint32Array {
     return counts;
 }
 
-// Counts in columns of equal width from `low` to `high`; values beyond are in the outermost.
-export function histogramOf(grid: PackedGrid, low: number, high: number, columns: number): Uint32Array {
+// Counts in at most `most` columns of equal width from `low` to `high`, each with as many codes as the others;
+// values beyond are in the outermost.
+export function histogramOf(grid: PackedGrid, low: number, high: number, most: number): Uint32Array {
     const counts = countCodes(grid);
+    const codes = Math.max(1, (high - low) / grid.step);
+    const columns = Math.ceil(codes / Math.ceil(codes / most) - 1e-6);
     const histogram = new Uint32Array(columns);
     for (let code = firstValueCode; code < counts.length; ++code) {
         if (counts[code] === 0) continue;
-        const column = Math.floor(((valueOf(grid, code) - low) / (high - low)) * columns);
+        const column = Math.floor(((valueOf(grid, code) - low) / (high - low)) * columns + 1e-6);
         histogram[Math.min(columns - 1, Math.max(0, column))]! += counts[code]!;
     }
     return histogram;

@@ -5,14 +5,16 @@ import { App } from '../app';
 import { button, element, press, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
+import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
 function putLook(app: App): void {
     const { state, table } = app;
-    const own = app.tables.tables.filter(one => one.moment === state.moment);
+    const own = app.book?.presets(state.moment) ?? [];
+    const names = own.map(one => one.name);
     putOptions(
         element<HTMLSelectElement>('colors'),
-        own.map(one => one.name),
+        table && !names.includes(table.name) ? [table.name, ...names] : names,
         table?.name,
     );
     if (table) {
@@ -28,14 +30,15 @@ function putLook(app: App): void {
     press('perspective', state.camera.fieldOfViewDeg > 0);
 }
 
-function addSliders(app: App, drawing: Drawing): void {
+function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     const slider = (id: string, take: (value: number) => void) =>
         element<HTMLInputElement>(id).addEventListener('input', event => {
             take(Number((event.target as HTMLInputElement).value));
             drawing.move();
             app.changed();
         });
-    slider('least', value => (app.state.least = value <= Number(element<HTMLInputElement>('least').min) ? null : value));
+    slider('least', value => editing.hideBelow(value <= Number(element<HTMLInputElement>('least').min) ? null : value, 'threshold'));
+    element('least').addEventListener('change', () => editing.rest());
     slider('opacity', value => (app.state.opacity = Number((2 ** value).toFixed(3))));
     slider('exaggeration', value => (app.state.exaggeration = value));
 }
@@ -46,7 +49,7 @@ export function openSettings(drawing: Drawing, isOpen: boolean): void {
     drawing.draw();
 }
 
-export function addLook(app: App, drawing: Drawing, keys: Keys): void {
+export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEditing): void {
     for (const [id, text] of [
         ['colors-name', texts.colors],
         ['least-name', texts.threshold],
@@ -60,10 +63,9 @@ export function addLook(app: App, drawing: Drawing, keys: Keys): void {
     }
     element('views').append(button('perspective', texts.perspective, () => keys.togglePerspective()));
     element('colors').addEventListener('change', event => {
-        app.state.colors = (event.target as HTMLSelectElement).value;
-        app.changed();
+        editing.choosePreset((event.target as HTMLSelectElement).value);
     });
-    addSliders(app, drawing);
+    addSliders(app, drawing, editing);
     element('open').addEventListener('click', () => openSettings(drawing, element('settings').hidden));
     keys.add('Escape', () => openSettings(drawing, false));
     app.on('view', () => putLook(app));
