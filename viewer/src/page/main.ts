@@ -7,6 +7,7 @@ import { Keys } from './keys';
 import { hear } from './live';
 import { Loader } from './loader';
 import { addChoices } from './panels/choices';
+import { LayersPanel } from './panels/layers';
 import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
@@ -26,6 +27,7 @@ async function begin(): Promise<void> {
     addTimeline(app);
     addShare(app, drawing);
     reader.begin(keys);
+    new LayersPanel(app, drawing, pointers).begin(keys);
     keys.add('Escape', () => pointers.use(null));
     pointers.begin();
     keys.begin();
