@@ -5,17 +5,19 @@ import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../renderer/renderer';
 import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
+import { Units, namesOf } from '../tables/units';
 import { PlayerState, advanced, at, followed, stepped, stopped, withTimes } from '../time/player';
 import { ApiError, Domain, Tables, domains, tables, times } from '../wire/api';
 import { element } from './dom';
 import { Loader } from './loader';
+import { rememberUnits, rememberedUnits } from './remembered';
 import { texts } from './texts';
 
 const msAFrame = 250; // of playback
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
-// where; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'time' | 'restored';
+// where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
+export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored';
 
 export interface Shown {
     key: string;
@@ -25,8 +27,14 @@ export interface Shown {
     time: string;
 }
 
+// What an address does not say of units is as the user had it last.
+function stateOfAddress(): ViewState {
+    const state = stateOf(location.hash);
+    return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
+}
+
 export class App {
-    state: ViewState = stateOf(location.hash);
+    state: ViewState = stateOfAddress();
     domains: Domain[] = [];
     tables: Tables = { tables: [], usual: {} };
     player: PlayerState = { ...stopped, follows: this.state.time === 'latest' };
@@ -66,6 +74,12 @@ export class App {
         this.remember();
         this.tell('view');
     }
+    useUnits(units: Units): void {
+        this.state.units = units;
+        rememberUnits(units);
+        this.tell('units');
+        this.changed();
+    }
     moved(camera: Camera): void {
         this.state.camera = camera;
         this.remember();
@@ -77,9 +91,10 @@ export class App {
 
     // The address was changed by hand, or by going back.
     takeAddress(): void {
-        const next = stateOf(location.hash);
+        const next = stateOfAddress();
         if (addressOf(next) === addressOf(this.state)) return;
         this.state = next;
+        this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
         void this.choose(next.domain, next.moment);
     }

@@ -2,6 +2,7 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { Renderer } from '../renderer/renderer';
+import { shownUnit } from '../tables/units';
 import { App } from './app';
 import { drawColorBar } from './color_bar';
 import { element } from './dom';
@@ -38,6 +39,9 @@ export class Drawing {
         app.on('shown', () => {
             this.renderer.show(app.shown!.loaded);
             void this.ground!.show(app.shown!);
+        });
+        app.on('units', () => {
+            if (app.shown) void this.ground!.show(app.shown);
         });
         app.on('view', () => this.draw());
         app.on('camera', () => this.move());
@@ -99,7 +103,7 @@ export class Drawing {
         this.renderer.finish();
         const ms = Math.round(performance.now() - begun);
         this.drawOver(geometry);
-        drawColorBar(element<HTMLCanvasElement>('bar'), table, table.unit, state.least);
+        drawColorBar(element<HTMLCanvasElement>('bar'), table, shownUnit(table.unit, state.units), state.least);
         document.documentElement.dataset['frameMs'] = String(ms);
         if (isMoving) {
             window.setTimeout(() => this.draw(), stillAfterMs);

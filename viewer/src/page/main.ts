@@ -12,6 +12,7 @@ import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
 import { addTimeline } from './panels/timeline';
+import { addUnits } from './panels/units';
 import { Pointers } from './pointers';
 import { texts } from './texts';
 
@@ -24,6 +25,7 @@ async function begin(): Promise<void> {
     const pointers = new Pointers(app, drawing, reader);
     addChoices(app);
     addLook(app, drawing, keys);
+    addUnits(app);
     addTimeline(app);
     addShare(app, drawing);
     reader.begin(keys);

@@ -1,6 +1,7 @@
 // What the page shows, as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
+import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
 
 export interface ViewState {
@@ -14,6 +15,7 @@ export interface ViewState {
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
     layers: Layers;
+    units: Units;
 }
 
 export const usualState: ViewState = {
@@ -27,6 +29,7 @@ export const usualState: ViewState = {
     least: null,
     colors: '',
     layers: usualLayers,
+    units: usualUnits,
 };
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
@@ -51,6 +54,7 @@ export function addressOf(state: ViewState): string {
     if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
     if (state.colors) parts.push(['colors', state.colors]);
     parts.push(...layersAddress(state.layers));
+    if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
 
@@ -82,6 +86,7 @@ export function stateOf(text: string): ViewState {
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
         layers: layersOf(query),
+        units: unitsOf(query.get('units') ?? ''),
     };
 }
 
@@ -101,6 +106,7 @@ export function commandOf(state: ViewState, width: number, height: number): stri
     if (state.time !== 'latest') words.push('--time', state.time);
     words.push(...(productOf(state.layers) ?? cameraWords(state)));
     if (state.colors) words.push('--colors', state.colors);
+    if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
     return words.join(' ');
 }

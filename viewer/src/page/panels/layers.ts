@@ -3,6 +3,7 @@
 import { elevationsOf } from '../../fields/sweep_choice';
 import { Crop, Layers, sectionOf, sectionText } from '../../scene/layers';
 import { planeOf } from '../../scene/projection';
+import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
 import { button, element, putOptions } from '../dom';
 import { Drawing } from '../drawing';
@@ -15,7 +16,7 @@ import { SectionPlot } from './section_plot';
 
 const words = texts.layers;
 const usualPlaneM = 3000;
-const planeStepM = 250;
+const planeStepM = 500;
 const usualReflectivity = 45;
 const sides = ['westM', 'eastM', 'southM', 'northM', 'bottomM', 'topM'] as const;
 
@@ -58,7 +59,7 @@ export class LayersPanel {
         this.addKeys(keys);
         addMarks(this.app, this.drawing);
         new SectionPlot(this.app);
-        for (const happening of ['view', 'shown', 'choices'] as const) this.app.on(happening, () => this.put());
+        for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
         this.drawing.layers!.rowsCame = () => this.put();
     }
 
@@ -291,7 +292,7 @@ export class LayersPanel {
         slider.min = String(box.bottomM);
         slider.max = String(box.topM);
         slider.value = String(heightM);
-        const text = `${(heightM / 1000).toFixed(2)} ${texts.heightAbove}`;
+        const text = words.planeAt(heightText(heightM, this.app.state.units));
         slider.setAttribute('aria-valuetext', text);
         element('plane-value').textContent = text;
     }
@@ -310,7 +311,7 @@ export class LayersPanel {
         slider.value = String(value);
         const isBelow = moment === 'VEL' && value < 0;
         slider.previousElementSibling!.textContent = isBelow ? words.enclosesBelow : words.encloses;
-        const text = `${Number(value.toFixed(2))} ${table?.unit ?? ''}`;
+        const text = valueText(value, table?.unit ?? '', this.app.state.units);
         slider.setAttribute('aria-valuetext', text);
         element('surface-told').textContent = text;
     }
@@ -324,6 +325,7 @@ export class LayersPanel {
     }
 
     private putCrop(box: Crop, crop: Crop): void {
+        const { units } = this.app.state;
         for (const side of sides) {
             const slider = element<HTMLInputElement>(`crop-${side.slice(0, -1)}`);
             const isUp = side === 'bottomM' || side === 'topM';
@@ -331,7 +333,7 @@ export class LayersPanel {
             slider.max = String(isUp ? box.topM : side === 'westM' || side === 'eastM' ? box.eastM : box.northM);
             slider.step = String((Number(slider.max) - Number(slider.min)) / 200);
             slider.value = String(crop[side]);
-            slider.setAttribute('aria-valuetext', `${(crop[side] / 1000).toFixed(1)} km`);
+            slider.setAttribute('aria-valuetext', isUp ? heightText(crop[side], units) : distanceText(crop[side], units));
         }
     }
 }

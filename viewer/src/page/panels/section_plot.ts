@@ -4,6 +4,7 @@ import { Section, cutSection, greatestOf } from '../../fields/section';
 import { shades } from '../../renderer/shades';
 import { lookOver, looksOf } from '../../tables/looks';
 import { ColorTable } from '../../tables/color_table';
+import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
 import { texts } from '../texts';
@@ -11,8 +12,6 @@ import { texts } from '../texts';
 const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pixels of the page
 const keyStep = 4;
 const hatchPeriod = 9;
-
-const km = (m: number): string => (m / 1000).toFixed(1);
 
 function tickStep(range: number, most: number): number {
     const power = 10 ** Math.floor(Math.log10(range / most));
@@ -64,7 +63,7 @@ export class SectionPlot {
         this.canvas.addEventListener('keydown', event => this.press(event));
         this.canvas.addEventListener('blur', () => this.point(null));
         window.addEventListener('resize', () => this.put());
-        for (const happening of ['view', 'shown'] as const) app.on(happening, () => this.put());
+        for (const happening of ['view', 'shown', 'units'] as const) app.on(happening, () => this.put());
     }
 
     private get size(): [number, number] {
@@ -81,7 +80,7 @@ export class SectionPlot {
             return;
         }
         const [width, height] = this.size;
-        const now = [ends, shown.loaded, table, state.least, width, height];
+        const now = [ends, shown.loaded, table, state.least, state.units, width, height];
         if (!hasBeenHidden && now.every((part, i) => part === this.drawn[i])) return;
         this.drawn = now;
         const ratio = window.devicePixelRatio || 1;
@@ -117,18 +116,19 @@ export class SectionPlot {
         pen.fillStyle = shades.quietText;
         pen.textAlign = 'right';
         pen.textBaseline = 'middle';
-        const upStep = tickStep(topM - bottomM, Math.max(2, height / 28));
+        const { height: up, distance: along } = this.app.state.units;
+        const upStep = tickStep((topM - bottomM) / up.si, Math.max(2, height / 28)) * up.si;
         for (let at = Math.ceil(bottomM / upStep) * upStep; at <= topM; at += upStep) {
             const y = top + height * (1 - (at - bottomM) / (topM - bottomM));
             pen.fillRect(left - 3, Math.round(y), 3, 1);
-            pen.fillText(String(Number((at / 1000).toFixed(2))), left - 6, Math.min(y, top + height - 4));
+            pen.fillText(String(Number((at / up.si).toFixed(2))), left - 6, Math.min(y, top + height - 4));
         }
         pen.textAlign = 'center';
-        const alongStep = tickStep(lengthM, Math.max(2, width / 60));
+        const alongStep = tickStep(lengthM / along.si, Math.max(2, width / 60)) * along.si;
         for (let at = alongStep; at < lengthM * 0.93; at += alongStep) {
             const x = left + (width * at) / lengthM;
             pen.fillRect(Math.round(x), top + height, 1, 3);
-            pen.fillText(String(Number((at / 1000).toFixed(2))), x, top + height + 13);
+            pen.fillText(String(Number((at / along.si).toFixed(2))), x, top + height + 13);
         }
         pen.fillStyle = shades.text;
         pen.font = 'bold 12px "DejaVu Sans", system-ui, sans-serif';
@@ -136,7 +136,7 @@ export class SectionPlot {
         pen.fillText('B', left + width - 4, top + height + 12);
         pen.font = '11px "DejaVu Sans", system-ui, sans-serif';
         pen.textAlign = 'left';
-        pen.fillText('km', 2, top + height + 13);
+        pen.fillText(up.symbol === along.symbol ? up.symbol : `${up.symbol}, ${along.symbol}`, 2, top + height + 13);
     }
 
     private point(at: [number, number] | null): void {
@@ -159,11 +159,12 @@ export class SectionPlot {
     private say(): void {
         const { section, app } = this;
         if (!section) return;
-        const told = (value: number, distanceM: number, heightM: number) =>
-            `${value.toFixed(1)} ${app.unit}, ${texts.layers.distance(km(distanceM))}, ${texts.layers.height(km(heightM))}`;
+        const { units } = app.state;
+        const told = (what: string, distanceM: number, heightM: number) => texts.layers.told(what, distanceText(distanceM, units), heightText(heightM, units));
+        const ofValue = (value: number) => valueText(value, app.unit, units, 1);
         if (!this.cursor) {
             const greatest = greatestOf(section);
-            this.reading.textContent = greatest ? `${texts.layers.greatest} ${told(greatest.value, greatest.distanceM, greatest.heightM)}` : texts.layers.nothing;
+            this.reading.textContent = greatest ? texts.layers.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM)) : texts.layers.nothing;
             return;
         }
         const [width, height] = this.size;
@@ -174,11 +175,8 @@ export class SectionPlot {
         const distanceM = ((column + 0.5) / field.width) * lengthM;
         const heightM = bottomM + ((row + 0.5) / field.height) * (topM - bottomM);
         const names = [texts.notSeen, texts.noEcho, texts.rangeFolded];
-        if (inGrid[column] === 1 && field.states[at] === CellState.value) this.reading.textContent = told(field.values[at]!, distanceM, heightM);
-        else {
-            const name = inGrid[column] === 0 ? texts.layers.beyond : names[field.states[at]!];
-            this.reading.textContent = `${name}, ${texts.layers.distance(km(distanceM))}, ${texts.layers.height(km(heightM))}`;
-        }
+        const isValue = inGrid[column] === 1 && field.states[at] === CellState.value;
+        const what = isValue ? ofValue(field.values[at]!) : inGrid[column] === 0 ? texts.layers.beyond : names[field.states[at]!]!;
+        this.reading.textContent = told(what, distanceM, heightM);
     }
 }
-
