@@ -119,6 +119,7 @@ export class App {
     async chooseDomain(domain: string): Promise<void> {
         this.player = { ...stopped };
         this.state.camera = { ...this.state.camera, lookAtM: null, zoom: 1 };
+        this.state.layers = { ...this.state.layers, section: null, crop: null };
         await this.choose(domain, this.state.moment);
     }
 

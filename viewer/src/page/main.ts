@@ -8,6 +8,7 @@ import { hear } from './live';
 import { Loader } from './loader';
 import { addChoices } from './panels/choices';
 import { Editor } from './panels/editor';
+import { LayersPanel } from './panels/layers';
 import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
@@ -32,6 +33,7 @@ async function begin(): Promise<void> {
     addTimeline(app);
     addShare(app, drawing, editing);
     reader.begin(keys);
+    new LayersPanel(app, drawing, pointers).begin(keys);
     keys.add('Escape', () => pointers.use(null));
     pointers.begin();
     keys.begin();

@@ -4,6 +4,7 @@ import { Camera, usualCamera } from '../camera/geometry';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
+import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
 
 export interface ViewState {
     domain: string; // empty: the first one
@@ -16,6 +17,7 @@ export interface ViewState {
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
     drafts: Draft[]; // tables that the user made, at most one of a moment; they go before `colors`
+    layers: Layers;
     units: Units;
 }
 
@@ -30,6 +32,7 @@ export const usualState: ViewState = {
     least: null,
     colors: '',
     drafts: [],
+    layers: usualLayers,
     units: usualUnits,
 };
 
@@ -57,6 +60,7 @@ export function addressOf(state: ViewState): string {
     if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
     if (state.colors) parts.push(['colors', state.colors]);
     for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
+    parts.push(...layersAddress(state.layers));
     if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
@@ -99,19 +103,27 @@ export function stateOf(text: string): ViewState {
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
         drafts: draftsOf(query.getAll('table')),
+        layers: layersOf(query),
         units: unitsOf(query.get('units') ?? ''),
     };
 }
 
-// The command that draws the same with a table or a file of colors; empty: the usual ones.
+function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): string[] {
+    const words = ['--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4)];
+    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(exaggeration, 2));
+    words.push('--opacity', rounded(opacity, 3), '--light', layers.isLit ? 'gradient' : 'none');
+    if (layers.isLit) words.push('--sun', `${rounded((camera.azimuthDeg + sunAsideDeg) % 360, 2)},${sunElevationDeg}`);
+    if (layers.hasHaze) words.push('--haze');
+    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    return words;
+}
+
+// The command that draws the same, of several layers one, with a table or a file of colors; empty: the
+// usual ones.
 export function commandOf(state: ViewState, width: number, height: number, colors: string): string {
-    const { camera } = state;
     const words = ['stormcellar frame', state.domain, '--moment', state.moment];
     if (state.time !== 'latest') words.push('--time', state.time);
-    words.push('--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4));
-    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(state.exaggeration, 2));
-    words.push('--opacity', rounded(state.opacity, 3), '--light', 'none');
-    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    words.push(...(productOf(state.layers) ?? cameraWords(state)));
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
