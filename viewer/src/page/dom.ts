@@ -4,6 +4,16 @@ export function element<T extends HTMLElement>(id: string): T {
     return document.getElementById(id) as T;
 }
 
+// How much larger than usual texts are: on large screens, and where the user wants them so. The style sheet
+// sets it as the size of the root's font, which is usually 10 pixels.
+export function textScale(): number {
+    return parseFloat(getComputedStyle(document.documentElement).fontSize) / 10;
+}
+
+export function fontOf(pixels: number, weight: 'normal' | 'bold' = 'normal'): string {
+    return `${weight} ${pixels}px "DejaVu Sans", system-ui, sans-serif`;
+}
+
 export function button(id: string, text: string, action: () => void): HTMLButtonElement {
     const made = document.createElement('button');
     made.id = id;

@@ -5,7 +5,7 @@ import { Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { App } from './app';
 import { drawColorBar } from './color_bar';
-import { element } from './dom';
+import { element, textScale } from './dom';
 import { Ground } from './ground';
 import { LayerMaker } from './layer_maker';
 import { clearLabels, drawLabels } from './labels';
@@ -120,14 +120,20 @@ export class Drawing {
             this.labels.width = geometry.width;
             this.labels.height = geometry.height;
         }
+        const scale = textScale();
         const taken = [...document.querySelectorAll('header, footer, section, #bar')]
             .map(one => one.getBoundingClientRect())
             .filter(rect => rect.width > 0)
-            .map(rect => ({ left: rect.left, top: rect.top, right: rect.right, bottom: rect.bottom }));
+            .map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale }));
         const pen = this.labels.getContext('2d')!;
         const ratio = window.devicePixelRatio || 1;
         clearLabels(pen, ratio);
-        if (this.app!.state.hasGround) drawLabels(pen, geometry, this.ground!.marks, taken, ratio);
+        if (this.app!.state.hasGround) {
+            pen.save();
+            pen.scale(scale, scale);
+            drawLabels(pen, geometry, this.ground!.marks, taken, ratio * scale);
+            pen.restore();
+        }
         for (const overlay of this.overlays) {
             pen.save();
             overlay(pen, geometry);

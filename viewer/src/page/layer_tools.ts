@@ -5,6 +5,7 @@ import { shades } from '../renderer/shades';
 import { Crop } from '../scene/layers';
 import { Place, Plane, planeOf } from '../scene/projection';
 import { App } from './app';
+import { fontOf, textScale } from './dom';
 import { Drawing } from './drawing';
 import { Tool } from './pointers';
 import { boxOf } from './reading';
@@ -122,7 +123,7 @@ export function acrossView(app: App, geometry: ViewGeometry): [Place, Place] | n
 }
 
 function letter(pen: CanvasRenderingContext2D, text: string, [x, y]: [number, number]): void {
-    pen.font = 'bold 14px "DejaVu Sans", system-ui, sans-serif';
+    pen.font = fontOf(14 * textScale(), 'bold');
     pen.textAlign = 'center';
     pen.textBaseline = 'middle';
     pen.lineWidth = 4;

@@ -40,7 +40,7 @@ export class Editor {
     begin(keys: Keys): void {
         const open = button('edit-colors', words.open, () => this.open());
         open.setAttribute('aria-expanded', 'false');
-        element('colors').after(open);
+        element('colors').closest('label')!.after(open);
         keys.add('e', () => (this.isOpen ? this.close() : this.open()));
         keys.add('Escape', () => this.close());
         for (const happening of ['view', 'shown', 'choices'] as const) this.app.on(happening, () => this.put());

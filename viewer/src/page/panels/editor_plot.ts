@@ -6,6 +6,7 @@ import { ColorTable, colorOf, extinctionPerM } from '../../tables/color_table';
 import { Draft, OpacityPoint } from '../../tables/draft';
 import { ShownUnit } from '../../tables/units';
 import { stepOf } from '../color_bar';
+import { fontOf, textScale } from '../dom';
 import { texts } from '../texts';
 
 export type Kind = 'color' | 'opacity' | 'least';
@@ -31,7 +32,7 @@ export interface PlotActions {
     rest(): void;
 }
 
-// Pixels of the page.
+// Pixels of the plot, which are larger on large screens.
 const [left, right, top, below] = [34, 8, 16, 44];
 const stripHeight = 16;
 const farthestClick = 4;
@@ -45,6 +46,7 @@ export class EditorPlot {
     private groups: Record<Kind, HTMLElement>;
     private content: PlotContent | null = null;
     private drags = 0;
+    private scale = 1; // pixels of the page in one of the plot
 
     constructor(private actions: PlotActions) {
         this.box.className = 'plot';
@@ -68,19 +70,22 @@ export class EditorPlot {
         return [draft.barBegin, Math.max(draft.end, draft.colors[draft.colors.length - 1]!.value)];
     }
     get columns(): number {
-        return Math.max(1, Math.round((this.box.clientWidth - left - right) / 2));
+        return Math.max(1, Math.round((this.width - left - right) / 2));
+    }
+    private get width(): number {
+        return this.box.clientWidth / this.scale;
     }
     private xOf(value: number): number {
         const [low, high] = this.range();
         const share = Math.min(1, Math.max(0, (value - low) / (high - low)));
-        return left + share * (this.box.clientWidth - left - right);
+        return left + share * (this.width - left - right);
     }
     private valueOf(x: number): number {
         const [low, high] = this.range();
-        return low + ((x - left) / (this.box.clientWidth - left - right)) * (high - low);
+        return low + ((x - left) / (this.width - left - right)) * (high - low);
     }
     private get bottom(): number {
-        return this.box.clientHeight - below;
+        return this.box.clientHeight / this.scale - below;
     }
     private yOf(perKm: number): number {
         if (perKm < leastPerKm) return this.bottom;
@@ -105,12 +110,12 @@ export class EditorPlot {
 
     private draw(): void {
         const ratio = window.devicePixelRatio || 1;
-        const [width, height] = [this.box.clientWidth, this.box.clientHeight];
-        this.canvas.width = Math.round(width * ratio);
-        this.canvas.height = Math.round(height * ratio);
+        this.scale = textScale();
+        this.canvas.width = Math.round(this.box.clientWidth * ratio);
+        this.canvas.height = Math.round(this.box.clientHeight * ratio);
         const pen = this.canvas.getContext('2d')!;
-        pen.scale(ratio, ratio);
-        pen.font = '12px "DejaVu Sans", system-ui, sans-serif';
+        pen.scale(ratio * this.scale, ratio * this.scale);
+        pen.font = fontOf(12);
         this.drawAxes(pen);
         this.drawHistogram(pen);
         this.drawOpacity(pen);
@@ -124,7 +129,7 @@ export class EditorPlot {
         for (const perKm of [0.001, 0.01, 0.1, 1, 10]) {
             const y = this.yOf(perKm);
             pen.fillStyle = shades.axis;
-            pen.fillRect(left, Math.round(y), this.box.clientWidth - left - right, 1);
+            pen.fillRect(left, Math.round(y), this.width - left - right, 1);
             pen.fillStyle = shades.quietText;
             pen.fillText(String(perKm).replace(/^0/, ''), left - 4, y);
         }
@@ -135,18 +140,18 @@ export class EditorPlot {
         const y = this.bottom + stripHeight + 20;
         for (let number = Math.ceil(low / step) * step; number <= high + 1e-9; number += step) {
             const x = this.xOf(number / unit.perStored);
-            if (x > this.box.clientWidth - right - 36) break;
+            if (x > this.width - right - 36) break;
             pen.fillText(String(Number(number.toFixed(3))), Math.max(left + 4, x), y);
         }
         pen.textAlign = 'right';
-        pen.fillText(unit.symbol, this.box.clientWidth - right, y);
+        pen.fillText(unit.symbol, this.width - right, y);
     }
 
     private drawHistogram(pen: CanvasRenderingContext2D): void {
         const { histogram } = this.content!;
         if (!histogram) return;
         const most = Math.log1p(Math.max(1, ...histogram));
-        const width = (this.box.clientWidth - left - right) / histogram.length;
+        const width = (this.width - left - right) / histogram.length;
         pen.fillStyle = shades.histogram;
         histogram.forEach((count, i) => {
             const height = (Math.log1p(count) / most) * (this.bottom - top);
@@ -160,13 +165,14 @@ export class EditorPlot {
 
     private drawOpacity(pen: CanvasRenderingContext2D): void {
         const { table } = this.content!;
-        const [from, to] = [left, this.box.clientWidth - right];
+        const [from, to] = [left, this.width - right];
         const yAt = (x: number) => this.yOf(1000 * extinctionPerM(table, this.valueOf(x), 1));
-        for (let x = from; x < to; ++x) {
-            const color = colorOf(table, this.valueOf(x + 0.5));
-            if (!color || this.isHidden(this.valueOf(x + 0.5))) continue;
+        const column = 1 / this.scale;
+        for (let x = from; x < to; x += column) {
+            const color = colorOf(table, this.valueOf(x + 0.5 * column));
+            if (!color || this.isHidden(this.valueOf(x + 0.5 * column))) continue;
             pen.fillStyle = `rgba(${color[0]}, ${color[1]}, ${color[2]}, 0.4)`;
-            pen.fillRect(x, yAt(x + 0.5), 1, this.bottom - yAt(x + 0.5));
+            pen.fillRect(x, yAt(x + 0.5 * column), column, this.bottom - yAt(x + 0.5 * column));
         }
         pen.beginPath();
         for (let x = from; x <= to; ++x) pen.lineTo(x, yAt(x));
@@ -177,12 +183,13 @@ export class EditorPlot {
 
     private drawStrip(pen: CanvasRenderingContext2D): void {
         const { table } = this.content!;
-        for (let x = left; x < this.box.clientWidth - right; ++x) {
-            const color = colorOf(table, this.valueOf(x + 0.5));
+        const column = 1 / this.scale;
+        for (let x = left; x < this.width - right; x += column) {
+            const color = colorOf(table, this.valueOf(x + 0.5 * column));
             if (!color) continue;
-            pen.globalAlpha = this.isHidden(this.valueOf(x + 0.5)) ? 0.15 : 1;
+            pen.globalAlpha = this.isHidden(this.valueOf(x + 0.5 * column)) ? 0.15 : 1;
             pen.fillStyle = `rgb(${color[0]}, ${color[1]}, ${color[2]})`;
-            pen.fillRect(x, this.bottom + 4, 1, stripHeight - 4);
+            pen.fillRect(x, this.bottom + 4, column, stripHeight - 4);
         }
         pen.globalAlpha = 1;
     }
@@ -209,10 +216,10 @@ export class EditorPlot {
         const color = kind === 'color' ? draft.colors[i]!.color : null;
         const perKm = kind === 'opacity' ? opacity[i]!.perKm : null;
         const y = perKm !== null ? this.yOf(perKm) : color ? this.bottom + stripHeight / 2 + 2 : top - 6;
-        handle.style.left = `${this.xOf(value)}px`;
-        handle.style.top = `${y}px`;
+        handle.style.left = `${this.scale * this.xOf(value)}px`;
+        handle.style.top = `${this.scale * y}px`;
         if (color) handle.style.backgroundColor = `rgb(${color[0]}, ${color[1]}, ${color[2]})`;
-        if (kind === 'least') handle.style.setProperty('--line', `${this.bottom - top + 6}px`);
+        if (kind === 'least') handle.style.setProperty('--line', `${this.scale * (this.bottom - top + 6)}px`);
         const [low, high] = this.range();
         const shown = `${Number((value * unit.perStored).toFixed(3))} ${unit.symbol}`.trim();
         handle.setAttribute('aria-valuemin', String(Math.min(low, value)));
@@ -258,13 +265,13 @@ export class EditorPlot {
 
     private at(event: MouseEvent): [number, number] {
         const box = this.box.getBoundingClientRect();
-        return [this.valueOf(event.clientX - box.left), this.perKmOf(event.clientY - box.top)];
+        return [this.valueOf((event.clientX - box.left) / this.scale), this.perKmOf((event.clientY - box.top) / this.scale)];
     }
 
     private addAt(event: PointerEvent): void {
         if (!this.content || event.button !== 0) return;
         const box = this.box.getBoundingClientRect();
-        const isColor = event.clientY - box.top > this.bottom;
+        const isColor = (event.clientY - box.top) / this.scale > this.bottom;
         this.actions.add(isColor ? 'color' : 'opacity', ...this.at(event));
     }
 

@@ -7,6 +7,7 @@ import { ColorTable } from '../../tables/color_table';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
+import { fontOf, textScale } from '../dom';
 import { texts } from '../texts';
 
 const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pixels of the page
@@ -58,7 +59,7 @@ export class SectionPlot {
         this.reading.id = 'section-reading';
         this.box.append(this.canvas, this.reading);
         document.querySelector('main')!.append(this.box);
-        this.canvas.addEventListener('pointermove', event => this.point([event.offsetX - left, event.offsetY - top]));
+        this.canvas.addEventListener('pointermove', event => this.point([event.offsetX / textScale() - left, event.offsetY / textScale() - top]));
         this.canvas.addEventListener('pointerleave', () => this.point(null));
         this.canvas.addEventListener('keydown', event => this.press(event));
         this.canvas.addEventListener('blur', () => this.point(null));
@@ -66,8 +67,10 @@ export class SectionPlot {
         for (const happening of ['view', 'shown', 'units'] as const) app.on(happening, () => this.put());
     }
 
+    // In pixels that are larger on large screens.
     private get size(): [number, number] {
-        return [Math.max(16, this.canvas.clientWidth - left - right), Math.max(16, this.canvas.clientHeight - top - bottom)];
+        const [width, height] = [this.canvas.clientWidth / textScale(), this.canvas.clientHeight / textScale()];
+        return [Math.max(16, width - left - right), Math.max(16, height - top - bottom)];
     }
 
     private put(): void {
@@ -83,7 +86,7 @@ export class SectionPlot {
         const now = [ends, shown.loaded, table, state.least, state.units, width, height];
         if (!hasBeenHidden && now.every((part, i) => part === this.drawn[i])) return;
         this.drawn = now;
-        const ratio = window.devicePixelRatio || 1;
+        const ratio = (window.devicePixelRatio || 1) * textScale();
         this.section = cutSection(shown.loaded.grid, shown.moment, ends[0], ends[1], Math.round(width * ratio), Math.round(height * ratio));
         this.draw();
         this.say();
@@ -92,10 +95,10 @@ export class SectionPlot {
     private draw(): void {
         const { section } = this;
         if (!section) return;
-        const ratio = window.devicePixelRatio || 1;
+        const ratio = (window.devicePixelRatio || 1) * textScale();
         const [width, height] = this.size;
-        this.canvas.width = Math.round(this.canvas.clientWidth * ratio);
-        this.canvas.height = Math.round(this.canvas.clientHeight * ratio);
+        this.canvas.width = Math.round((left + width + right) * ratio);
+        this.canvas.height = Math.round((top + height + bottom) * ratio);
         const pen = this.canvas.getContext('2d')!;
         const { field } = section;
         const image = new ImageData(field.width, field.height);
@@ -112,7 +115,7 @@ export class SectionPlot {
     }
 
     private drawAxes(pen: CanvasRenderingContext2D, { lengthM, bottomM, topM }: Section, width: number, height: number): void {
-        pen.font = '11px "DejaVu Sans", system-ui, sans-serif';
+        pen.font = fontOf(11);
         pen.fillStyle = shades.quietText;
         pen.textAlign = 'right';
         pen.textBaseline = 'middle';
@@ -131,10 +134,10 @@ export class SectionPlot {
             pen.fillText(String(Number((at / along.si).toFixed(2))), x, top + height + 13);
         }
         pen.fillStyle = shades.text;
-        pen.font = 'bold 12px "DejaVu Sans", system-ui, sans-serif';
+        pen.font = fontOf(12, 'bold');
         pen.fillText('A', left + 4, top + height + 12);
         pen.fillText('B', left + width - 4, top + height + 12);
-        pen.font = '11px "DejaVu Sans", system-ui, sans-serif';
+        pen.font = fontOf(11);
         pen.textAlign = 'left';
         pen.fillText(up.symbol === along.symbol ? up.symbol : `${up.symbol}, ${along.symbol}`, 2, top + height + 13);
     }
