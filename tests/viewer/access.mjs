@@ -26,15 +26,13 @@ const panels = [
   ['edit-colors', 'editor'],
 ];
 async function open([opener, panel]) {
-  await evaluate(`(() => {
-    for (const [opener, panel] of ${JSON.stringify(panels)}) {
-      const shown = document.getElementById(panel);
-      if (shown && !shown.hidden && panel !== 'editor') document.getElementById(opener)?.click();
-    }
-    document.getElementById('editor-close')?.click();
-    document.getElementById('${opener}').click();
-  })()`);
-  await page.until(`document.getElementById('${panel}')?.offsetParent`);
+  if (await evaluate(`document.getElementById('${panel}')?.checkVisibility()`)) return;
+  // The button of the editor is in the settings.
+  if (panel === 'editor' && !(await evaluate("document.getElementById('settings').checkVisibility()"))) await open(panels[0]);
+  await evaluate(`document.getElementById('${opener}').click()`);
+  await page.until(`document.getElementById('${panel}').checkVisibility()`);
+  const others = panels.map(([, id]) => id).filter((id) => id !== panel);
+  check(`${panel} is open alone`, await evaluate(`${JSON.stringify(others)}.every((id) => !document.getElementById(id)?.checkVisibility())`));
 }
 
 // ---- Names
@@ -134,6 +132,12 @@ check(`Tab comes to ${visited.length} controls`, missed.length === 0 && visited.
 check('what has the keyboard is marked', order.every((at) => at.startsWith('BODY') || !at.endsWith('|none')), order.filter((at) => at.endsWith('|none')).join(' '));
 const sorted = wanted.filter((id) => visited.includes(id));
 check('the order is that of the page', sorted.every((id, i) => i === 0 || visited.indexOf(id) > visited.indexOf(sorted[i - 1])), visited.join(' '));
+
+await evaluate("document.getElementById('open').focus()");
+await page.key('Tab', { windowsVirtualKeyCode: 9 });
+await page.key('Tab', { windowsVirtualKeyCode: 9 });
+await page.key('Escape', { windowsVirtualKeyCode: 27 });
+check('Escape closes a panel and leads back', await evaluate("document.activeElement.id === 'open' && document.getElementById('settings').hidden"));
 
 // ---- Motion
 check('nothing moves by itself', await evaluate("document.getAnimations().length === 0 && matchMedia('(prefers-reduced-motion: reduce)').matches"));

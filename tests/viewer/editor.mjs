@@ -1,6 +1,6 @@
 // The editor of colors: what mouse, fingers and keys do in it, and that `stormcellar frame` draws the same with the
 // files that it saves (scripts/check-viewer).
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { CheckedPage, Slicer, check, gridsOf, mostDifference, shadesOf, viewOf } from './checked_page.mjs';
@@ -53,7 +53,11 @@ const lookFrom = (zoom) => viewer.settled(() => evaluate(`location.hash = locati
 async function compare(what, file, most = mostDifference) {
   const picture = join(pictures || directory, `colors-${++number}.ppm`);
   await lookFrom(scene.zoom);
-  await viewer.settled(() => page.resize(400, 266));
+  await page.resize(400, 266);
+  await page.until("document.getElementById('picture').clientWidth === 400");
+  // A picture that was begun before may come first.
+  await viewer.settled(() => evaluate("window.dispatchEvent(new Event('resize')); undefined"));
+  await viewer.settled(() => evaluate("window.dispatchEvent(new Event('resize')); undefined"));
   writeFileSync(picture, await viewer.pixels());
   const more = pictures ? [join(pictures, `colors-${number}-slicer.png`)] : [];
   const { p99, mean, count } = slicer.compare(grid, picture, scene, ['--colors', file, ...more]);
@@ -173,7 +177,8 @@ check('a broken table of an address is none', (await table()) === null);
 // ---- The command
 await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } })`);
 await viewer.show(`${viewOf({ ...scene, zoom: far })}&least=30`);
-const cut = await savedAs('my-smooth-reflectivity (1).toml', () => evaluate("document.getElementById('command').click()"));
+rmSync(toml);
+const cut = await savedAs('my-smooth-reflectivity.toml', () => evaluate("document.getElementById('command').click()"));
 check('the command names the file that was saved', (await evaluate('window.copied')).includes('--colors my-smooth-reflectivity.toml'));
 await compare('a threshold, by the file of the command', cut);
 check('the picture has many colors', shadesOf(await viewer.pixels()).size > 50);

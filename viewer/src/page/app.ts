@@ -51,7 +51,9 @@ export class App {
         for (const action of this.heard.get(happening) ?? []) action();
     }
 
-    say(text: string): void {
+    // Screen readers read news aloud, and not what is said of each picture.
+    say(text: string, isNews = true): void {
+        element('state').setAttribute('aria-live', isNews ? 'polite' : 'off');
         element('state').textContent = text;
         document.documentElement.dataset['state'] = text;
     }

@@ -22,6 +22,16 @@ export function button(id: string, text: string, action: () => void): HTMLButton
     return made;
 }
 
+// Escape in a panel closes it, and the keyboard is where the panel was opened.
+export function leaveByEscape(panel: HTMLElement, openerId: string, close: () => void): void {
+    panel.addEventListener('keydown', event => {
+        if (event.key !== 'Escape') return;
+        close();
+        element(openerId).focus();
+        event.stopPropagation();
+    });
+}
+
 // A button that shows a sign; its name is a text.
 export function labeledButton(id: string, sign: string, name: string, action: () => void): HTMLButtonElement {
     const made = button(id, sign, action);

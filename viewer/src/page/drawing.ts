@@ -109,7 +109,7 @@ export class Drawing {
             window.setTimeout(() => this.draw(), stillAfterMs);
         } else if (!this.isFinal && !this.layers!.isWaiting) {
             this.isFinal = true;
-            app.say(texts.steps(slices, ms));
+            app.say(texts.steps(slices, ms), false);
             document.documentElement.dataset['drawn'] = shown.key;
             document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
         }

@@ -28,12 +28,12 @@ async function begin(): Promise<void> {
     const pointers = new Pointers(app, drawing, reader);
     addChoices(app);
     addLook(app, drawing, keys, editing);
-    new Editor(app, drawing, editing).begin(keys);
     addUnits(app);
     addTimeline(app);
     addShare(app, drawing, editing);
     reader.begin(keys);
     new LayersPanel(app, drawing, pointers).begin(keys);
+    new Editor(app, drawing, editing).begin(keys);
     keys.add('Escape', () => pointers.use(null));
     pointers.begin();
     keys.begin();

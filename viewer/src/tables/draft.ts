@@ -30,6 +30,7 @@ export interface Draft {
 
 export const mostPoints = 160;
 const nearEnough = 0.012; // in OKLab
+const alphaWeight = 0.25;
 const nearEnoughShare = 0.06; // of the opacity
 const clearestPerKm = 0.003; // differences of less opacity than this are not seen
 const edgeWidth = 0.0005;
@@ -44,7 +45,8 @@ function simplifiedColors(points: ColorPoint[], most: number): ColorPoint[] {
     const kept = cornersToKeep(points.length, most, (first, last, i) => {
         const [a, b, p] = [points[first]!, points[last]!, points[i]!];
         if (b.value <= a.value) return 0;
-        return colorDistance(mixed(a.color, b.color, (p.value - a.value) / (b.value - a.value)), p.color);
+        const line = mixed(a.color, b.color, (p.value - a.value) / (b.value - a.value));
+        return Math.max(colorDistance(line, p.color), (alphaWeight * Math.abs(line[3] - p.color[3])) / 255);
     });
     return kept.map(i => points[i]!);
 }
@@ -164,13 +166,16 @@ export function fileOf(draft: Draft, least: number | null = null): TableFile {
 
 export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null = null): ColorTable {
     const table = tableOfFile(fileOf(draft, least), usual);
-    return { ...table, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
+    // The short blend of an edge is an edge again.
+    const stops = draft.isStepped ? table.stops : table.stops.filter(({ from }, i) => (table.stops[i + 1]?.from ?? Infinity) - from > 1.5 * edgeWidth);
+    return { ...table, stops, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
 }
 
 // The same table with its opacity as alpha, for a .pal file; `isWhole` is false where it is denser than
 // usual, which such a file cannot say.
 export function tableForPal(draft: Draft, usual: UsualOpacity, least: number | null): { table: ColorTable; isWhole: boolean } {
     const table = tableOf(draft, usual, least);
+    if (!draft.opacity) return { table, isWhole: true };
     const points = usual.of(draft.moment, table.stops[0]!.from).map(point => ({ value: point.value, perKm: point.per_km }));
     let isWhole = true;
     const withAlpha = (color: Rgba, value: number): Rgba => {

@@ -16,6 +16,10 @@ import { texts } from '../texts';
 import { EditorPlot, Selection } from './editor_plot';
 
 const words = texts.editor;
+const otherPanels = [
+    { id: 'settings', opener: 'open' },
+    { id: 'layers', opener: 'layers-open' },
+];
 
 export class Editor {
     private section: HTMLElement | null = null;
@@ -43,7 +47,9 @@ export class Editor {
         element('colors').closest('label')!.after(open);
         keys.add('e', () => (this.isOpen ? this.close() : this.open()));
         keys.add('Escape', () => this.close());
-        for (const happening of ['view', 'shown', 'choices'] as const) this.app.on(happening, () => this.put());
+        for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
+        // One panel is open at a time.
+        for (const other of otherPanels) element(other.opener).addEventListener('click', () => this.close(false));
         window.addEventListener('resize', () => this.put());
     }
 
@@ -53,8 +59,7 @@ export class Editor {
 
     open(): void {
         this.opener = document.activeElement as HTMLElement | null;
-        element('settings').hidden = true;
-        element('open').setAttribute('aria-expanded', 'false');
+        for (const { id, opener } of otherPanels) if (!element(id).hidden) element(opener).click();
         this.section ??= this.make();
         this.section.hidden = false;
         element('edit-colors').setAttribute('aria-expanded', 'true');
@@ -62,12 +67,12 @@ export class Editor {
         this.drawing.draw();
         element('editor-preset').focus();
     }
-    close(): void {
+    close(takesKeyboard = true): void {
         if (!this.isOpen) return;
         this.section!.hidden = true;
         element('edit-colors').setAttribute('aria-expanded', 'false');
         const isThere = this.opener !== null && this.opener.offsetParent !== null;
-        (isThere ? this.opener! : element('picture')).focus();
+        if (takesKeyboard) (isThere ? this.opener! : element('picture')).focus();
         this.drawing.draw();
     }
 

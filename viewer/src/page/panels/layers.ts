@@ -5,7 +5,7 @@ import { Crop, Layers, sectionOf, sectionText } from '../../scene/layers';
 import { planeOf } from '../../scene/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
-import { button, element, putOptions } from '../dom';
+import { button, element, leaveByEscape, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
@@ -49,7 +49,8 @@ export class LayersPanel {
         this.box.id = 'layers';
         this.box.hidden = true;
         this.box.setAttribute('aria-label', words.title);
-        document.querySelector('main')!.append(this.box);
+        element('settings').after(this.box);
+        leaveByEscape(this.box, 'layers-open', () => this.open(false));
         const open = button('layers-open', words.title, () => this.open(this.box.hidden));
         open.setAttribute('aria-controls', 'layers');
         open.setAttribute('aria-expanded', 'false');

@@ -2,7 +2,7 @@
 
 import { valueText } from '../../tables/units';
 import { App } from '../app';
-import { button, element, press, putOptions } from '../dom';
+import { button, element, leaveByEscape, press, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { TableEditing } from '../table_editing';
@@ -67,6 +67,7 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
     });
     addSliders(app, drawing, editing);
     element('open').addEventListener('click', () => openSettings(drawing, element('settings').hidden));
+    leaveByEscape(element('settings'), 'open', () => openSettings(drawing, false));
     keys.add('Escape', () => openSettings(drawing, false));
     app.on('view', () => putLook(app));
     app.on('camera', () => putLook(app));
