@@ -23,7 +23,7 @@ async function begin(): Promise<void> {
     const pointers = new Pointers(app, drawing, reader);
     addChoices(app);
     addLook(app, drawing, keys);
-    addTimeline(app);
+    addTimeline(app, keys);
     addShare(app, drawing);
     reader.begin(keys);
     keys.add('Escape', () => pointers.use(null));
