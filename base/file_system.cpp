@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/host_name.h"
 #include "base/system_error.h"
 #include "stormcellar/base/descriptor.h"
 
@@ -73,7 +74,8 @@ class RealFileSystem final : public FileSystem {
     }
 };
 
-// The name is unique in this process by a counter, and between processes by the process id.
+// The name is unique in this process by a counter, between the processes of a host by the process
+// id, and between the hosts that share a directory by the name of the host.
 std::filesystem::path temporary_name(const std::filesystem::path& final_path) {
     static std::atomic<std::uint64_t> counter{0};
     return final_path.parent_path() /
@@ -135,7 +137,8 @@ Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem
 }  // namespace
 
 std::string own_temporary_prefix() {
-    return fmt::format("{}{}-", temporary_prefix, ::getpid());
+    static const std::string host = host_name();
+    return fmt::format("{}{}-{}-", temporary_prefix, host, ::getpid());
 }
 
 Status remove_temporaries(FileSystem& file_system, const std::filesystem::path& directory) {

@@ -21,6 +21,7 @@ Run set_up_replay(CLI::App& command);
 Run set_up_serve(CLI::App& command);
 Run set_up_status(CLI::App& command);
 Run set_up_synth(CLI::App& command);
+Run set_up_view(CLI::App& command);
 
 namespace {
 
@@ -47,6 +48,8 @@ constexpr std::array registry{
     Subcommand{"status", "Show the status of the running daemon", set_up_status},
     Subcommand{"synth", "Write the Level II files of a simulated scene (the same bytes every time)",
                set_up_synth},
+    Subcommand{"view", "Open Level II files in a browser, in three dimensions, until Ctrl-C",
+               set_up_view},
 };
 
 }  // namespace

@@ -1,15 +1,12 @@
 // stormcellar serve: the data server for one person, until Ctrl-C.
-#include <algorithm>
-#include <atomic>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/serve/scratch_cellar.h"
+#include "cli/serve/served_files.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/service_places.h"
 #include "stormcellar/base/station_table.h"
@@ -84,70 +81,6 @@ Result<web::WebSetup> setup_of(const ServeOptions& options) {
     return setup;
 }
 
-int thread_count_of(const ServeOptions& options) {
-    if (options.threads > 0) return options.threads;
-    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-// The files that a command line names, taken in one after another.
-class ServedFiles {
-  public:
-    ServedFiles(std::unique_ptr<ScratchCellar> cellar, std::vector<fs::path> files)
-        : cellar_(std::move(cellar)), files_(std::move(files)) {}
-    ServedFiles(const ServedFiles&) = delete;
-    ServedFiles& operator=(const ServedFiles&) = delete;
-    ~ServedFiles() {
-        is_stopping_ = true;
-        if (thread_.joinable()) thread_.join();
-    }
-
-    // Takes in files until one gave grids, so that there is something to see from the start.
-    // Errors: not_found if none did.
-    Status take_first() {
-        while (next_ < files_.size()) {
-            const auto grids = cellar_->take(files_[next_++]);
-            if (!grids) return pass_on(grids);
-            if (*grids > 0) return {};
-        }
-        return fail(ErrorCode::not_found, "nothing can be gridded of what was named");
-    }
-    // Takes in the rest beside what the caller does.
-    void take_rest() {
-        thread_ = std::thread([this] {
-            while (next_ < files_.size() && !is_stopping_) {
-                const auto grids = cellar_->take(files_[next_++]);
-                if (!grids) report_error(grids.error());
-            }
-        });
-    }
-    [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
-
-  private:
-    std::unique_ptr<ScratchCellar> cellar_;
-    std::vector<fs::path> files_;
-    std::size_t next_ = 0;
-    std::atomic<bool> is_stopping_{false};
-    std::thread thread_;
-};
-
-Result<std::unique_ptr<ServedFiles>> take_files(const ServeOptions& options) {
-    auto files = files_to_serve(options.files);
-    if (!files) return pass_on(files);
-    auto cellar = ScratchCellar::make(thread_count_of(options));
-    if (!cellar) return pass_on(cellar);
-    auto served = std::make_unique<ServedFiles>(std::move(*cellar), std::move(*files));
-    if (Status first = served->take_first(); !first) return pass_on(first);
-    return served;
-}
-
-void serve_until_signal(const web::WebSignals& signals, web::WebService& service) {
-    for (;;) {
-        const auto number = signals.next(std::chrono::seconds{1});
-        if (number && *number != SIGHUP) return;
-        service.look_again();
-    }
-}
-
 int run_serve(const ServeOptions& options) {
     auto setup = setup_of(options);
     if (!setup) return report_error(setup.error());
@@ -157,7 +90,7 @@ int run_serve(const ServeOptions& options) {
     const web::WebSignals signals;
     std::unique_ptr<ServedFiles> files;
     if (!options.files.empty()) {
-        auto taken = take_files(options);
+        auto taken = ServedFiles::take(options.files, options.threads);
         if (!taken) return report_error(taken.error());
         files = std::move(*taken);
         setup->catalog = files->cellar().catalog();

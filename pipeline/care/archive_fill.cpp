@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "pipeline/care/archive_frames.h"
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/file_facts.h"
 #include "pipeline/ingest/ingest.h"
-#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/grid_window.h"
@@ -24,20 +24,6 @@ constexpr double cells_of_small_grid = 2e6;
 // No frame uses volumes farther from it than this.
 constexpr std::chrono::minutes farthest_frame{30};
 constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
-
-IngestOptions ingest_options(const ArchiveOptions& options) {
-    IngestOptions ingest;
-    ingest.moments = {options.moment};
-    ingest.spacing_m = options.spacing_m;
-    ingest.nx = options.nx;
-    ingest.ny = options.ny;
-    ingest.levels_m = options.levels_m;
-    if (options.domain) ingest.domains = {*options.domain};
-    ingest.own_grids = !options.domain;
-    ingest.frames = FramesWhen::asked_for;
-    ingest.decode_threads = ingest.grid_threads = options.threads;
-    return ingest;
-}
 
 // The result of each file, recorded by many workers.
 class Ledger {
@@ -78,19 +64,6 @@ class Ledger {
     std::size_t done_ = 0;
     Status outcome_;
 };
-
-std::string reason_of(const IngestOutcome& outcome, level2::Moment moment) {
-    switch (outcome.result()) {
-        case IngestResult::vanished:
-            return "is gone";
-        case IngestResult::no_moment:
-            return outcome.reason.empty() ? fmt::format("holds no {} that reaches the grid",
-                                                        level2::moment_name(moment))
-                                          : outcome.reason;
-        default:
-            return outcome.reason.empty() ? "cannot be gridded" : outcome.reason;
-    }
-}
 
 // Returns the key of a volume's files: for a volume of one file per chunk, that of all of them.
 std::string key_of(const std::filesystem::path& path) {
@@ -138,11 +111,47 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, const std::filesys
     } else if (outcome->result() == IngestResult::gridded) {
         ledger.made(volume.path, *outcome);
     } else {
-        ledger.left_out(volume.path, reason_of(*outcome, moment));
+        ledger.left_out(volume.path, reason_left_out(*outcome, moment));
     }
 }
 
 }  // namespace
+
+IngestOptions ingest_options(const ArchiveOptions& options) {
+    IngestOptions ingest;
+    ingest.moments = {options.moment};
+    ingest.spacing_m = options.spacing_m;
+    ingest.nx = options.nx;
+    ingest.ny = options.ny;
+    ingest.levels_m = options.levels_m;
+    if (options.domain) ingest.domains = {*options.domain};
+    ingest.own_grids = !options.domain;
+    ingest.frames = FramesWhen::asked_for;
+    ingest.decode_threads = ingest.grid_threads = options.threads;
+    return ingest;
+}
+
+bool is_of_grid(const ArchiveOptions& options, const cache::GridDescription& description) {
+    const grid::GridSpec& spec = description.spec;
+    if (options.domain) return grid::window_of(options.domain->spec, spec).has_value();
+    const auto levels_m =
+        options.levels_m.empty() ? grid::default_spec(0, 0).levels_m : options.levels_m;
+    return spec.spacing_m == options.spacing_m && spec.nx == options.nx && spec.ny == options.ny &&
+           spec.levels_m == levels_m;
+}
+
+std::string reason_left_out(const IngestOutcome& outcome, level2::Moment moment) {
+    switch (outcome.result()) {
+        case IngestResult::vanished:
+            return "is gone";
+        case IngestResult::no_moment:
+            return outcome.reason.empty() ? fmt::format("holds no {} that reaches the grid",
+                                                        level2::moment_name(moment))
+                                          : outcome.reason;
+        default:
+            return outcome.reason.empty() ? "cannot be gridded" : outcome.reason;
+    }
+}
 
 ArchiveFill::ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                          std::filesystem::path scratch, ArchiveOptions options)
@@ -155,21 +164,12 @@ std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
     return options_.domain ? options_.domain->name + "." + volume.station : volume.station;
 }
 
-bool ArchiveFill::is_of_this_grid(const cache::GridDescription& description) const {
-    const grid::GridSpec& spec = description.spec;
-    if (options_.domain) return grid::window_of(options_.domain->spec, spec).has_value();
-    const auto levels_m =
-        options_.levels_m.empty() ? grid::default_spec(0, 0).levels_m : options_.levels_m;
-    return spec.spacing_m == options_.spacing_m && spec.nx == options_.nx &&
-           spec.ny == options_.ny && spec.levels_m == levels_m;
-}
-
 // A grid remains valid after its file has been deleted.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
     if (!path) return pass_on(path);
     const auto file = cache::GridFile::open(*path);
-    if (!file || !is_of_this_grid(file->description())) return false;
+    if (!file || !is_of_grid(options_, file->description())) return false;
     const grid::Provenance& made_of = file->description().provenance;
     if (made_of.source_files != std::vector{volume.path.filename().string()}) return false;
     const auto root = catalog::root_of(catalog_, volume.path);
@@ -273,27 +273,8 @@ Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillPr
 Status ArchiveFill::make_frames(const std::vector<UtcTime>& instants, const FillProgress& progress,
                                 const std::atomic<bool>& stop, FillReport& report) {
     if (!options_.domain) return {};
-    MosaicMaker keeper(&store_, {*options_.domain}, FramesWhen::asked_for);
-    std::vector<std::string> problems;
-    std::size_t done = 0;
-    for (const UtcTime instant : instants) {
-        if (stop) return {};
-        const cache::GridName frame{options_.domain->name, options_.moment, instant};
-        const auto standing = standing_of(store_, keeper.domains(), frame);
-        if (!standing) return pass_on(standing);
-        if (*standing == FrameStanding::to_make) {
-            const auto made = keeper.make_again(frame, options_.threads, problems);
-            if (!made) return pass_on(made);
-            ++report.frames_made;
-        } else if (*standing == FrameStanding::current) {
-            ++report.frames_found;
-        }
-        if (*standing != FrameStanding::not_due) report.frames.push_back(instant);
-        if (progress) progress(++done);
-    }
-    for (const std::string& problem : problems)
-        report.notes.push_back({{}, problem});
-    return {};
+    return pipeline::make_frames(store_, *options_.domain, options_.moment, instants,
+                                 options_.threads, progress, stop, report);
 }
 
 }  // namespace stormcellar::pipeline

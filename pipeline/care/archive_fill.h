@@ -24,6 +24,8 @@
 
 #include "pipeline/drop/archive_volumes.h"
 #include "pipeline/options/domain.h"
+#include "pipeline/options/ingest_options.h"
+#include "pipeline/options/ingest_outcome.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 
@@ -56,6 +58,14 @@ struct FillReport {
 };
 
 using FillProgress = std::function<void(std::size_t done)>;
+
+// Returns how the chain of the daemon grids for such a cache.
+[[nodiscard]] IngestOptions ingest_options(const ArchiveOptions& options);
+// Returns true if the grid of a volume has the shape and place of these.
+[[nodiscard]] bool is_of_grid(const ArchiveOptions& options,
+                              const cache::GridDescription& description);
+// Returns why the chain made no grid of a file.
+[[nodiscard]] std::string reason_left_out(const IngestOutcome& outcome, level2::Moment moment);
 
 class ArchiveFill {
   public:
@@ -90,7 +100,6 @@ class ArchiveFill {
 
   private:
     [[nodiscard]] Result<bool> stands(const ArchiveVolume& volume) const;
-    [[nodiscard]] bool is_of_this_grid(const cache::GridDescription& description) const;
     [[nodiscard]] std::string domain_of(const ArchiveVolume& volume) const;
 
     [[nodiscard]] Result<std::filesystem::path> root_of(

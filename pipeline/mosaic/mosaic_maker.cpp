@@ -186,7 +186,9 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
         if (Status whole = stands->check_whole(); !whole) return pass_on(whole);
     }
     grid::Provenance& provenance = frame->description.provenance;
-    provenance.revision = 1 + (stands ? stands->description().provenance.revision : 0);
+    // A frame of an archive has the same bytes wherever and however often it is made.
+    const bool counts = frames_when_ == FramesWhen::volume_comes && stands;
+    provenance.revision = 1 + (counts ? stands->description().provenance.revision : 0);
     auto committed =
         store_->commit(job.domain.name, frame->description, frame->mosaic.cells.view());
     if (!committed) return pass_on(committed);

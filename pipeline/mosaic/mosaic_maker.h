@@ -8,7 +8,8 @@
 // bytes are the same as if it were made whole. Frames are at whole multiples of the interval since
 // midnight UTC, none before the oldest volume thereabouts or after the newest. A frame is
 // provisional until each of its sites has a volume after it (or has had none for 15 minutes), and
-// has a revision that counts how often it was replaced.
+// has a revision that counts how often it was replaced. A frame that is only made when it is asked
+// for has revision 1 always, so that its bytes depend on its partials alone.
 //
 // The partials of a frame are verified first, and so is the frame that is copied from. A partial
 // that cannot be read, or is damaged, is left out of frames and named.

@@ -3,8 +3,6 @@
 #include <atomic>
 #include <optional>
 
-#include <unistd.h>
-
 #include "render/animation/animation_format.h"
 #include "stormcellar/render/png_file.h"
 
@@ -34,7 +32,7 @@ class TemporaryTree {
     explicit TemporaryTree(const fs::path& beside) {
         static std::atomic<std::uint64_t> counter{0};
         path_ = beside.parent_path() /
-                fmt::format("{}{}-frames-{}", temporary_prefix, ::getpid(), counter.fetch_add(1));
+                fmt::format("{}frames-{}", own_temporary_prefix(), counter.fetch_add(1));
     }
     TemporaryTree(const TemporaryTree&) = delete;
     TemporaryTree& operator=(const TemporaryTree&) = delete;

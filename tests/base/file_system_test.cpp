@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/host_name.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/text_bytes.h"
@@ -32,6 +34,19 @@ TEST(AtomicFile, AppearsWholeUnderItsName) {
         write_file_atomically(real_file_system(), directory / "a", testing::text_bytes("storm")));
     EXPECT_EQ(contents(directory / "a"), "storm");
     EXPECT_EQ(entries(directory.path()), 1);
+}
+
+// Several hosts may write into one directory, and their processes may have the same number.
+TEST(AtomicFile, ItsTemporaryNameSaysHostAndProcess) {
+    const TemporaryDirectory directory;
+    const auto file = AtomicFile::create(real_file_system(), directory / "a");
+    ASSERT_TRUE(file);
+    const std::string name = file->temporary_path().filename().string();
+    EXPECT_TRUE(name.starts_with(own_temporary_prefix())) << name;
+    EXPECT_EQ(own_temporary_prefix(),
+              fmt::format("{}{}-{}-", temporary_prefix, host_name(), ::getpid()));
+    EXPECT_FALSE(host_name().empty());
+    EXPECT_EQ(host_name().find_first_of("./-"), std::string::npos);
 }
 
 TEST(AtomicFile, WithoutCommitLeavesNothing) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/care/archive_frames.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 #include "tests/pipeline/small_domain.h"
@@ -149,6 +150,31 @@ TEST_F(ArchiveFillTest, AFrameOfOtherPartialsOrRulesIsMadeAgain) {
     const auto frame = filled.list("north", level2::Moment::ref, {}, {})->at(0);
     EXPECT_THAT(cache::GridFile::open(frame.path)->description().provenance.effects,
                 HasSubstr("time: nearest"));
+}
+
+TEST_F(ArchiveFillTest, FramesAreTheSameByAnyNumberOfWorkersAndHoweverOftenTheyAreMade) {
+    ArchiveOptions mosaic = options();
+    mosaic.domain = small_domain();
+    mosaic.domain->interval = std::chrono::minutes{1};
+    instants_ =
+        instants_between(at("2005-08-22T02:45Z"), at("2005-08-22T03:00Z"), mosaic.domain->interval);
+    mosaic.threads = 1;
+    cache::StoreWriter one = store("one"), three = store("three");
+    const FillReport alone = fill(one, mosaic);
+    ASSERT_GT(alone.frames_made, 8U);  // more than two turns of a worker
+    mosaic.threads = 3;
+    ASSERT_EQ(fill(three, mosaic).frames, alone.frames);
+    // A frame of other rules stands in its place first.
+    Domain nearest = *mosaic.domain;
+    nearest.time = grid::TimeMethod::nearest;
+    FillReport ignored;
+    ASSERT_TRUE(make_frames(three, nearest, mosaic.moment, instants_, 2, {}, stop_, ignored));
+    ASSERT_EQ(ignored.frames_made, alone.frames_made);
+    ASSERT_EQ(fill(three, mosaic).frames_made, alone.frames_made);
+    for (const UtcTime instant : alone.frames) {
+        EXPECT_EQ(bytes_of(*one.path_of("north", mosaic.moment, instant)),
+                  bytes_of(*three.path_of("north", mosaic.moment, instant)));
+    }
 }
 
 TEST_F(ArchiveFillTest, WhatCannotBeReadIsNamedAndLeftOut) {

@@ -50,7 +50,9 @@ class FileSystem {
 // The names of our temporary files start with this prefix, so that sweeping up leftovers never
 // touches other files.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
-[[nodiscard]] std::string own_temporary_prefix();  // the prefix of this process
+// Returns the prefix of this process, which names the host too: writers on several hosts may share
+// a directory.
+[[nodiscard]] std::string own_temporary_prefix();
 // Removes every file of the directory whose name has the prefix: the leftovers of killed writers.
 // Call it only if no other process writes there. A directory that does not exist is not an error.
 // Errors: io, permission.

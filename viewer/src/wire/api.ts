@@ -24,6 +24,33 @@ export interface Domain {
     part_of: string | null;
     moments: MomentOfDomain[];
 }
+export interface Newest {
+    time: string;
+    age_s: number;
+}
+export interface Station {
+    station: string;
+    name?: string; // what is not known of it is left out
+    state?: string;
+    latitude_deg?: number;
+    longitude_deg?: number;
+    newest_volume: Newest | null;
+    newest_grid: Newest | null;
+    moments: string[];
+}
+// What a grid is, of which the page uses a part.
+export interface GridFacts {
+    time: string;
+    projection: string;
+    center: [number, number];
+    spacing_m?: number;
+    spacing_deg?: number;
+    parallels_deg?: [number, number];
+    offset_cells: [number, number];
+    nx: number;
+    ny: number;
+    greatest: number | null;
+}
 export interface MapLine {
     kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
     is_area: boolean;
@@ -71,6 +98,12 @@ async function ask(path: string, signal?: AbortSignal): Promise<Response> {
 
 export async function domains(): Promise<Domain[]> {
     return ((await (await ask('api/v1/domains')).json()) as { domains: Domain[] }).domains;
+}
+export async function stations(): Promise<Station[]> {
+    return ((await (await ask('api/v1/stations')).json()) as { stations: Station[] }).stations;
+}
+export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
+    return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
 }
 export interface Times {
     times: string[]; // rising

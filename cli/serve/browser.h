@@ -1,0 +1,14 @@
+// cli/serve/browser.h -- the user's browser.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <string>
+
+namespace stormcellar::cli {
+
+// Asks the desktop to show an address, by xdg-open. Returns false without a desktop, or if xdg-open
+// is not installed; what the browser does afterward is its own affair. It outlives the program.
+bool open_in_browser(const std::string& address);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,53 @@
+// cli/serve/served_files.h -- the files that a command line names, gridded and served until Ctrl-C.
+//
+// Threads   One thread at a time.
+// Errors    See each function.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/serve/scratch_cellar.h"
+#include "stormcellar/base/result.h"
+#include "web/service/web_service.h"
+#include "web/service/web_signals.h"
+
+namespace stormcellar::cli {
+
+// The files are taken in one after another.
+class ServedFiles {
+  public:
+    // Takes in files until one gave grids, so that there is something to see from the start.
+    // `threads` decode and grid; 0: one for each processor. Errors: those of files_to_serve() and
+    // ScratchCellar; not_found if no file gave grids.
+    static Result<std::unique_ptr<ServedFiles>> take(const std::vector<std::string>& names,
+                                                     int threads);
+    ServedFiles(const ServedFiles&) = delete;
+    ServedFiles& operator=(const ServedFiles&) = delete;
+    ~ServedFiles();
+
+    // Takes in the rest beside what the caller does.
+    void take_rest();
+    [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
+
+  private:
+    ServedFiles(std::unique_ptr<ScratchCellar> cellar, std::vector<std::filesystem::path> files)
+        : cellar_(std::move(cellar)), files_(std::move(files)) {}
+    Status take_first();
+
+    std::unique_ptr<ScratchCellar> cellar_;
+    std::vector<std::filesystem::path> files_;
+    std::size_t next_ = 0;
+    std::atomic<bool> is_stopping_{false};
+    std::thread thread_;
+};
+
+// Returns when a signal asks the program to end.
+void serve_until_signal(const web::WebSignals& signals, web::WebService& service);
+
+}  // namespace stormcellar::cli

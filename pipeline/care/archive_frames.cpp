@@ -1,0 +1,121 @@
+#include "pipeline/care/archive_frames.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/parallel.h"
+#include "pipeline/mosaic/mosaic_maker.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+// A worker takes this many instants that follow each other, so that it finds what it has just read.
+constexpr std::size_t instants_a_turn = 4;
+
+// What became of the frame at one instant.
+struct FrameOutcome {
+    FrameStanding standing = FrameStanding::not_due;  // before it was made
+    std::vector<std::string> problems;
+};
+
+class FrameCrew {
+  public:
+    FrameCrew(cache::StoreWriter& store, const Domain& domain, level2::Moment moment,
+              const std::vector<UtcTime>& instants, const FillProgress& progress,
+              const std::atomic<bool>& stop)
+        : store_(store),
+          domain_(domain),
+          moment_(moment),
+          instants_(instants),
+          progress_(progress),
+          stop_(stop),
+          outcomes_(instants.size()) {}
+
+    Status work(int threads) {
+        const auto turns =
+            static_cast<int>((instants_.size() + instants_a_turn - 1) / instants_a_turn);
+        const int workers = std::clamp(threads, 1, std::max(1, std::min(turns, most_workers)));
+        for_each_piece(workers, workers, [&](int) { take_turns(std::max(1, threads / workers)); });
+        return std::move(failure_);
+    }
+
+    void add_to(FillReport& report) const {
+        for (std::size_t i = 0; i < outcomes_.size(); ++i) {
+            if (!outcomes_[i]) continue;  // after a stop or an error
+            const FrameOutcome& outcome = *outcomes_[i];
+            if (outcome.standing == FrameStanding::to_make) ++report.frames_made;
+            if (outcome.standing == FrameStanding::current) ++report.frames_found;
+            if (outcome.standing != FrameStanding::not_due) report.frames.push_back(instants_[i]);
+            for (const std::string& problem : outcome.problems)
+                report.notes.push_back({{}, problem});
+        }
+    }
+
+  private:
+    void take_turns(int threads) {
+        MosaicMaker maker(&store_, {domain_}, FramesWhen::asked_for);
+        for (;;) {
+            const std::size_t first = next_.fetch_add(instants_a_turn);
+            if (first >= instants_.size()) return;
+            const std::size_t end = std::min(first + instants_a_turn, instants_.size());
+            for (std::size_t i = first; i < end; ++i) {
+                if (stop_ || has_failed()) return;
+                keep(i, make(maker, instants_[i], threads));
+            }
+        }
+    }
+
+    Result<FrameOutcome> make(MosaicMaker& maker, UtcTime instant, int threads) {
+        const cache::GridName frame{domain_.name, moment_, instant};
+        const auto standing = standing_of(store_, maker.domains(), frame);
+        if (!standing) return pass_on(standing);
+        FrameOutcome outcome{*standing, {}};
+        if (*standing == FrameStanding::to_make) {
+            const auto made = maker.make_again(frame, threads, outcome.problems);
+            if (!made) return pass_on(made);
+        }
+        return outcome;
+    }
+
+    void keep(std::size_t at, Result<FrameOutcome> outcome) {
+        const std::scoped_lock lock(mutex_);
+        if (!outcome) {
+            if (failure_) failure_ = pass_on(outcome);
+            return;
+        }
+        outcomes_[at] = std::move(*outcome);
+        if (progress_) progress_(++done_);
+    }
+    [[nodiscard]] bool has_failed() {
+        const std::scoped_lock lock(mutex_);
+        return !failure_;
+    }
+
+    cache::StoreWriter& store_;
+    const Domain& domain_;
+    level2::Moment moment_;
+    const std::vector<UtcTime>& instants_;
+    const FillProgress& progress_;
+    const std::atomic<bool>& stop_;
+    std::atomic<std::size_t> next_{0};
+    std::mutex mutex_;  // guards all members below
+    std::vector<std::optional<FrameOutcome>> outcomes_;
+    std::size_t done_ = 0;
+    Status failure_;
+};
+
+}  // namespace
+
+Status make_frames(cache::StoreWriter& store, const Domain& domain, level2::Moment moment,
+                   const std::vector<UtcTime>& instants, int threads, const FillProgress& progress,
+                   const std::atomic<bool>& stop, FillReport& report) {
+    FrameCrew crew(store, domain, moment, instants, progress, stop);
+    Status made = crew.work(threads);
+    crew.add_to(report);
+    return made;
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,32 @@
+// pipeline/care/archive_frames.h -- the frames of a domain, made of the partials that a cache
+// holds.
+//
+// Each frame is made once, from the partials around it (pipeline/mosaic/mosaic_maker.h). Several
+// are made at a time, each by one worker, which takes less waiting than several threads for one
+// frame. The bytes of a frame do not depend on who makes it or when.
+//
+// Memory    Each worker keeps geometries and instants of its own: some 400 MiB for a large domain.
+// Threads   One thread at a time for each domain and moment of a store. `progress` is called from
+//           the workers, one at a time.
+// Errors    Those of the store, and of making a frame.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "pipeline/care/archive_fill.h"
+#include "pipeline/options/domain.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::pipeline {
+
+// Makes those of the frames at these instants that are due and do not stand, and adds to the report
+// how many were made and found, which there are, and what was left out of them. When `stop` is set,
+// no further frame begins.
+[[nodiscard]] Status make_frames(cache::StoreWriter& store, const Domain& domain,
+                                 level2::Moment moment, const std::vector<UtcTime>& instants,
+                                 int threads, const FillProgress& progress,
+                                 const std::atomic<bool>& stop, FillReport& report);
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,119 @@
+// What the start map shows, and which of it a pointer, a key or a word means.
+
+import { City, Station } from '../wire/api';
+import { Place, geodesic } from '../scene/projection';
+
+export interface StationPlace extends Place {
+    icao: string;
+    name: string; // of the town, with its state
+    ageS: number | null; // of the newest grid, else of the newest volume; null: there is neither
+    hasGrids: boolean;
+    moments: string[];
+    newestGrid: string | null; // its time
+}
+
+// A station without a known place is in the list of domains alone.
+export function stationPlaces(stations: Station[]): StationPlace[] {
+    return stations
+        .filter(one => one.latitude_deg !== undefined && one.longitude_deg !== undefined)
+        .map(one => ({
+            icao: one.station,
+            name: [one.name, one.state].filter(Boolean).join(', '),
+            latitudeDeg: one.latitude_deg!,
+            longitudeDeg: one.longitude_deg!,
+            ageS: (one.newest_grid ?? one.newest_volume)?.age_s ?? null,
+            hasGrids: one.moments.length > 0,
+            moments: one.moments,
+            newestGrid: one.newest_grid?.time ?? null,
+        }));
+}
+
+export type Pixel = [number, number];
+
+// The index of the pixel nearest to (x, y); -1 if none is within reach.
+export function nearestPixel(pixels: Pixel[], x: number, y: number, reach: number): number {
+    let best = -1;
+    let least = reach;
+    pixels.forEach(([px, py], i) => {
+        const distance = Math.hypot(px - x, py - y);
+        if (distance <= least) {
+            least = distance;
+            best = i;
+        }
+    });
+    return best;
+}
+
+// The index of the pixel that an arrow key leads to from another: near, and little aside of the way; -1 if
+// nothing lies there.
+export function pixelToward(pixels: Pixel[], from: Pixel, [wx, wy]: Pixel): number {
+    let best = -1;
+    let least = Infinity;
+    pixels.forEach(([px, py], i) => {
+        const ahead = (px - from[0]) * wx + (py - from[1]) * wy;
+        const aside = Math.abs((px - from[0]) * wy - (py - from[1]) * wx);
+        if (ahead <= 0.5 || aside > 1.5 * ahead) return;
+        const cost = ahead + 2 * aside;
+        if (cost < least) {
+            least = cost;
+            best = i;
+        }
+    });
+    return best;
+}
+
+export function isInside(polygon: Pixel[], x: number, y: number): boolean {
+    let inside = false;
+    for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i++) {
+        const [[ax, ay], [bx, by]] = [polygon[i]!, polygon[j]!];
+        if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) inside = !inside;
+    }
+    return inside;
+}
+
+export interface Found {
+    station: StationPlace;
+    near: string | null; // the city that was searched for
+    distanceM: number; // from it
+}
+
+const stationsOfACity = 3;
+const mostCities = 4;
+
+const simple = (text: string): string =>
+    text
+        .normalize('NFD')
+        .replace(/[\u0300-\u036f]/g, '')
+        .toLowerCase()
+        .trim();
+
+// Stations by their ICAO or name, then the nearest stations to cities of that name.
+export function search(stations: StationPlace[], cities: City[], text: string): Found[] {
+    const wanted = simple(text);
+    const own = (station: StationPlace): Found => ({ station, near: null, distanceM: 0 });
+    if (wanted === '') return stations.map(own);
+    const rank = ({ icao, name }: StationPlace): number => {
+        if (simple(icao) === wanted || simple(icao) === `k${wanted}`) return 0;
+        if (simple(icao).startsWith(wanted)) return 1;
+        if (simple(name).startsWith(wanted)) return 2;
+        return simple(name).includes(wanted) || simple(icao).includes(wanted) ? 3 : 4;
+    };
+    const named = stations
+        .map(station => ({ station, rank: rank(station) }))
+        .filter(one => one.rank < 4)
+        .sort((a, b) => a.rank - b.rank)
+        .map(({ station }) => own(station));
+    const found = new Map(named.map(one => [one.station.icao, one]));
+    const ofThisName = cities.filter(city => simple(city.name).startsWith(wanted)).slice(0, mostCities);
+    for (const city of ofThisName) {
+        const place: Place = { latitudeDeg: city.place[1], longitudeDeg: city.place[0] };
+        stations
+            .map(station => ({ station, near: city.name, distanceM: geodesic(place, station).distanceM }))
+            .sort((a, b) => a.distanceM - b.distanceM)
+            .slice(0, stationsOfACity)
+            .forEach(one => {
+                if (!found.has(one.station.icao)) found.set(one.station.icao, one);
+            });
+    }
+    return [...found.values()];
+}
