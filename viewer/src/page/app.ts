@@ -7,9 +7,11 @@ import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
 import { instantsBetween } from '../time/between';
 import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../time/player';
+import { Units, namesOf } from '../tables/units';
 import { ApiError, Domain, Tables, domains, tables, times } from '../wire/api';
 import { element } from './dom';
 import { Loader } from './loader';
+import { rememberUnits, rememberedUnits } from './remembered';
 import { texts } from './texts';
 
 const soonTimes = 500; // of a domain, before all others
@@ -17,8 +19,8 @@ const mostTimes = 10000; // that the server tells at once
 const loadedAhead = 3;
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
-// where; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'time' | 'restored';
+// where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
+export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored';
 
 export interface Shown {
     key: string;
@@ -28,8 +30,14 @@ export interface Shown {
     time: string;
 }
 
+// What an address does not say of units is as the user had it last.
+function stateOfAddress(): ViewState {
+    const state = stateOf(location.hash);
+    return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
+}
+
 export class App {
-    state: ViewState = stateOf(location.hash);
+    state: ViewState = stateOfAddress();
     domains: Domain[] = [];
     tables: Tables = { tables: [], usual: {} };
     player: PlayerState = { ...stopped, follows: this.state.time === 'latest' };
@@ -72,6 +80,12 @@ export class App {
         this.remember();
         this.tell('view');
     }
+    useUnits(units: Units): void {
+        this.state.units = units;
+        rememberUnits(units);
+        this.tell('units');
+        this.changed();
+    }
     moved(camera: Camera): void {
         this.state.camera = camera;
         this.remember();
@@ -83,9 +97,10 @@ export class App {
 
     // The address was changed by hand, or by going back.
     takeAddress(): void {
-        const next = stateOf(location.hash);
+        const next = stateOfAddress();
         if (addressOf(next) === addressOf(this.state)) return;
         this.state = next;
+        this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
         void this.choose(next.domain, next.moment);
     }
@@ -109,6 +124,7 @@ export class App {
     async chooseDomain(domain: string): Promise<void> {
         this.player = { ...stopped };
         this.state.camera = { ...this.state.camera, lookAtM: null, zoom: 1 };
+        this.state.layers = { ...this.state.layers, section: null, crop: null };
         await this.choose(domain, this.state.moment);
     }
 

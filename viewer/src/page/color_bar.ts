@@ -1,15 +1,17 @@
 // The colors with their values, beside the picture.
 
 import { ColorTable, colorOf } from '../tables/color_table';
+import { ShownUnit } from '../tables/units';
 import { shades } from '../renderer/shades';
 
-function stepOf(range: number): number {
+// The distance between marks of an axis, so that there are about eight.
+export function stepOf(range: number): number {
     const rough = range / 8;
     const power = 10 ** Math.floor(Math.log10(rough));
     return ([1, 2, 5, 10].find(step => step * power >= rough) ?? 10) * power;
 }
 
-export function drawColorBar(canvas: HTMLCanvasElement, table: ColorTable, unit: string, least: number | null): void {
+export function drawColorBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, least: number | null): void {
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     canvas.width = Math.round(width * ratio);
@@ -30,11 +32,14 @@ export function drawColorBar(canvas: HTMLCanvasElement, table: ColorTable, unit:
     pen.font = '12px "DejaVu Sans", system-ui, sans-serif';
     pen.textBaseline = 'middle';
     pen.fillStyle = shades.text;
-    pen.fillText(unit, 0, 10);
-    const step = stepOf(high - low);
-    for (let value = Math.ceil(low / step) * step; value <= high + 1e-9; value += step) {
+    pen.fillText(unit.symbol, 0, 10);
+    // Marks are at round numbers of the shown unit.
+    const [from, to] = [low * unit.perStored, high * unit.perStored];
+    const step = stepOf(to - from);
+    for (let number = Math.ceil(from / step) * step; number <= to + 1e-9; number += step) {
+        const y = yOf(number / unit.perStored);
         pen.fillStyle = shades.quietText;
-        pen.fillRect(14, yOf(value) - 0.5, 4, 1);
-        pen.fillText(String(Number(value.toFixed(3))), 21, yOf(value));
+        pen.fillRect(14, y - 0.5, 4, 1);
+        pen.fillText(String(Number(number.toFixed(3))), 21, y);
     }
 }

@@ -7,10 +7,12 @@ import { Keys } from './keys';
 import { hear } from './live';
 import { Loader } from './loader';
 import { addChoices } from './panels/choices';
+import { LayersPanel } from './panels/layers';
 import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
 import { addTimeline } from './panels/timeline';
+import { addUnits } from './panels/units';
 import { Pointers } from './pointers';
 import { texts } from './texts';
 
@@ -24,8 +26,10 @@ async function begin(): Promise<void> {
     addChoices(app);
     addLook(app, drawing, keys);
     addTimeline(app, keys);
+    addUnits(app);
     addShare(app, drawing);
     reader.begin(keys);
+    new LayersPanel(app, drawing, pointers).begin(keys);
     keys.add('Escape', () => pointers.use(null));
     pointers.begin();
     keys.begin();

@@ -7,6 +7,7 @@ export const shades = {
     notSeen: [23, 25, 29],
     beyond: [25, 28, 33],
     hatch: [78, 82, 92],
+    haze: [104, 110, 122],
     ring: [160, 174, 194, 110],
     county: [118, 124, 132, 130],
     state: [164, 170, 180, 235],

@@ -1,6 +1,8 @@
 // What the page shows, as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
+import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
+import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
 
 export interface ViewState {
     domain: string; // empty: the first one
@@ -13,6 +15,8 @@ export interface ViewState {
     opacity: number;
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
+    layers: Layers;
+    units: Units;
 }
 
 export const usualState: ViewState = {
@@ -26,6 +30,8 @@ export const usualState: ViewState = {
     opacity: 1,
     least: null,
     colors: '',
+    layers: usualLayers,
+    units: usualUnits,
 };
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
@@ -50,6 +56,8 @@ export function addressOf(state: ViewState): string {
     if (!state.hasGround) parts.push(['ground', '0']);
     if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
     if (state.colors) parts.push(['colors', state.colors]);
+    parts.push(...layersAddress(state.layers));
+    if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
 
@@ -81,19 +89,28 @@ export function stateOf(text: string): ViewState {
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
+        layers: layersOf(query),
+        units: unitsOf(query.get('units') ?? ''),
     };
 }
 
-// The command that draws the same.
+function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): string[] {
+    const words = ['--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4)];
+    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(exaggeration, 2));
+    words.push('--opacity', rounded(opacity, 3), '--light', layers.isLit ? 'gradient' : 'none');
+    if (layers.isLit) words.push('--sun', `${rounded((camera.azimuthDeg + sunAsideDeg) % 360, 2)},${sunElevationDeg}`);
+    if (layers.hasHaze) words.push('--haze');
+    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    return words;
+}
+
+// The command that draws the same; of several layers one.
 export function commandOf(state: ViewState, width: number, height: number): string {
-    const { camera } = state;
     const words = ['stormcellar frame', state.domain, '--moment', state.moment];
     if (state.time !== 'latest') words.push('--time', state.time);
-    words.push('--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4));
-    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(state.exaggeration, 2));
-    words.push('--opacity', rounded(state.opacity, 3), '--light', 'none');
-    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    words.push(...(productOf(state.layers) ?? cameraWords(state)));
     if (state.colors) words.push('--colors', state.colors);
+    if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
     return words.join(' ');
 }

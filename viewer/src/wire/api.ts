@@ -137,3 +137,25 @@ export async function map(west: number, south: number, east: number, north: numb
     const side = (degrees: number) => degrees.toFixed(3);
     return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(east)}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
 }
+
+// -- raw volumes
+
+export interface SweepRow {
+    sweep: number; // from 0
+    elevation_deg: number;
+    moments: { moment: string }[];
+}
+const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
+
+// The start of the newest volume of a station that began at a time or before.
+export async function volumeBefore(station: string, time: string): Promise<string | null> {
+    const path = `${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`;
+    const { volumes } = (await (await ask(path)).json()) as { volumes: { time: string | null }[] };
+    return volumes[volumes.length - 1]?.time ?? null;
+}
+export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
+    return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;
+}
+export async function gates(station: string, time: string, sweep: number, moment: string): Promise<ArrayBuffer> {
+    return (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps/${sweep}/${moment}`)).arrayBuffer();
+}

@@ -1,5 +1,6 @@
 // How the volume is shown: colors, threshold, opacity, heights, and from where.
 
+import { valueText } from '../../tables/units';
 import { App } from '../app';
 import { button, element, press, putOptions } from '../dom';
 import { Drawing } from '../drawing';
@@ -21,7 +22,7 @@ function putLook(app: App): void {
         least.step = String((table.end - table.bar_begin) / 100);
         least.value = String(state.least ?? table.bar_begin);
     }
-    element('least-value').textContent = state.least === null ? '' : `${Number(state.least.toFixed(1))} ${table?.unit ?? ''}`;
+    element('least-value').textContent = state.least === null ? '' : valueText(state.least, table?.unit ?? '', state.units);
     element<HTMLInputElement>('opacity').value = String(Math.log2(state.opacity));
     element<HTMLInputElement>('exaggeration').value = String(state.exaggeration);
     press('perspective', state.camera.fieldOfViewDeg > 0);

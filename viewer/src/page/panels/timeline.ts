@@ -77,7 +77,7 @@ export function addTimeline(app: App, keys: Keys): void {
     element('play').addEventListener('click', () => app.play());
     element('follow').addEventListener('click', () => app.follow());
     addPlaying(app);
-    keys.add('[', () => app.setLoop('from'));
-    keys.add(']', () => app.setLoop('to'));
+    keys.add('<', () => app.setLoop('from'));
+    keys.add('>', () => app.setLoop('to'));
     app.on('time', () => putTimes(app));
 }
