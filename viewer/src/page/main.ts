@@ -28,8 +28,8 @@ async function begin(): Promise<void> {
     const pointers = new Pointers(app, drawing, reader);
     addChoices(app);
     addLook(app, drawing, keys, editing);
+    addTimeline(app, keys);
     addUnits(app);
-    addTimeline(app);
     addShare(app, drawing, editing);
     reader.begin(keys);
     new LayersPanel(app, drawing, pointers).begin(keys);

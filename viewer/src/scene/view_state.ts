@@ -10,6 +10,7 @@ export interface ViewState {
     domain: string; // empty: the first one
     moment: string;
     time: string; // ISO 8601, or 'latest'
+    betweenS: number; // frames between volumes every so many seconds; 0: the volumes alone
     camera: Camera;
     hasGround: boolean; // map and ground are drawn
     exaggeration: number;
@@ -25,6 +26,7 @@ export const usualState: ViewState = {
     domain: '',
     moment: '',
     time: 'latest',
+    betweenS: 0,
     camera: { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40 },
     hasGround: true,
     exaggeration: 5,
@@ -56,6 +58,7 @@ export function addressOf(state: ViewState): string {
     if (camera.lookAtM) {
         parts.push(['look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(',')]);
     }
+    if (state.betweenS > 0) parts.push(['between', rounded(state.betweenS, 0)]);
     if (!state.hasGround) parts.push(['ground', '0']);
     if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
     if (state.colors) parts.push(['colors', state.colors]);
@@ -90,6 +93,7 @@ export function stateOf(text: string): ViewState {
         domain: (query.get('domain') ?? '').slice(0, 100),
         moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
         time: Number.isNaN(Date.parse(time)) ? 'latest' : time,
+        betweenS: number(query.get('between'), 10, 3600, 0),
         camera: {
             azimuthDeg: number(query.get('azimuth'), 0, 360, usual.camera.azimuthDeg),
             tiltDeg: number(query.get('tilt'), 0, 90, usual.camera.tiltDeg),
