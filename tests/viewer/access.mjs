@@ -139,6 +139,9 @@ await page.key('Tab', { windowsVirtualKeyCode: 9 });
 await page.key('Escape', { windowsVirtualKeyCode: 27 });
 check('Escape closes a panel and leads back', await evaluate("document.activeElement.id === 'open' && document.getElementById('settings').hidden"));
 
+await evaluate("document.activeElement.blur()");
+await viewer.changes('before anything has the keyboard, keys are for the picture', 'tilt', () => page.key('t'), (_, after) => after === 0);
+
 // ---- Motion
 check('nothing moves by itself', await evaluate("document.getAnimations().length === 0 && matchMedia('(prefers-reduced-motion: reduce)').matches"));
 

@@ -155,6 +155,7 @@ await page.until('!new URLSearchParams(location.hash.slice(1)).has("least")');
 await compare('a .pal', join(directory, 'storm.pal'));
 const palAgain = await savedAs('storm.pal', () => evaluate("document.getElementById('editor-pal').click()"));
 await compare('a .pal that the page wrote', palAgain);
+await compare('the same as TOML', await savedAs('storm.toml', () => evaluate("document.getElementById('editor-toml').click()")));
 
 // ---- Broken and hostile files
 const held = await table();

@@ -21,6 +21,16 @@ const opaque: Draft = {
     ],
 };
 
+const edged: Draft = {
+    ...opaque,
+    colors: [
+        { value: 5, color: [0, 0, 0, 255] },
+        { value: 30, color: [100, 100, 100, 255] },
+        { value: 30, color: [0, 0, 200, 255] },
+        { value: 60, color: [255, 255, 255, 255] },
+    ],
+};
+
 test('a table becomes few points that look alike', () => {
     assert.deepEqual(draft.colors.map(point => point.value), [5, 35, 65], 'the point on the line is left out');
     assert.equal(draft.opacity, null, 'the opacity is the usual one');
@@ -42,7 +52,7 @@ test('another opacity becomes points within a few percent', () => {
 });
 
 test('the table that is drawn is that of its file', () => {
-    for (const one of [draft, opaque, { ...opaque, isStepped: true }]) {
+    for (const one of [draft, opaque, { ...opaque, isStepped: true }, edged]) {
         for (const least of [null, 22.5]) {
             const read = tableOfFile(readToml(writeToml(fileOf(one, least)), 'a.toml'), usual);
             const drawn = tableOf(one, usual, least);
@@ -65,16 +75,7 @@ test('what is hidden is not in the file', () => {
     assert.equal(fileOf(draft, 300).points.length, 2, 'a table of nothing is a table');
 });
 
-test('edges go through files and back', () => {
-    const edged: Draft = {
-        ...draft,
-        colors: [
-            { value: 5, color: [0, 0, 0, 255] },
-            { value: 30, color: [100, 100, 100, 255] },
-            { value: 30, color: [0, 0, 200, 255] },
-            { value: 60, color: [255, 255, 255, 255] },
-        ],
-    };
+test('edges go through addresses and back', () => {
     const table = tableOf(edged, usual);
     assert.deepEqual(colorOf(table, 30), [0, 0, 200, 255]);
     assert(colorOf(table, 29.99)!.every((c, k) => Math.abs(c - [100, 100, 100, 255][k]!) < 1));

@@ -109,6 +109,16 @@ test('TOML blends from point to point', () => {
     assert.deepEqual(toml('point = [{value = 1, color = "#000000"}, {value = 2, color = "#ffffff"}]').stops.length, 2);
 });
 
+test('a point of TOML may blend to a color of its own, as in a .pal', () => {
+    const table = toml(
+        'moment = "REF"\n[[point]]\nvalue = 10\ncolor = "#000000"\nuntil = "#646464"\n[[point]]\nvalue = 20\ncolor = "#0000c8"\nuntil = "#0000c8"\n' +
+            '[[point]]\nvalue = 30\ncolor = "#c80000"\n[[point]]\nvalue = 40\ncolor = "#ffffff"\n',
+    );
+    const same = pal('Product: BR\nColor: 10 0 0 0 100 100 100\nSolidColor: 20 0 0 200\nColor: 30 200 0 0\nColor: 40 255 255 255\n');
+    assert.deepEqual(table.stops, same.stops);
+    assert.deepEqual(table.extinction, same.extinction);
+});
+
 const two = '[[point]]\nvalue = 1\ncolor = "#000000"\n[[point]]\nvalue = 2\ncolor = "#ffffff"\n';
 
 test('errors of TOML name the line', () => {
@@ -123,6 +133,7 @@ test('errors of TOML name the line', () => {
         [`${two}[[point]]\nvalue = 3\ncolor = "#00000"\n`, 't.toml:9: color must be'],
         [`${two}[[point]]\nvalue = 3\ncolor = [1, 2, 256]\n`, 't.toml:9: color must be'],
         [`${two}[[point]]\nvalue = nan\ncolor = "#000000"\n`, 't.toml:8: value is out of range'],
+        [`stepped = true\n${two}until = "#000000"\n`, 't.toml:8: until has no meaning'],
         [`${two}[[point]]\ncolor = "#000000"\n`, 't.toml:7: value is missing'],
         [`end = 2\n${two}`, 't.toml:1: end must be above'],
         ['[[point]]\nvalue = 1\ncolor = "#000000"\n', 't.toml:1: point must be there 2 to 4096'],

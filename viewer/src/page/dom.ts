@@ -47,11 +47,12 @@ export function paragraph(text: string): HTMLParagraphElement {
 }
 
 // Fills a list with names, of which one is chosen.
-export function putOptions(select: HTMLSelectElement, names: string[], chosen: string | undefined): void {
+export function putOptions(select: HTMLSelectElement, names: string[], chosen: string | undefined, textOf = (name: string) => name): void {
     select.replaceChildren(
         ...names.map(name => {
             const option = document.createElement('option');
-            option.value = option.textContent = name;
+            option.value = name;
+            option.textContent = textOf(name);
             option.selected = name === chosen;
             return option;
         }),

@@ -5,11 +5,12 @@ import { ColorTable } from '../tables/color_table';
 import { Draft, draftOf, tableOf } from '../tables/draft';
 import { UsualOpacity, usualOpacity } from '../tables/usual_opacity';
 import { Tables } from '../wire/api';
+import { texts } from './texts';
 
 // Tables of the server with this in front differ from class to class for every kind of color vision
 // (render/colour/built_in_tables.h).
 const safePrefix = 'safe-';
-export const isSafe = (name: string): boolean => name.startsWith(safePrefix);
+export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.editor.safe(name) : name);
 
 export class TableBook {
     readonly usual: UsualOpacity;

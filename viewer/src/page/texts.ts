@@ -60,6 +60,7 @@ export const texts = {
         tooLarge: (name: string) => `${name}: a file of a color table has at most 1 MiB.`,
     },
     threshold: 'Hide echo weaker than',
+    nothingHidden: 'nothing is hidden',
     opacity: 'Opacity',
     exaggeration: 'Heights times',
     colors: 'Colors',

@@ -33,7 +33,7 @@ const nearEnough = 0.012; // in OKLab
 const alphaWeight = 0.25;
 const nearEnoughShare = 0.06; // of the opacity
 const clearestPerKm = 0.003; // differences of less opacity than this are not seen
-const edgeWidth = 0.0005;
+const leastStep = 0.0005; // between two values
 
 export const roundedValue = (value: number): number => Number(Math.min(greatestValue, Math.max(-greatestValue, value)).toFixed(4));
 export const roundedPerKm = (perKm: number): number => (perKm < 1e-4 ? 0 : Number(Math.min(greatestValue, perKm).toPrecision(3)));
@@ -87,7 +87,7 @@ function simplifiedOpacity(points: ExtinctionPoint[], lowest: number): OpacityPo
     const known = [...points];
     // Nothing is drawn below the first point of a table.
     const first = known[0]!;
-    if (first.value > lowest && first.per_km > 0) known.unshift({ value: lowest, per_km: 0 }, { value: first.value - edgeWidth, per_km: 0 });
+    if (first.value > lowest && first.per_km > 0) known.unshift({ value: lowest, per_km: 0 }, { value: first.value - leastStep, per_km: 0 });
     const error = (i: number, j: number, k: number) => {
         const [a, b, p] = [known[i]!, known[j]!, known[k]!];
         const line = a.per_km + ((b.per_km - a.per_km) * (p.value - a.value)) / (b.value - a.value);
@@ -147,17 +147,21 @@ export function fileOf(draft: Draft, least: number | null = null): TableFile {
     const from = least === null ? lowest : Math.max(lowest, roundedValue(least));
     const perKm = (value: number) => (opacity ? Number(perKmAt(opacity, value).toPrecision(6)) : null);
     const points = new Map<number, FilePoint>();
+    const edges = new Map<number, Rgba>();
     const put = (value: number, color: Rgba) => points.set(value, { value, color, perKm: perKm(value) });
     put(from, colorAt(draft, from));
     colors.forEach(({ value, color }, i) => {
         if (value <= from) return;
-        // A file of blends has no two points at one value: an edge is a short blend.
-        const isFirstOfEdge = colors[i + 1]?.value === value;
-        if (isFirstOfEdge && !draft.isStepped) put(roundedValue(value - edgeWidth), color);
-        else put(value, color);
+        // The first point of an edge is what the point below it blends to.
+        if (colors[i + 1]?.value !== value) put(value, color);
+        else edges.set(value, color);
     });
     for (const { value } of opacity ?? []) if (value > from && !points.has(value)) put(value, colorAt(draft, value));
     const sorted = [...points.values()].sort((a, b) => a.value - b.value);
+    sorted.forEach((point, i) => {
+        const until = edges.get(sorted[i + 1]?.value ?? NaN);
+        if (until) point.until = until;
+    });
     const last = sorted[sorted.length - 1]!;
     if (sorted.length === 1 && !draft.isStepped) sorted.push({ ...last, value: roundedValue(last.value + 1) });
     const end = Math.max(draft.end, roundedValue(sorted[sorted.length - 1]!.value + 0.01));
@@ -166,9 +170,7 @@ export function fileOf(draft: Draft, least: number | null = null): TableFile {
 
 export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null = null): ColorTable {
     const table = tableOfFile(fileOf(draft, least), usual);
-    // The short blend of an edge is an edge again.
-    const stops = draft.isStepped ? table.stops : table.stops.filter(({ from }, i) => (table.stops[i + 1]?.from ?? Infinity) - from > 1.5 * edgeWidth);
-    return { ...table, stops, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
+    return { ...table, bar_begin: Math.max(table.bar_begin, draft.barBegin) };
 }
 
 // The same table with its opacity as alpha, for a .pal file; `isWhole` is false where it is denser than

@@ -16,6 +16,7 @@ export const usualFolded: Rgba = [0x77, 0x00, 0x7d, 255];
 export interface FilePoint {
     value: number;
     color: Rgba;
+    until?: Rgba; // to which it blends, instead of the next point's
     perKm: number | null; // null in all points or in none
 }
 
@@ -42,7 +43,7 @@ export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
         name: file.name,
         moment: file.moment ?? '',
         unit: file.unit,
-        stops: points.map(({ value, color }, i) => ({ from: value, color, until: file.isStepped ? color : (points[i + 1]?.color ?? color) })),
+        stops: points.map(({ value, color, until }, i) => ({ from: value, color, until: until ?? (file.isStepped ? color : (points[i + 1]?.color ?? color)) })),
         end: 0,
         bar_begin: points[0]!.value,
         range_folded: file.rangeFolded ?? usualFolded,

@@ -95,23 +95,25 @@ class TomlColors {
             return [];
         }
         const points: FilePoint[] = [];
-        for (const item of items as TomlTable[]) this.point(item, points);
+        for (const item of items as TomlTable[]) this.point(item, points, isStepped);
         const withOpacity = points.filter(point => point.perKm !== null).length;
         if (withOpacity !== 0 && withOpacity !== points.length) {
             this.complain(items[0] as TomlTable, 'opacity_per_km', 'must be given for all points or for none');
         }
         return points;
     }
-    private point(item: TomlTable, points: FilePoint[]): void {
+    private point(item: TomlTable, points: FilePoint[], isStepped: boolean): void {
         const colorKey = item.has('colour') && !item.has('color') ? 'colour' : 'color';
         for (const key of ['value', colorKey]) if (!item.has(key)) this.complain(item, key, 'is missing');
         const value = this.number(item, 'value', -greatestValue);
         const color = this.color(item, colorKey);
+        const until = this.color(item, 'until');
+        if (until && isStepped) this.complain(item, 'until', 'has no meaning where colors are stepped');
         const perKm = this.number(item, 'opacity_per_km', 0);
         if (value === null || color === null) return;
         const before = points[points.length - 1];
         if (before && Math.fround(value) <= Math.fround(before.value)) this.complain(item, 'value', 'must increase from point to point');
-        points.push({ value, color, perKm });
+        points.push({ value, color, ...(until && { until }), perKm });
     }
 
     private finish(): void {
@@ -137,8 +139,9 @@ export function writeToml(file: TableFile): string {
     if (file.isStepped) lines.push('stepped = true');
     if (file.end !== null) lines.push(`end = ${file.end}`);
     if (file.rangeFolded) lines.push(`range_folded = "${hexOf(file.rangeFolded)}"`);
-    for (const { value, color, perKm } of file.points) {
+    for (const { value, color, until, perKm } of file.points) {
         lines.push('', '[[point]]', `value = ${value}`, `color = "${hexOf(color)}"`);
+        if (until) lines.push(`until = "${hexOf(until)}"`);
         if (perKm !== null) lines.push(`opacity_per_km = ${perKm}`);
     }
     return `${lines.join('\n')}\n`;

@@ -7,11 +7,11 @@ import { histogramOf } from '../../tables/histogram';
 import { TableError, colorOfHex, hexOf, mostFileBytes } from '../../tables/table_file';
 import { shownUnit } from '../../tables/units';
 import { App, Shown } from '../app';
-import { button, element, labeledButton, saveFile } from '../dom';
+import { button, element, labeledButton, putOptions, saveFile } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { ExportedFile, TableEditing } from '../table_editing';
-import { isSafe } from '../table_book';
+import { tableTitle } from '../table_book';
 import { texts } from '../texts';
 import { EditorPlot, Selection } from './editor_plot';
 
@@ -296,10 +296,9 @@ export class Editor {
     private putTools(): void {
         const { app, editing } = this;
         const preset = element<HTMLSelectElement>('editor-preset');
-        const options = app.book!.presets(app.state.moment).map(({ name }) => new Option(isSafe(name) ? words.safe(name) : name, name));
-        if (editing.isEdited) options.unshift(new Option(words.edited(editing.draft!.name), ''));
-        preset.replaceChildren(...options);
-        preset.value = editing.isEdited ? '' : app.table!.name;
+        const names = app.book!.presets(app.state.moment).map(table => table.name);
+        if (editing.isEdited) names.unshift('');
+        putOptions(preset, names, editing.isEdited ? '' : app.table!.name, name => (name ? tableTitle(name) : words.edited(editing.draft!.name)));
         element<HTMLButtonElement>('editor-undo').disabled = !editing.canUndo;
         element<HTMLButtonElement>('editor-redo').disabled = !editing.canRedo;
     }

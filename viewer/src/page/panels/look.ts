@@ -5,6 +5,7 @@ import { App } from '../app';
 import { button, element, leaveByEscape, press, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
+import { tableTitle } from '../table_book';
 import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
@@ -16,6 +17,7 @@ function putLook(app: App): void {
         element<HTMLSelectElement>('colors'),
         table && !names.includes(table.name) ? [table.name, ...names] : names,
         table?.name,
+        tableTitle,
     );
     if (table) {
         const least = element<HTMLInputElement>('least');
@@ -24,8 +26,11 @@ function putLook(app: App): void {
         least.step = String((table.end - table.bar_begin) / 100);
         least.value = String(state.least ?? table.bar_begin);
     }
-    element('least-value').textContent = state.least === null ? '' : valueText(state.least, table?.unit ?? '', state.units);
+    const hidden = state.least === null ? '' : valueText(state.least, table?.unit ?? '', state.units);
+    element('least-value').textContent = hidden;
+    element('least').setAttribute('aria-valuetext', hidden || texts.nothingHidden);
     element<HTMLInputElement>('opacity').value = String(Math.log2(state.opacity));
+    element('opacity').setAttribute('aria-valuetext', String(state.opacity));
     element<HTMLInputElement>('exaggeration').value = String(state.exaggeration);
     press('perspective', state.camera.fieldOfViewDeg > 0);
 }
