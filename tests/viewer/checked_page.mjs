@@ -12,6 +12,8 @@ export function check(what, holds, more = '') {
   if (!holds) process.exitCode = 1;
 }
 
+// Seconds for a picture, on a machine that compiles beside.
+const patience = 120;
 const drawn = 'document.documentElement.dataset.drawn';
 
 export class CheckedPage {
@@ -21,7 +23,7 @@ export class CheckedPage {
   }
   async open(view = '') {
     await this.page.goto(`${this.address}/view/#${view}`);
-    await this.page.until(drawn);
+    await this.page.until(drawn, patience);
   }
   // Changes the view, and waits for its fine picture.
   async show(view) {
@@ -31,7 +33,7 @@ export class CheckedPage {
   async settled(act) {
     await this.page.evaluate(`delete ${drawn}; undefined`);
     await act();
-    await this.page.until(drawn);
+    await this.page.until(drawn, patience);
   }
   frameMs() {
     return this.page.evaluate('document.documentElement.dataset.frameMs');
