@@ -16,7 +16,7 @@ export function countCodes(grid: PackedGrid): Uint32Array {
 }
 
 // Counts in at most `most` columns of equal width from `low` to `high`, each with as many codes as the others;
-// values beyond are in the outermost.
+// values beyond are left out.
 export function histogramOf(grid: PackedGrid, low: number, high: number, most: number): Uint32Array {
     const counts = countCodes(grid);
     const codes = Math.max(1, (high - low) / grid.step);
@@ -25,7 +25,7 @@ export function histogramOf(grid: PackedGrid, low: number, high: number, most: n
     for (let code = firstValueCode; code < counts.length; ++code) {
         if (counts[code] === 0) continue;
         const column = Math.floor(((valueOf(grid, code) - low) / (high - low)) * columns + 1e-6);
-        histogram[Math.min(columns - 1, Math.max(0, column))]! += counts[code]!;
+        if (column >= 0 && column < columns) histogram[column]! += counts[code]!;
     }
     return histogram;
 }
