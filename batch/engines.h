@@ -21,7 +21,7 @@ struct EngineOptions {
     std::filesystem::path program = "stormcellar";  // as the machines find it
     int jobs = 0;     // tasks at a time; 0: as many as the engine lets run
     int threads = 1;  // of each task
-    std::string partition;
+    std::string partition = {};
     // Slurm takes no array whose numbers reach its MaxArraySize, which is 1001 by default. Plans of
     // more tasks give several to each element of the array.
     std::size_t array_size = 1000;

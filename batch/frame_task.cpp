@@ -18,9 +18,7 @@ Status check_needs(const Plan& plan, const FrameHour& hour) {
         const auto task = plan.task(need);
         if (!task) return pass_on(task);
         if (read_record(plan, *task)) continue;
-        return fail(ErrorCode::unmet,
-                    "the frames from {} to {} need grid task {}, which is not done",
-                    format_utc(hour.from), format_utc(hour.to), need);
+        return fail(ErrorCode::unmet, "needs grid task {}, which is not done", need);
     }
     return {};
 }

@@ -137,7 +137,7 @@ TEST_F(BatchTasks, FramesWaitForTheRecordsOfTheirGrids) {
     const auto early = run(plan, 1);
     ASSERT_FALSE(early);
     EXPECT_EQ(early.error().code, ErrorCode::unmet);
-    EXPECT_THAT(early.error().message, HasSubstr("need grid task 0, which is not done"));
+    EXPECT_THAT(early.error().message, HasSubstr("needs grid task 0, which is not done"));
     // A record of another recipe does not count.
     Record other;
     other.number = 0;
