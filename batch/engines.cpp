@@ -49,7 +49,7 @@ SlurmJob job_of(const Plan& plan, const Step& step, const std::vector<std::size_
     const std::string limit = options.jobs > 0 ? fmt::format("%{}", options.jobs) : "";
     const std::string partition =
         options.partition.empty() ? "" : fmt::format("#SBATCH --partition={}\n", options.partition);
-    const double minutes = std::ceil(step.needed.seconds * static_cast<double>(each) / 60);
+    const double minutes = std::ceil(step.needed.seconds_of(each) / 60);
     const std::string plan_path = plan.directory().native();
     return {step.name,
             fmt::format("#!/bin/bash\n"

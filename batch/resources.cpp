@@ -18,7 +18,7 @@ constexpr std::uint64_t frame_worker_bytes = 400 * mib;
 constexpr std::uint64_t catalog_bytes = 64 * mib;
 // Slow disks, slow processors, and a machine that others use, too.
 constexpr double margin = 4;
-constexpr double least_s = 300;
+constexpr double start_s = 300;
 
 std::uint64_t cells_of(const Recipe& recipe) {
     if (!recipe.domain) {
@@ -40,6 +40,10 @@ std::uint64_t cells_of(const Recipe& recipe) {
 
 }  // namespace
 
+double Resources::seconds_of(std::size_t tasks) const {
+    return start_s + seconds_a_task * static_cast<double>(tasks);
+}
+
 Resources resources_of_grids(const Plan& plan, int threads) {
     const Recipe& recipe = plan.recipe();
     Resources needed;
@@ -48,7 +52,7 @@ Resources resources_of_grids(const Plan& plan, int threads) {
     const bool is_bucket = is_address(recipe.source);
     needed.scratch_bytes =
         catalog_bytes + (is_bucket ? 2 * bytes_of_unlisted_day : plan.facts().largest);
-    needed.seconds = least_s + margin * plan.facts().largest_cost_s / std::max(1, threads);
+    needed.seconds_a_task = margin * plan.facts().largest_cost_s / std::max(1, threads);
     return needed;
 }
 
@@ -61,7 +65,7 @@ Resources resources_of_frames(const Plan& plan, int threads) {
         program_bytes +
         workers * (frame_worker_bytes + recipe.domain->spec.cell_count() * bytes_a_cell);
     needed.scratch_bytes = catalog_bytes;
-    needed.seconds = least_s + margin * plan.facts().largest_cost_s / std::max(1, threads);
+    needed.seconds_a_task = margin * plan.facts().largest_cost_s / std::max(1, threads);
     return needed;
 }
 

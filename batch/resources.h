@@ -6,6 +6,7 @@
 // Accuracy  Upper bounds with room. `batch check` shows what tasks took.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "batch/plan.h"
@@ -15,7 +16,10 @@ namespace stormcellar::batch {
 struct Resources {
     std::uint64_t memory_bytes = 0;
     std::uint64_t scratch_bytes = 0;  // in the local scratch directory
-    double seconds = 0;               // by the clock, of one task
+    double seconds_a_task = 0;        // by the clock
+
+    // Returns the time for tasks that run one after the other.
+    [[nodiscard]] double seconds_of(std::size_t tasks) const;
 };
 
 [[nodiscard]] Resources resources_of_grids(const Plan& plan, int threads);

@@ -86,7 +86,7 @@ TEST_F(BatchEngines, AnArrayHasNoMoreElementsThanSlurmTakes) {
     EXPECT_THAT(all.at(0).text, HasSubstr("#SBATCH --array=0-6\n"));
     EXPECT_THAT(all.at(0).text, HasSubstr("first=$((0 + SLURM_ARRAY_TASK_ID * 3))\n"));
     EXPECT_THAT(all.at(0).text, HasSubstr("last=$((first + 2))\n"));
-    EXPECT_THAT(all.at(0).text, HasSubstr("#SBATCH --time=35\n"));
+    EXPECT_THAT(all.at(0).text, HasSubstr("#SBATCH --time=25\n"));
     EXPECT_THAT(jobs({5, 18}, {.array_size = 7}).at(0).text, HasSubstr("#SBATCH --array=1,6\n"));
 }
 
