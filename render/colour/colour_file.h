@@ -6,6 +6,7 @@
 //   end                          Where the color bar ends. range_folded: the color of that state.
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
 //     value, colour = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
+//     until                      A color to which it blends, instead of the next point's.
 //     opacity_per_km             For volumes: the optical depth, in all points or in none. If in
 //                                none, it is that of the moment times the alpha of the color.
 // .pal: one "Key: values" in a line, keys in any case; ';' begins a comment, as '#' does at the

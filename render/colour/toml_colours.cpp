@@ -81,6 +81,7 @@ std::string_view color_key_of(const TomlTable& point) {
 
 void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& table) {
     std::size_t with_opacity = 0;
+    bool blends_to_next = !is_stepped;
     for (TomlTable& point : points) {
         const std::string_view color_key = color_key_of(point);
         for (const std::string_view key : {std::string_view("value"), color_key}) {
@@ -88,15 +89,18 @@ void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& t
         }
         const auto value = point.number("value", values);
         const Rgba8 colour = read_colour(point, color_key).value_or(Rgba8{});
+        const auto until = read_colour(point, "until");
+        if (is_stepped && until) point.complain("until", "has no meaning where colors are stepped");
         const auto opacity = point.number("opacity_per_km", opacities_per_km);
         if (!value) continue;
         const auto from = static_cast<float>(*value);
         if (!table.stops.empty()) {
             ColourStop& before = table.stops.back();
             if (from <= before.from) point.complain("value", "must increase from point to point");
-            if (!is_stepped) before.until = colour;
+            if (blends_to_next) before.until = colour;
         }
-        table.stops.push_back({from, colour, colour});
+        table.stops.push_back({from, colour, until.value_or(colour)});
+        blends_to_next = !is_stepped && !until;
         if (!opacity) continue;
         ++with_opacity;
         table.extinction.push_back({from, *opacity});

@@ -190,6 +190,31 @@ TEST(TomlColours, ColorIsSpelledEitherWay) {
     EXPECT_EQ(both.error().message, "t.toml:4: unknown key [point] colour");
 }
 
+// One table may have blends, classes and edges, as a .pal may.
+TEST(TomlColours, APointMayBlendToAColorOfItsOwn) {
+    const auto table = parse_toml_colours(
+        "moment = \"REF\"\n"
+        "[[point]]\nvalue = 10\ncolor = \"#000000\"\nuntil = \"#646464\"\n"
+        "[[point]]\nvalue = 20\ncolor = \"#0000c8\"\nuntil = \"#0000c8\"\n"
+        "[[point]]\nvalue = 30\ncolor = \"#c80000\"\n"
+        "[[point]]\nvalue = 40\ncolor = \"#ffffff\"\n",
+        "t.toml");
+    ASSERT_TRUE(table) << table.error().message;
+    const auto pal = parse_pal(
+        "Product: BR\nColor: 10 0 0 0 100 100 100\nSolidColor: 20 0 0 200\n"
+        "Color: 30 200 0 0\nColor: 40 255 255 255\n",
+        "t.pal");
+    ASSERT_TRUE(pal) << pal.error().message;
+    EXPECT_EQ(table->stops, pal->stops);
+    EXPECT_EQ(colour_of(*table, 15), (Rgba8{50, 50, 50, 255}));
+    EXPECT_EQ(colour_of(*table, 29.9F), (Rgba8{0, 0, 200, 255}));
+    const auto stepped = parse_toml_colours(
+        "stepped = true\n[[point]]\nvalue = 1\ncolor = \"#000000\"\nuntil = \"#ffffff\"\n", "t");
+    ASSERT_FALSE(stepped);
+    EXPECT_EQ(stepped.error().message,
+              "t:5: [point] until: has no meaning where colors are stepped");
+}
+
 TEST(TomlColours, ASteppedTableHasClassesAndTheMomentsOpacity) {
     const auto table = parse_toml_colours(
         "moment = \"REF\"\nstepped = true\nend = 60\nrange_folded = \"#010203\"\n"

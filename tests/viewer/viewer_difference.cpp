@@ -1,10 +1,11 @@
 // Compares the volume that the page of the viewer drew with what the slicer draws of the same grid
 // with the same camera.
 //   viewer_difference GRID.scg PICTURE.ppm AZIMUTH TILT ZOOM FIELD_OF_VIEW EXAGGERATION OPACITY
-//     LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [SLICER.png]
+//     LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [--colors TABLE] [SLICER.png]
 // The picture has the volume over black. Distances are in meters. It prints the differences by
 // CIEDE2000, and how many pixels show anything in either picture; those that are black in both do
-// not count. With another name it leaves the slicer's picture there.
+// not count. TABLE is a name or a file, as `stormcellar frame --colors` takes it; without it the
+// moment has its usual colors. With another name it leaves the slicer's picture there.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -17,6 +18,7 @@
 
 #include "render/colour/built_in_tables.h"
 #include "render/colour/colour_difference.h"
+#include "render/colour/colour_file.h"
 #include "render/volume/slicer.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/render/png_file.h"
@@ -50,7 +52,7 @@ Shown shown_of(const Image& one, const Image& other) {
     return shown;
 }
 
-Image drawn(const grid::BrickView& view, level2::Moment moment,
+Image drawn(const grid::BrickView& view, const ColourTable& colours,
             const std::array<double, number_count>& numbers, int width, int height) {
     const auto [azimuth, tilt, zoom, field_of_view, exaggeration, opacity, x, y, z] = numbers;
     Camera camera;
@@ -60,8 +62,8 @@ Image drawn(const grid::BrickView& view, level2::Moment moment,
     camera.field_of_view_deg = field_of_view;
     camera.look_at = Eye{x, y, z};
     const ViewGeometry geometry(*view.spec, camera, exaggeration, width, height);
-    const VolumeSlicer slicer(smooth_colour_table(moment), view.quantization, geometry,
-                              {.opacity = opacity}, nullptr, threads);
+    const VolumeSlicer slicer(colours, view.quantization, geometry, {.opacity = opacity}, nullptr,
+                              threads);
     Image image(width, height, black);
     composite_over(slicer.draw(view, threads), image, 0, 0, threads);
     return image;
@@ -109,9 +111,14 @@ int run(int argc, char** argv) {
     std::array<double, number_count> numbers{};
     for (int i = 0; i < number_count; ++i)
         numbers[static_cast<std::size_t>(i)] = std::stod(argv[first_number + i]);
-    const Image ours =
-        drawn(file->view(), file->description().moment, numbers, page->width, page->height);
-    const int last = first_number + number_count;
+    int last = first_number + number_count;
+    Result<ColourTable> colours = smooth_colour_table(file->description().moment);
+    if (argc > last + 1 && std::string_view(argv[last]) == "--colors") {
+        colours = colours_from(argv[last + 1]);
+        last += 2;
+    }
+    if (!colours) return complain(colours.error().message);
+    const Image ours = drawn(file->view(), *colours, numbers, page->width, page->height);
     if (argc > last && !write_png(ours, argv[last])) return complain("cannot write the picture");
     const Shown shown = shown_of(*page, ours);
     if (shown.one.width == 0) return complain("both pictures are black");

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { advanced, at, followed, stepped, stopped, withTimes } from '../src/time/player';
+import { advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../src/time/player';
 
 const times = ['a', 'b', 'c', 'd'];
 
@@ -37,4 +37,20 @@ test('playback begins again after the last time, and a step ends it', () => {
     assert.equal(stepped(player, -1).isPlaying, false);
     assert.equal(stepped(player, 5).at, 3);
     assert.equal(followed(at(player, 0)).at, 3);
+});
+
+test('playback stays in its loop, and enters it from outside', () => {
+    const player = { ...looped(at(withTimes(stopped, times), 1), 'from'), isPlaying: true };
+    const closed = { ...looped(at(player, 2), 'to'), isPlaying: true };
+    assert.deepEqual(closed.loop, { from: 'b', to: 'c' });
+    assert.equal(advanced(closed, () => true).player.at, 1);
+    assert.equal(advanced({ ...closed, at: 3 }, () => true).player.at, 1);
+    assert.equal(nextOf(closed, 2), 2);
+});
+
+test('an end of a loop takes the other along, and a loop of one time does not play', () => {
+    const player = looped(at(withTimes(stopped, times), 2), 'to');
+    const later = looped(at(player, 3), 'from');
+    assert.deepEqual(later.loop, { from: 'd', to: 'd' });
+    assert.equal(nextOf(later), null);
 });

@@ -48,6 +48,6 @@ test('what makes no sense in an address is left at its usual value', () => {
 });
 
 test('the command draws the same view', () => {
-    const command = commandOf({ ...usualState, domain: 'KTLX', moment: 'REF' }, 796, 532);
+    const command = commandOf({ ...usualState, domain: 'KTLX', moment: 'REF' }, 796, 532, '');
     assert.equal(command, 'stormcellar frame KTLX --moment REF --azimuth 180 --tilt 60 --zoom 1 --field-of-view 40 --exaggeration 5 --opacity 1 --light none --width 796 --height 532 -o KTLX.png');
 });

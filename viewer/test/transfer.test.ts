@@ -93,9 +93,19 @@ test('no value below the least visible code shows', () => {
 
 test('values below the least that is shown are clear, the others as they were', () => {
     const above = makeTransfer(stepped, quantization, { opacity, least: 10 }, stepM);
-    const [weak, strong] = [binOf(codeOf(8)), binOf(codeOf(12))];
-    assert.deepEqual([...above.entries.subarray(4 * weak * (binCount + 1), 4 * weak * (binCount + 1) + 4)], [0, 0, 0, 0]);
-    assert.deepEqual([...above.entries.subarray(4 * strong * (binCount + 1), 4 * strong * (binCount + 1) + 4)], entry(strong, strong));
+    const bins = chooseBins(stepped, 10);
+    assert.equal(bins.lowest, 10, 'the bins are those of a table that begins there');
+    const look = (value: number) => {
+        const bin = Math.min(255, Math.max(0, Math.floor(above.binOffset + above.binSlope * codeOf(value))));
+        return [...above.entries.subarray(4 * bin * (binCount + 1), 4 * bin * (binCount + 1) + 4)];
+    };
+    assert.deepEqual(look(8), [0, 0, 0, 0]);
+    assert.deepEqual(look(9.5), [0, 0, 0, 0]);
+    for (const value of [10, 12, 25]) {
+        assert.deepEqual(look(value).slice(0, 3), entry(binOf(codeOf(value)), binOf(codeOf(value))).slice(0, 3));
+        const depth = extinctionPerM(stepped, value + 0.5 * bins.width, opacity) * stepM;
+        assert(Math.abs(look(value)[3]! / depth - 1) < 0.01, `${value}`);
+    }
     assert(above.leastVisibleCode > made.leastVisibleCode);
-    assert.equal(makeTransfer(stepped, quantization, { opacity, least: 1000 }, stepM).leastVisibleCode, Infinity);
+    assert(makeTransfer(stepped, quantization, { opacity, least: 1000 }, stepM).leastVisibleCode >= codeOf(1000));
 });

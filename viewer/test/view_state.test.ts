@@ -34,7 +34,7 @@ test('an empty address is the usual view', () => {
 });
 
 test('the command names what stormcellar frame knows', () => {
-    const command = commandOf({ ...chosen, domain: 'KLBB' }, 796, 532);
+    const command = commandOf({ ...chosen, domain: 'KLBB' }, 796, 532, 'safe-velocity');
     for (const part of ['stormcellar frame KLBB', '--moment VEL', '--azimuth 217.25', '--tilt 71.5', '--zoom 3.5', '--field-of-view 0', '--look-at-km 12.345,-6.789,4', '--exaggeration 2.5', '--opacity 1.8', '--colors safe-velocity', '--width 796', '--height 532'])
         assert(command.includes(part), `${part} in ${command}`);
 });

@@ -5,17 +5,23 @@ import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../renderer/renderer';
 import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
-import { PlayerState, advanced, at, followed, stepped, stopped, withTimes } from '../time/player';
-import { ApiError, Domain, Tables, domains, tables, times } from '../wire/api';
+import { instantsBetween } from '../time/between';
+import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../time/player';
+import { Units, namesOf } from '../tables/units';
+import { ApiError, Domain, domains, tables, times } from '../wire/api';
 import { element } from './dom';
 import { Loader } from './loader';
+import { rememberUnits, rememberedUnits } from './remembered';
+import { TableBook } from './table_book';
 import { texts } from './texts';
 
-const msAFrame = 250; // of playback
+const soonTimes = 500; // of a domain, before all others
+const mostTimes = 10000; // that the server tells at once
+const loadedAhead = 3;
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
-// where; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'time' | 'restored';
+// where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
+export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored';
 
 export interface Shown {
     key: string;
@@ -25,12 +31,21 @@ export interface Shown {
     time: string;
 }
 
+// What an address does not say of units is as the user had it last.
+function stateOfAddress(): ViewState {
+    const state = stateOf(location.hash);
+    return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
+}
+
 export class App {
-    state: ViewState = stateOf(location.hash);
+    state: ViewState = stateOfAddress();
     domains: Domain[] = [];
-    tables: Tables = { tables: [], usual: {} };
+    book: TableBook | null = null; // once the server has told its tables
     player: PlayerState = { ...stopped, follows: this.state.time === 'latest' };
     shown: Shown | null = null;
+    framesASecond = 4; // of playback
+    private stored: string[] = []; // times of the domain's grids
+    private missing = new Set<string>(); // instants between them for which there is no frame
     private heard = new Map<Happening, (() => void)[]>();
 
     constructor(readonly loader: Loader) {}
@@ -42,7 +57,9 @@ export class App {
         for (const action of this.heard.get(happening) ?? []) action();
     }
 
-    say(text: string): void {
+    // Screen readers read news aloud, and not what is said of each picture.
+    say(text: string, isNews = true): void {
+        element('state').setAttribute('aria-live', isNews ? 'polite' : 'off');
         element('state').textContent = text;
         document.documentElement.dataset['state'] = text;
     }
@@ -54,8 +71,7 @@ export class App {
     // -- the view
 
     get table(): ColorTable | undefined {
-        const own = this.tables.tables.find(table => table.name === this.state.colors && table.moment === this.state.moment);
-        return own ?? this.tables.tables.find(table => table.name === this.tables.usual[this.state.moment]);
+        return this.book?.of(this.state, this.state.moment);
     }
     get unit(): string {
         return this.domain?.moments.find(one => one.moment === this.state.moment)?.units ?? '';
@@ -65,6 +81,12 @@ export class App {
     changed(): void {
         this.remember();
         this.tell('view');
+    }
+    useUnits(units: Units): void {
+        this.state.units = units;
+        rememberUnits(units);
+        this.tell('units');
+        this.changed();
     }
     moved(camera: Camera): void {
         this.state.camera = camera;
@@ -77,9 +99,10 @@ export class App {
 
     // The address was changed by hand, or by going back.
     takeAddress(): void {
-        const next = stateOf(location.hash);
+        const next = stateOfAddress();
         if (addressOf(next) === addressOf(this.state)) return;
         this.state = next;
+        this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
         void this.choose(next.domain, next.moment);
     }
@@ -87,7 +110,8 @@ export class App {
     // -- what is shown
 
     async begin(): Promise<void> {
-        [, this.tables] = await Promise.all([this.findDomains(), tables()]);
+        const [, known] = await Promise.all([this.findDomains(), tables()]);
+        this.book = new TableBook(known);
         if (this.domains.length === 0) return this.say(texts.noGrids);
         await this.choose(this.state.domain, this.state.moment);
     }
@@ -103,6 +127,7 @@ export class App {
     async chooseDomain(domain: string): Promise<void> {
         this.player = { ...stopped };
         this.state.camera = { ...this.state.camera, lookAtM: null, zoom: 1 };
+        this.state.layers = { ...this.state.layers, section: null, crop: null };
         await this.choose(domain, this.state.moment);
     }
 
@@ -113,17 +138,51 @@ export class App {
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
         this.tell('choices');
         this.say(texts.loading);
+        this.missing.clear();
         try {
-            this.player = withTimes({ ...this.player, times: [], at: -1 }, await times(this.state.domain, this.state.moment));
-            if (!this.player.follows) {
-                const wanted = Date.parse(this.state.time);
-                const index = this.player.times.findIndex(time => Date.parse(time) >= wanted);
-                this.player = { ...this.player, at: index < 0 ? this.player.times.length - 1 : index };
-            }
+            const soon = await times(this.state.domain, this.state.moment, soonTimes);
+            this.player = { ...this.player, times: [], at: -1 };
+            this.takeTimes(soon.times);
+            if (!this.player.follows) this.findTime(this.state.time);
             await this.showTime();
+            if (soon.more) await this.findOlder();
         } catch (error) {
             this.fail(error);
         }
+    }
+
+    private takeTimes(stored: string[]): void {
+        this.stored = stored;
+        const { betweenS } = this.state;
+        this.player = withTimes(this.player, betweenS > 0 ? instantsBetween(stored, betweenS, this.missing) : stored);
+    }
+    // The first time that is not before the wanted one.
+    private findTime(wanted: string): void {
+        const index = this.player.times.findIndex(time => Date.parse(time) >= Date.parse(wanted));
+        this.player = { ...this.player, at: index < 0 ? this.player.times.length - 1 : index };
+    }
+    // The timeline has every grid; the older ones come after the first picture.
+    private async findOlder(): Promise<void> {
+        const { domain, moment } = this.state;
+        for (let more = true; more; ) {
+            const older = await times(domain, moment, mostTimes, this.stored[0]);
+            if (domain !== this.state.domain || moment !== this.state.moment) return;
+            more = older.more && older.times.length > 1;
+            this.takeTimes([...older.times.filter(time => time < this.stored[0]!), ...this.stored]);
+            this.tell('time');
+        }
+    }
+
+    isBetween(time: string): boolean {
+        return this.state.betweenS > 0 && !this.stored.includes(time);
+    }
+    // Frames between volumes every so many seconds; 0: the volumes alone.
+    async setBetween(seconds: number): Promise<void> {
+        const shown = this.player.times[this.player.at];
+        this.state.betweenS = seconds;
+        this.takeTimes(this.stored);
+        if (shown !== undefined && !this.player.follows) this.findTime(shown);
+        await this.showTime();
     }
 
     private async showTime(): Promise<void> {
@@ -132,12 +191,24 @@ export class App {
         if (time === undefined) return this.say(texts.notFound);
         const { domain, moment } = this.state;
         try {
-            const loaded = await this.loader.load(domain, moment, time);
+            const loaded = await this.load(time);
             if (this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain) return;
             this.take({ key: Loader.key(domain, moment, time), loaded, domain, moment, time });
         } catch (error) {
-            this.fail(error);
+            if (!this.leaveOut(time, error)) return this.fail(error);
+            if (this.player.times[this.player.at] !== undefined) await this.showTime();
         }
+    }
+    private load(time: string): Promise<LoadedGrid> {
+        return this.loader.load(this.state.domain, this.state.moment, time, this.isBetween(time));
+    }
+    // Near the ends and in gaps there is no frame between volumes: the instant leaves the timeline.
+    private leaveOut(time: string, error: unknown): boolean {
+        if (!this.isBetween(time) || !(error instanceof ApiError) || error.status !== 404 || this.missing.has(time)) return false;
+        this.missing.add(time);
+        this.takeTimes(this.stored);
+        this.tell('time');
+        return true;
     }
 
     private take(shown: Shown): void {
@@ -157,11 +228,13 @@ export class App {
 
     // The neighbors in time, so that a step shows at once.
     private loadAhead(): void {
-        const { times: all, at: now } = this.player;
-        const next = this.player.isPlaying ? [1, 2, 3] : [1, -1];
-        for (const by of next) {
-            const time = all[(now + by + all.length) % all.length];
-            if (time !== undefined && all.length > 1) this.loader.load(this.state.domain, this.state.moment, time).catch(() => undefined);
+        const { times: all, at: now, isPlaying } = this.player;
+        const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(this.player, i + 1)) : [now + 1, now - 1];
+        for (const index of next) {
+            const time = all[index ?? -1];
+            // What is made on request is not made in vain.
+            if (time === undefined || (this.isBetween(time) && !isPlaying)) continue;
+            this.load(time).catch(error => this.leaveOut(time, error));
         }
     }
 
@@ -192,12 +265,17 @@ export class App {
         const { player, waitsFor } = advanced(this.player, time => this.loader.has(Loader.key(domain, moment, time)));
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
-            this.loader.load(domain, moment, waitsFor).catch(error => this.fail(error));
+            this.load(waitsFor).catch(error => this.leaveOut(waitsFor, error) || this.fail(error));
         } else if (player !== this.player) {
             this.player = player;
             void this.showTime();
         }
-        window.setTimeout(() => this.tick(), msAFrame);
+        window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
+    }
+    // Playback stays in a part of the times: one of its ends is now; none: in all.
+    setLoop(end: 'from' | 'to' | null): void {
+        this.player = end ? looped(this.player, end) : { ...this.player, loop: null };
+        this.tell('time');
     }
 
     // The server has other times now; `changedTime` is that of a grid that was made again.
@@ -210,7 +288,8 @@ export class App {
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         if (changedTime) this.loader.forget(Loader.key(domain, moment, changedTime));
         const before = this.player.times[this.player.at];
-        this.player = withTimes(this.player, await times(domain, moment));
+        const newest = (await times(domain, moment, soonTimes)).times;
+        this.takeTimes([...this.stored.filter(time => newest.length === 0 || time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
         if (now !== before || now === changedTime) await this.showTime();
         else this.tell('time');

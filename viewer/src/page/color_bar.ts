@@ -1,40 +1,48 @@
 // The colors with their values, beside the picture.
 
 import { ColorTable, colorOf } from '../tables/color_table';
+import { ShownUnit } from '../tables/units';
 import { shades } from '../renderer/shades';
+import { fontOf, textScale } from './dom';
+import { haloed } from './labels';
 
-function stepOf(range: number): number {
+// The distance between marks of an axis, so that there are about eight.
+export function stepOf(range: number): number {
     const rough = range / 8;
     const power = 10 ** Math.floor(Math.log10(rough));
     return ([1, 2, 5, 10].find(step => step * power >= rough) ?? 10) * power;
 }
 
-export function drawColorBar(canvas: HTMLCanvasElement, table: ColorTable, unit: string, least: number | null): void {
+export function drawColorBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, least: number | null): void {
     const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
+    canvas.width = Math.round(canvas.clientWidth * ratio);
+    canvas.height = Math.round(canvas.clientHeight * ratio);
     const pen = canvas.getContext('2d')!;
-    pen.scale(ratio, ratio);
+    const scale = textScale();
+    pen.scale(ratio * scale, ratio * scale);
+    const height = canvas.clientHeight / scale;
     const [low, high] = [table.bar_begin, table.end];
     const [top, bottom] = [22, height - 8];
     const yOf = (value: number) => bottom - ((value - low) / (high - low)) * (bottom - top);
-    for (let y = top; y < bottom; ++y) {
-        const value = low + ((bottom - y - 0.5) / (bottom - top)) * (high - low);
+    const row = 1 / scale;
+    for (let y = top; y < bottom; y += row) {
+        const value = low + ((bottom - y - 0.5 * row) / (bottom - top)) * (high - low);
         const color = colorOf(table, value);
         if (!color) continue;
         const isHidden = least !== null && value < least;
         pen.fillStyle = `rgba(${color[0]}, ${color[1]}, ${color[2]}, ${isHidden ? 0.15 : 1})`;
-        pen.fillRect(0, y, 14, 1);
+        pen.fillRect(0, y, 14, row);
     }
-    pen.font = '12px "DejaVu Sans", system-ui, sans-serif';
+    pen.font = fontOf(12);
     pen.textBaseline = 'middle';
-    pen.fillStyle = shades.text;
-    pen.fillText(unit, 0, 10);
-    const step = stepOf(high - low);
-    for (let value = Math.ceil(low / step) * step; value <= high + 1e-9; value += step) {
+    haloed(pen, unit.symbol, 2, 10, shades.text);
+    // Marks are at round numbers of the shown unit.
+    const [from, to] = [low * unit.perStored, high * unit.perStored];
+    const step = stepOf(to - from);
+    for (let number = Math.ceil(from / step) * step; number <= to + 1e-9; number += step) {
+        const y = yOf(number / unit.perStored);
         pen.fillStyle = shades.quietText;
-        pen.fillRect(14, yOf(value) - 0.5, 4, 1);
-        pen.fillText(String(Number(value.toFixed(3))), 21, yOf(value));
+        pen.fillRect(14, y - 0.5, 4, 1);
+        haloed(pen, String(Number(number.toFixed(3))), 21, y, shades.text);
     }
 }

@@ -2,10 +2,12 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { Renderer } from '../renderer/renderer';
+import { shownUnit } from '../tables/units';
 import { App } from './app';
 import { drawColorBar } from './color_bar';
-import { element } from './dom';
+import { element, textScale } from './dom';
 import { Ground } from './ground';
+import { LayerMaker } from './layer_maker';
 import { clearLabels, drawLabels } from './labels';
 import { boxOf } from './reading';
 import { texts } from './texts';
@@ -22,6 +24,7 @@ export class Drawing {
     readonly labels = element<HTMLCanvasElement>('labels');
     readonly renderer = new Renderer(this.picture);
     private overlays: Overlay[] = [];
+    layers: LayerMaker | null = null;
     private ground: Ground | null = null;
     private app: App | null = null;
     private movedAt = 0;
@@ -32,9 +35,13 @@ export class Drawing {
         this.app = app;
         this.renderer.prepare();
         this.ground = new Ground(app, this.renderer, () => this.draw());
+        this.layers = new LayerMaker(app, () => this.draw());
         app.on('shown', () => {
             this.renderer.show(app.shown!.loaded);
             void this.ground!.show(app.shown!);
+        });
+        app.on('units', () => {
+            if (app.shown) void this.ground!.show(app.shown);
         });
         app.on('view', () => this.draw());
         app.on('camera', () => this.move());
@@ -88,20 +95,23 @@ export class Drawing {
             opacity: state.opacity,
             table,
             leastValue: state.least ?? -1e9,
-            hasVolume: true,
+            hasVolume: state.layers.hasVolume,
             hasGround: state.hasGround,
+            layers: this.layers!.make(),
+            keepsExposure: isMoving,
         });
         this.renderer.finish();
         const ms = Math.round(performance.now() - begun);
         this.drawOver(geometry);
-        drawColorBar(element<HTMLCanvasElement>('bar'), table, table.unit, state.least);
+        drawColorBar(element<HTMLCanvasElement>('bar'), table, shownUnit(table.unit, state.units), state.least);
         document.documentElement.dataset['frameMs'] = String(ms);
         if (isMoving) {
             window.setTimeout(() => this.draw(), stillAfterMs);
-        } else if (!this.isFinal) {
+        } else if (!this.isFinal && !this.layers!.isWaiting) {
             this.isFinal = true;
-            app.say(texts.steps(slices, ms));
+            app.say(texts.steps(slices, ms), false);
             document.documentElement.dataset['drawn'] = shown.key;
+            document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
         }
     }
 
@@ -110,14 +120,20 @@ export class Drawing {
             this.labels.width = geometry.width;
             this.labels.height = geometry.height;
         }
+        const scale = textScale();
         const taken = [...document.querySelectorAll('header, footer, section, #bar')]
             .map(one => one.getBoundingClientRect())
             .filter(rect => rect.width > 0)
-            .map(rect => ({ left: rect.left, top: rect.top, right: rect.right, bottom: rect.bottom }));
+            .map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale }));
         const pen = this.labels.getContext('2d')!;
         const ratio = window.devicePixelRatio || 1;
         clearLabels(pen, ratio);
-        if (this.app!.state.hasGround) drawLabels(pen, geometry, this.ground!.marks, taken, ratio);
+        if (this.app!.state.hasGround) {
+            pen.save();
+            pen.scale(scale, scale);
+            drawLabels(pen, geometry, this.ground!.marks, taken, ratio * scale);
+            pen.restore();
+        }
         for (const overlay of this.overlays) {
             pen.save();
             overlay(pen, geometry);

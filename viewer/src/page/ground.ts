@@ -42,7 +42,8 @@ export class Ground {
 
     async show({ domain, loaded }: Shown): Promise<void> {
         const { grid } = loaded;
-        const key = `${domain} ${grid.nx} ${grid.ny} ${grid.spacing} ${grid.centerDeg.join()} ${grid.offsetCells.join()}`;
+        const { units } = this.app.state;
+        const key = `${domain} ${grid.nx} ${grid.ny} ${grid.spacing} ${grid.centerDeg.join()} ${grid.offsetCells.join()} ${units.distance.name}`;
         if (this.mapOf === key) return;
         this.mapOf = key;
         const plane = planeOf(grid);
@@ -50,7 +51,7 @@ export class Ground {
         // Without a map the grid alone is shown.
         const found = await mapAround(grid).catch(() => ({ credit: '', lines: [], cities: [] }));
         if (this.mapOf !== key || this.app.state.domain !== domain) return;
-        const rings = ringLines(grid.sites, plane, halfXM, halfYM);
+        const rings = ringLines(grid.sites, plane, halfXM, halfYM, units);
         this.renderer.showLines([...mapLines(found, plane, Math.max(halfXM, halfYM)), ...rings.lines]);
         this.marks = [...rings.marks, ...cityMarks(found.cities, plane, halfXM, halfYM)];
         this.redraw();

@@ -37,8 +37,12 @@ export class Keys {
         this.actions.set(name, known ? () => (known(), action()) : action);
     }
 
+    // While no control has the keyboard, the picture has it: also before anything was clicked. Letters do nothing
+    // elsewhere, where they would be in the way of what is typed.
     begin(): void {
-        this.drawing.picture.addEventListener('keydown', event => this.press(event));
+        document.addEventListener('keydown', event => {
+            if (event.target === this.drawing.picture || event.target === document.body) this.press(event);
+        });
     }
 
     look(view: NamedView): void {

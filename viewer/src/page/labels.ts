@@ -3,6 +3,7 @@
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
 import { Mark } from '../scene/ground_lines';
+import { fontOf } from './dom';
 
 interface Rect {
     left: number;
@@ -13,7 +14,7 @@ interface Rect {
 
 const overlaps = (a: Rect, b: Rect): boolean => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
-function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y: number, color: string): void {
+export function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y: number, color: string): void {
     pen.lineJoin = 'round';
     pen.lineWidth = 3.5;
     pen.strokeStyle = shades.halo;
@@ -28,7 +29,8 @@ export function clearLabels(pen: CanvasRenderingContext2D, pixelRatio: number): 
     pen.scale(pixelRatio, pixelRatio);
 }
 
-// `taken` are parts of the picture that the page covers.
+// `taken` are parts of the picture that the page covers, in the pen's pixels, of which each is `pixelRatio` of the
+// picture's.
 export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry, marks: Mark[], taken: Rect[], pixelRatio: number): void {
     const { width, height } = geometry;
     const full = [...taken];
@@ -40,7 +42,7 @@ export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry
         if (!pixel) continue;
         const [x, y] = [pixel[0] / pixelRatio, pixel[1] / pixelRatio];
         if (x < 4 || y < 4 || x > width / pixelRatio - 4 || y > height / pixelRatio - 4) continue;
-        pen.font = mark.kind === 'site' ? 'bold 13px "DejaVu Sans", system-ui, sans-serif' : '12px "DejaVu Sans", system-ui, sans-serif';
+        pen.font = mark.kind === 'site' ? fontOf(13, 'bold') : fontOf(12);
         pen.textBaseline = 'middle';
         const wide = pen.measureText(mark.text).width;
         const left = mark.kind === 'ring' ? x - wide / 2 : x + 7;

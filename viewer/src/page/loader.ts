@@ -2,7 +2,7 @@
 
 import { AtlasAnswer, AtlasRequest } from '../atlas/worker';
 import { LoadedGrid } from '../renderer/renderer';
-import { packed } from '../wire/api';
+import { packed, packedBetween } from '../wire/api';
 
 const mostBytes = 256 * 2 ** 20;
 
@@ -45,20 +45,20 @@ export class Loader {
         this.kept.delete(key);
     }
 
-    load(domain: string, moment: string, time: string): Promise<LoadedGrid> {
+    load(domain: string, moment: string, time: string, isBetween = false): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
         const kept = this.find(key);
         if (kept) return Promise.resolve(kept);
         let loading = this.loading.get(key);
         if (!loading) {
-            loading = this.decode(domain, moment, time).finally(() => this.loading.delete(key));
+            loading = this.decode(domain, moment, time, isBetween).finally(() => this.loading.delete(key));
             this.loading.set(key, loading);
         }
         return loading;
     }
 
-    private async decode(domain: string, moment: string, time: string): Promise<LoadedGrid> {
-        const bytes = await packed(domain, moment, time);
+    private async decode(domain: string, moment: string, time: string, isBetween: boolean): Promise<LoadedGrid> {
+        const bytes = await (isBetween ? packedBetween : packed)(domain, moment, time);
         const request: AtlasRequest = { number: ++this.count, bytes, mostTexels: this.mostTexels };
         const answer = await new Promise<AtlasAnswer>(resolve => {
             this.waiting.set(request.number, resolve);

@@ -7,11 +7,15 @@ import { Keys } from './keys';
 import { hear } from './live';
 import { Loader } from './loader';
 import { addChoices } from './panels/choices';
+import { Editor } from './panels/editor';
+import { LayersPanel } from './panels/layers';
 import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
 import { addTimeline } from './panels/timeline';
+import { addUnits } from './panels/units';
 import { Pointers } from './pointers';
+import { TableEditing } from './table_editing';
 import { texts } from './texts';
 
 async function begin(): Promise<void> {
@@ -20,12 +24,16 @@ async function begin(): Promise<void> {
     drawing.begin(app);
     const keys = new Keys(app, drawing);
     const reader = new Reader(app, drawing);
+    const editing = new TableEditing(app);
     const pointers = new Pointers(app, drawing, reader);
     addChoices(app);
-    addLook(app, drawing, keys);
-    addTimeline(app);
-    addShare(app, drawing);
+    addLook(app, drawing, keys, editing);
+    addTimeline(app, keys);
+    addUnits(app);
+    addShare(app, drawing, editing);
     reader.begin(keys);
+    new LayersPanel(app, drawing, pointers).begin(keys);
+    new Editor(app, drawing, editing).begin(keys);
     keys.add('Escape', () => pointers.use(null));
     pointers.begin();
     keys.begin();

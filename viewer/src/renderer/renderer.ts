@@ -3,10 +3,16 @@
 
 import { Atlas } from '../atlas/atlas';
 import { Box, ViewGeometry, heightRange } from '../camera/geometry';
+import { Air } from '../fields/air';
+import { croppedBox } from '../scene/layers';
 import { cellSizeM } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { Transfer, makeTransfer } from '../tables/transfer';
 import { PackedGrid } from '../wire/packed_grid';
+import { Exposure } from './exposure';
+import { Graphics } from './graphics';
+import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
+import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
 import { VolumeVariant, fullScreenVertex, groundFragment, lineFragment, lineVertex, variantName, volumeFragment } from './shaders';
 import { shades } from './shades';
 
@@ -30,6 +36,8 @@ export interface Frame {
     leastValue: number; // weaker echo is not shown
     hasVolume: boolean;
     hasGround: boolean;
+    layers?: DrawnLayers | null;
+    keepsExposure?: boolean; // the light is that of the last picture
 }
 
 // What a transfer function is made of, beside the step.
@@ -52,15 +60,20 @@ interface UploadedLines {
 
 const lineWidths: Record<MapLines['kind'], number> = { county: 0.7, state: 1.3, lake: 1, country: 1.6, coast: 1.3, ring: 1, border: 1 };
 const levelTexels = 1024;
+// No program reads from it, so that an upload changes nothing that is bound.
+const unitOfUploads = 15;
 // A table is made for steps of one length. For steps nearly as long its depths are scaled while the
 // camera moves.
 const mostStretch = 1.25;
 
-export class Renderer {
-    private gl: WebGL2RenderingContext;
+export class Renderer implements Graphics {
+    readonly gl: WebGL2RenderingContext;
     private programs = new Map<string, WebGLProgram>();
     private begun = new Map<string, WebGLProgram>(); // their compilation was not waited for yet
     private uploaded: Uploaded | null = null;
+    private other: Uploaded | null = null; // whose surface the shown one colors
+    private passes: LayerPasses;
+    private exposure: Exposure;
     private lines: UploadedLines[] = [];
     private transferTexture: WebGLTexture | null = null;
     private transfer: { made: Transfer; stepM: number; key: TransferKey } | null = null;
@@ -69,6 +82,8 @@ export class Renderer {
         const gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true, alpha: false });
         if (!gl) throw new Error('webgl2');
         this.gl = gl;
+        this.passes = new LayerPasses(this);
+        this.exposure = new Exposure(gl);
         canvas.addEventListener('webglcontextlost', event => event.preventDefault());
     }
 
@@ -83,7 +98,9 @@ export class Renderer {
     forget(): void {
         this.programs.clear();
         this.begun.clear();
-        this.uploaded = null;
+        this.uploaded = this.other = null;
+        this.passes.forget();
+        this.exposure.forget();
         this.lines = [];
         this.transferTexture = null;
         this.transfer = null;
@@ -106,7 +123,7 @@ export class Renderer {
         return program;
     }
 
-    private program(name: string, vertex: string, fragment: string): WebGLProgram {
+    program(name: string, vertex: string, fragment: string): WebGLProgram {
         const known = this.programs.get(name);
         if (known) return known;
         const gl = this.gl;
@@ -119,9 +136,10 @@ export class Renderer {
         return program;
     }
 
-    private texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView, filter: number): WebGLTexture {
+    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView, filter: number): WebGLTexture {
         const gl = this.gl;
         const texture = gl.createTexture()!;
+        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
         gl.bindTexture(gl.TEXTURE_3D, texture);
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
         const type = data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_BYTE;
@@ -131,9 +149,10 @@ export class Renderer {
         return texture;
     }
 
-    private texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture {
+    texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture {
         const gl = this.gl;
         const texture = gl.createTexture()!;
+        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
         gl.bindTexture(gl.TEXTURE_2D, texture);
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
         gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
@@ -143,14 +162,21 @@ export class Renderer {
     }
 
     show(loaded: LoadedGrid): void {
+        this.release(this.uploaded);
+        this.uploaded = this.upload(loaded);
+    }
+
+    private release(uploaded: Uploaded | null): void {
+        if (!uploaded) return;
+        for (const texture of [uploaded.atlas, uploaded.indirection, uploaded.coverage, uploaded.levels]) this.gl.deleteTexture(texture);
+    }
+
+    private upload(loaded: LoadedGrid): Uploaded {
         const gl = this.gl;
-        if (this.uploaded) {
-            for (const texture of [this.uploaded.atlas, this.uploaded.indirection, this.uploaded.coverage, this.uploaded.levels]) gl.deleteTexture(texture);
-        }
         const { atlas, grid, coverage } = loaded;
         const heights = heightRange(grid.levelsM);
         const range: [number, number] = [heights.bottomM, heights.topM];
-        this.uploaded = {
+        return {
             loaded,
             atlas: this.texture3d(gl.RG8, gl.RG, atlas.size, atlas.texels, gl.LINEAR),
             indirection: this.texture3d(gl.R32UI, gl.RED_INTEGER, atlas.bricks, atlas.indirection, gl.NEAREST),
@@ -189,7 +215,7 @@ export class Renderer {
         });
     }
 
-    private use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null {
+    use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null {
         const gl = this.gl;
         gl.useProgram(program);
         const at = (name: string) => gl.getUniformLocation(program, name);
@@ -202,7 +228,7 @@ export class Renderer {
         return at;
     }
 
-    private bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void {
+    bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void {
         this.gl.activeTexture(this.gl.TEXTURE0 + unit);
         this.gl.bindTexture(target, texture);
         this.gl.uniform1i(at, unit);
@@ -215,24 +241,40 @@ export class Renderer {
             this.canvas.width = geometry.width;
             this.canvas.height = geometry.height;
         }
+        const layers = frame.layers ?? null;
+        const isSolid = layers !== null && this.uploaded !== null && hasSolids(layers);
+        if (isSolid) this.passes.drawSolids(geometry, layers, () => this.drawSurface(frame, layers, layers.surface!));
         gl.viewport(0, 0, geometry.width, geometry.height);
         gl.disable(gl.BLEND);
         gl.clearColor(frame.hasGround ? shades.page[0] / 255 : 0, frame.hasGround ? shades.page[1] / 255 : 0, frame.hasGround ? shades.page[2] / 255 : 0, 1);
         gl.clear(gl.COLOR_BUFFER_BIT);
         if (!this.uploaded) return;
         if (frame.hasGround) {
-            this.drawGround(geometry);
-            gl.enable(gl.BLEND);
-            gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-            this.drawLines(geometry);
+            this.drawGround(geometry, layers?.hasHaze ?? false);
         }
-        if (!frame.hasVolume) return;
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-        this.drawVolume(frame);
+        if (layers?.maximum) this.passes.drawMaximum(geometry, layers, layers.maximum);
+        if (frame.hasGround) this.drawLines(geometry);
+        if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, layers, layers.air);
+        if (isSolid) this.passes.showSolids(geometry);
+        if (!frame.hasVolume) return;
+        if (layers?.falls && !frame.keepsExposure) this.measureLight(frame);
+        gl.enable(gl.BLEND);
+        this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
     }
 
-    private drawGround(geometry: ViewGeometry): void {
+    // The exposure by which the lit echo is as light as without light, from every fifth pixel.
+    private measureLight(frame: Frame): void {
+        const { gl } = this;
+        this.exposure.measure(frame.geometry, () => {
+            gl.disable(gl.BLEND);
+            this.drawVolume(frame, { isLit: true, measuresLight: true });
+        });
+        gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
+    }
+
+    private drawGround(geometry: ViewGeometry, hasHaze: boolean): void {
         const gl = this.gl;
         const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
         const at = this.use(this.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)), geometry);
@@ -241,6 +283,8 @@ export class Renderer {
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
         for (const uniform of ['page', 'beyond', 'notSeen', 'seenAloft', 'seen', 'hatch'] as const) color(uniform, shades[uniform]);
+        // Haze says from how low the air was seen.
+        if (hasHaze) color('seenAloft', shades.seen);
         gl.uniform1f(at('hatchScale'), 1);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
@@ -278,21 +322,14 @@ export class Renderer {
         return { made: now!.made, scale: stretch };
     }
 
-    private drawVolume(frame: Frame): void {
+    // Tells a program where the cells of a grid are, and how its rays step.
+    private bindGrid({ loaded, atlas, indirection, levels, levelRange }: Uploaded, frame: Frame, at: (name: string) => WebGLUniformLocation | null): void {
         const gl = this.gl;
-        const { geometry } = frame;
-        const { loaded, atlas, indirection, levels, levelRange } = this.uploaded!;
         const { grid } = loaded;
-        if (loaded.atlas.brickCount === 0) return;
-        const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null };
-        const at = this.use(this.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
-        const stepM = (geometry.farM - geometry.nearM) / frame.slices;
-        const { made, scale } = this.transferFor(frame, grid, stepM);
-        const { box, exaggeration } = geometry;
+        const { box, exaggeration, nearM, farM } = frame.geometry;
         const [cellWidth, cellHeight] = cellSizeM(grid);
         this.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
         this.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
-        this.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
         if (levels) {
             this.bind(3, gl.TEXTURE_2D, levels, at('levels'));
             gl.uniform2f(at('levelRange'), levelRange[0] * exaggeration, levelRange[1] * exaggeration);
@@ -300,21 +337,90 @@ export class Renderer {
             const spacing = grid.nz > 1 ? grid.levelsM[1]! - grid.levelsM[0]! : 1;
             gl.uniform2f(at('levelLine'), -grid.levelsM[0]! / spacing, 1 / (spacing * exaggeration));
         }
-        gl.uniform3f(at('boxLow'), -box.halfXM, -box.halfYM, box.bottomM * exaggeration);
-        gl.uniform3f(at('boxHigh'), box.halfXM, box.halfYM, box.topM * exaggeration);
+        const whole = { westM: -box.halfXM, eastM: box.halfXM, southM: -box.halfYM, northM: box.halfYM, bottomM: box.bottomM, topM: box.topM };
+        const inside = croppedBox(whole, frame.layers?.crop ?? null);
+        gl.uniform3f(at('boxLow'), inside.westM, inside.southM, inside.bottomM * exaggeration);
+        gl.uniform3f(at('boxHigh'), inside.eastM, inside.northM, inside.topM * exaggeration);
         gl.uniform1fv(at('brickHeights'), brickHeights(grid, box, exaggeration));
         gl.uniform3f(at('cells'), grid.nx, grid.ny, grid.nz);
         gl.uniform2f(at('cellSize'), cellWidth, cellHeight);
         gl.uniform3iv(at('slots'), loaded.atlas.slots);
         gl.uniform3fv(at('atlasSize'), loaded.atlas.size);
+        gl.uniform1f(at('near'), nearM);
+        gl.uniform1f(at('stepM'), (farM - nearM) / frame.slices);
+        gl.uniform1f(at('slices'), frame.slices);
+    }
+
+    private drawVolume(frame: Frame, wanted: Pick<VolumeVariant, 'endsAtSolids' | 'isLit' | 'measuresLight'>): void {
+        const gl = this.gl;
+        const { geometry, layers } = frame;
+        const { loaded, levels } = this.uploaded!;
+        const { grid } = loaded;
+        if (loaded.atlas.brickCount === 0) return;
+        const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null, ...wanted };
+        const at = this.use(this.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
+        const { made, scale } = this.transferFor(frame, grid, (geometry.farM - geometry.nearM) / frame.slices);
+        if (made.leastVisibleCode === Infinity) return;
+        this.bindGrid(this.uploaded!, frame, at);
+        this.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
         const { codeScale, codeOffset } = loaded.atlas;
         gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
-        if (made.leastVisibleCode === Infinity) return;
         gl.uniform1ui(at('leastShown'), Math.min(255, Math.max(1, Math.floor((made.leastVisibleCode - codeOffset) / codeScale))));
-        gl.uniform1f(at('near'), geometry.nearM);
-        gl.uniform1f(at('stepM'), stepM);
-        gl.uniform1f(at('slices'), frame.slices);
         gl.uniform1f(at('depthScale'), scale);
+        if (variant.endsAtSolids) this.passes.bindSolidDepth(4, at, geometry);
+        if (variant.isLit) {
+            this.passes.bindLight(5, layers!.falls!, geometry, cellSizeM(grid), levelSpacingM(grid), at);
+            gl.uniform1f(at('exposure'), this.exposure.value);
+        }
+        if (variant.measuresLight) this.exposure.shrink(geometry, at);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    private drawAir(frame: Frame, layers: DrawnLayers, air: Air): void {
+        const { geometry } = frame;
+        const variant: AirVariant = {
+            isPerspective: geometry.isPerspective,
+            hasUnevenLevels: this.uploaded!.levels !== null,
+            hasHaze: layers.hasHaze,
+            hasFolded: layers.hasFolded,
+        };
+        const at = this.use(this.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
+        this.bindGrid(this.uploaded!, frame, at);
+        this.passes.bindAir(4, air, layers, at);
+        this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
+    }
+
+    private drawSurface(frame: Frame, layers: DrawnLayers, { value, isBelow, of }: DrawnSurface): void {
+        const gl = this.gl;
+        const { geometry } = frame;
+        const shown = this.uploaded!;
+        if (of && this.other?.loaded !== of) {
+            this.release(this.other);
+            this.other = this.upload(of);
+        }
+        const surface = of ? this.other! : shown;
+        if (surface.loaded.atlas.brickCount === 0) return;
+        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, isBelow, hasOther: of !== null };
+        const at = this.use(this.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
+        this.bindGrid(surface, frame, at);
+        const { grid, atlas } = surface.loaded;
+        const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;
+        gl.uniform1f(at('chosen'), chosen);
+        gl.uniform1ui(at('leastShown'), isBelow ? 1 : Math.min(255, Math.max(1, Math.floor(chosen))));
+        const [width, height] = cellSizeM(grid);
+        gl.uniform3f(at('cellM'), width, height, levelSpacingM(grid) * geometry.exaggeration);
+        gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
+        this.passes.bindSun(geometry, at);
+        if (of) {
+            this.bind(4, gl.TEXTURE_3D, shown.atlas, at('otherAtlas'));
+            this.bind(5, gl.TEXTURE_3D, shown.indirection, at('otherIndirection'));
+            gl.uniform3iv(at('otherSlots'), shown.loaded.atlas.slots);
+            gl.uniform3fv(at('otherAtlasSize'), shown.loaded.atlas.size);
+        }
+        // value = firstValue + step * (code - 3), code = codeOffset + codeScale * shown code
+        const colored = shown.loaded;
+        const zero = colored.grid.firstValue + colored.grid.step * (colored.atlas.codeOffset - 3);
+        this.passes.bindLooks(2, layers, at, [zero, colored.grid.step * colored.atlas.codeScale]);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
@@ -343,6 +449,12 @@ export class Renderer {
         const pixel = new Uint8Array(4);
         this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
     }
+}
+
+// Between levels, in the mean.
+function levelSpacingM({ levelsM }: PackedGrid): number {
+    const last = levelsM.length - 1;
+    return Math.max(1, (levelsM[last]! - levelsM[0]!) / Math.max(1, last));
 }
 
 // A sample belongs to the layer of bricks of the level below it.

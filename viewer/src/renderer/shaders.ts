@@ -1,12 +1,22 @@
 // The shaders. A variant is compiled for what a scene calls for; what it does not use is not in it.
 
+import { facingText, lightAtText, litColorText } from './light_shader';
+
 export interface VolumeVariant {
     isPerspective: boolean;
     hasUnevenLevels: boolean;
+    endsAtSolids?: boolean; // rays end at what is solid
+    isLit?: boolean;
+    measuresLight?: boolean; // the picture is lightness, factor of the light, and opacity
 }
 
 export function variantName(variant: VolumeVariant): string {
-    return `${variant.isPerspective ? 'perspective' : 'parallel'}${variant.hasUnevenLevels ? ', uneven levels' : ''}`;
+    const parts = [variant.isPerspective ? 'perspective' : 'parallel'];
+    if (variant.hasUnevenLevels) parts.push('uneven levels');
+    if (variant.endsAtSolids) parts.push('ends at solids');
+    if (variant.isLit) parts.push('lit');
+    if (variant.measuresLight) parts.push('light measured');
+    return parts.join(', ');
 }
 
 export const fullScreenVertex = `#version 300 es
@@ -16,7 +26,7 @@ void main() {
 }`;
 
 // Rays of the pixels, in drawn space; pixels count from the top left.
-const camera = (isPerspective: boolean) => `
+export const camera = (isPerspective: boolean) => `
 uniform vec2 size;
 uniform vec3 eye, right, up, forward;
 uniform float scale; // focal length in pixels, or meters a pixel
@@ -30,9 +40,8 @@ vec3 rayStep() { vec2 a = aside() / scale; return forward + a.x * right + a.y * 
 vec3 rayStep() { return forward; }`
 }`;
 
-// Slices as render/volume/slicer.h has them. A brick without visible values is left at once: the next
-// slice that is looked at is the last one in it.
-export function volumeFragment(variant: VolumeVariant): string {
+// Where a ray meets the cells of a grid.
+export function volumeHead(variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels'>): string {
     return `#version 300 es
 precision highp float;
 precision highp int;
@@ -67,6 +76,13 @@ vec3 cellOf(vec3 p) {
     vec2 across = p.xy / cellSize + 0.5 * (cells.xy - 1.0);
     return clamp(vec3(across, levelOf(p.z)), vec3(0.0), cells - 1.0);
 }
+// Eight cells of the atlas: code times share, and share.
+vec2 fetchAt(vec3 cell, ivec3 brick, uint entry) {
+    int slot = int(entry & 0xFFFFFFu) - 1;
+    ivec3 place = ivec3(slot % slots.x, (slot / slots.x) % slots.y, slot / (slots.x * slots.y));
+    vec3 at = vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5;
+    return texture(atlas, at / atlasSize).rg;
+}
 // The bin and the share of cells with values; 'skip' is set in a brick that shows nothing.
 vec2 sampleAt(vec3 p, out ivec3 brick, out bool skip) {
     vec3 cell = cellOf(p);
@@ -74,10 +90,7 @@ vec2 sampleAt(vec3 p, out ivec3 brick, out bool skip) {
     uint entry = texelFetch(indirection, brick, 0).r;
     skip = entry == 0u || (entry >> 24) < leastShown;
     if (skip) return vec2(0.0);
-    int slot = int(entry & 0xFFFFFFu) - 1;
-    ivec3 place = ivec3(slot % slots.x, (slot / slots.x) % slots.y, slot / (slots.x * slots.y));
-    vec3 at = vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5;
-    vec2 found = texture(atlas, at / atlasSize).rg;
+    vec2 found = fetchAt(cell, brick, entry);
     if (found.g < 0.002) return vec2(0.0);
     float code = 255.0 * found.r / found.g;
     return vec2(clamp(floor(binLine.x + binLine.y * code), 0.0, 255.0), found.g);
@@ -93,7 +106,46 @@ float leaves(vec3 start, vec3 along, ivec3 brick) {
     if (abs(along.y) > 1e-9) first = min(first, depth.y);
     if (abs(along.z) > 1e-9) first = min(first, (brickHeights[along.z > 0.0 ? brick.z + 1 : brick.z] - start.z) / along.z);
     return first;
+}`;
 }
+
+const solidsText = `
+uniform sampler2D solidDepth; // as a share of depthRange
+uniform vec2 depthRange;
+float solidAt() {
+    float share = texelFetch(solidDepth, ivec2(pixel().x, size.y - pixel().y), 0).r;
+    return share < 1.0 ? mix(depthRange.x, depthRange.y, share) : 1e30;
+}`;
+
+const litText = `
+uniform float exposure;
+${litColorText}
+${facingText}
+${lightAtText}`;
+
+// The light of a step is the mean of that at its ends; the one behind is that before the next step.
+const stepLit = `
+            if (frontLight < 0.0) frontLight = lightAt(cellOf(start + clamp(depth - stepM, enter, leave) * along), looks);
+            float backLight = lightAt(cellOf(start + clamp(depth, enter, leave) * along), looks);
+            lit += seen * 0.5 * (frontLight + backLight);
+            frontLight = backLight;`;
+
+// What the ray has gathered, lit.
+const putLit = `
+    float alpha = 1.0 - through;
+    if (alpha >= 1.0 / 512.0) light = alpha * litColor(min(light / alpha, 1.0), exposure * lit / alpha);
+    color = vec4(light, alpha);`;
+const putMeasured = `
+    float alpha = 1.0 - through;
+    color = alpha < 1.0 / 512.0 ? vec4(0.0) : vec4(lightnessOf(min(light / alpha, 1.0)), 0.5 * lit / alpha, alpha, 1.0);`;
+
+// Slices as render/volume/slicer.h has them. A brick without visible values is left at once: the next
+// slice that is looked at is the last one in it.
+export function volumeFragment(variant: VolumeVariant): string {
+    const { isLit, endsAtSolids } = variant;
+    return `${volumeHead(variant)}
+${endsAtSolids ? solidsText : ''}
+${isLit ? litText : ''}
 void main() {
     color = vec4(0.0);
     vec3 start = rayStart(), along = rayStep();
@@ -102,6 +154,7 @@ void main() {
     vec3 lows = min(a, b), highs = max(a, b);
     float enter = max(max(lows.x, lows.y), max(lows.z, near));
     float leave = min(min(highs.x, highs.y), min(highs.z, near + slices * stepM));
+${endsAtSolids ? '    leave = min(leave, solidAt());' : ''}
     if (!(enter < leave)) discard;
     float lengthOfStep = depthScale * length(along);
     float k = max(0.0, floor((enter - near) / stepM));
@@ -111,12 +164,13 @@ void main() {
     vec3 light = vec3(0.0);
     float through = 1.0;
     vec2 front = sampleAt(start + clamp(near + k * stepM, enter, leave) * along, brick, skip);
+${isLit ? '    float lit = 0.0, frontLight = -1.0;\n    vec3 looks = normalize(along);' : ''}
     for (int guard = 0; guard < 8192; ++guard) {
         if (k >= last || through < enough) break;
         if (skip) {
             float exit = min(leaves(start, along, brick), leave);
             float ahead = floor((exit - near) / stepM);
-            if (ahead > k) { k = min(ahead, last); front = vec2(0.0); if (k >= last) break; }
+            if (ahead > k) { k = min(ahead, last); front = vec2(0.0);${isLit ? ' frontLight = -1.0;' : ''} if (k >= last) break; }
         }
         float depth = near + (k + 1.0) * stepM;
         vec2 back = sampleAt(start + clamp(depth, enter, leave) * along, brick, skip);
@@ -130,11 +184,12 @@ void main() {
             float seen = through * (1.0 - exp(-look.a * lengthOfStep * share * max(inside, 0.0)));
             light += seen * look.rgb;
             through -= seen;
-        }
+${isLit ? stepLit : ''}
+        }${isLit ? ' else frontLight = -1.0;' : ''}
         front = back;
         k += 1.0;
     }
-    color = vec4(light, 1.0 - through);
+${variant.measuresLight ? putMeasured : isLit ? putLit : '    color = vec4(light, 1.0 - through);'}
 }`;
 }
 

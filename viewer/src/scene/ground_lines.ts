@@ -1,6 +1,7 @@
 // Lines and cities of the map, on the plane of a grid: what lies within reach of the picture.
 
 import { MapLines } from '../renderer/renderer';
+import { Units, ringSpacingM } from '../tables/units';
 import { City, MapAnswer, MapLine } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 import { GridPlane, Plane } from './projection';
@@ -14,6 +15,9 @@ export interface Mark {
 
 // Coasts may come from far away; what lies beyond this many half widths is not drawn.
 const reach = 2.2;
+// Cities give way to what says how far away they are, and all give way to sites.
+const ringRank = 1e8;
+const siteRank = 1e9;
 
 function segmentsOf(lines: (Plane | null)[][], halfM: number): Float32Array {
     const ends: number[] = [];
@@ -58,14 +62,8 @@ export function mapLines(map: MapAnswer, plane: GridPlane, halfM: number): MapLi
     }));
 }
 
-export function ringSpacingM(halfM: number): number {
-    const wanted = halfM / 3;
-    const steps = [10, 25, 50, 100, 200, 500, 1000].map(km => km * 1000);
-    return steps.find(step => step >= wanted * 0.7) ?? 1e6;
-}
-
 // Rings about the first site, and the border of the grid.
-export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY: number): { lines: MapLines[]; marks: Mark[] } {
+export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY: number, units: Units): { lines: MapLines[]; marks: Mark[] } {
     const border: Plane[] = [
         [-halfX, -halfY],
         [halfX, -halfY],
@@ -77,7 +75,7 @@ export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY:
     const marks: Mark[] = [];
     if (sites.length === 1) {
         const center = plane.toPlane(sites[0]!);
-        const spacing = ringSpacingM(Math.max(halfX, halfY));
+        const spacing = ringSpacingM(Math.max(halfX, halfY), units);
         const rings: Plane[][] = [];
         for (let r = spacing; center && r < Math.hypot(halfX, halfY); r += spacing) {
             const points: Plane[] = [];
@@ -86,13 +84,13 @@ export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY:
                 points.push([center[0] + r * Math.sin(angle), center[1] + r * Math.cos(angle)]);
             }
             rings.push(points);
-            if (r < Math.max(halfX, halfY)) marks.push({ kind: 'ring', text: `${r / 1000} km`, at: [center[0], center[1] + r], rank: 0 });
+            if (r < Math.max(halfX, halfY)) marks.push({ kind: 'ring', text: `${Math.round(r / units.distance.si)} ${units.distance.symbol}`, at: [center[0], center[1] + r], rank: ringRank });
         }
         lines.unshift({ kind: 'ring', segments: segmentsOf(rings, Math.max(halfX, halfY)) });
     }
     for (const site of sites) {
         const at = plane.toPlane(site);
-        if (at) marks.push({ kind: 'site', text: site.icao, at, rank: 1e9 });
+        if (at) marks.push({ kind: 'site', text: site.icao, at, rank: siteRank });
     }
     return { lines, marks };
 }

@@ -1,30 +1,44 @@
 // What the page shows, as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
+import { Draft } from '../tables/draft';
+import { draftOfText, textOfDraft } from '../tables/draft_text';
+import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
+import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
 
 export interface ViewState {
     domain: string; // empty: the first one
     moment: string;
     time: string; // ISO 8601, or 'latest'
+    betweenS: number; // frames between volumes every so many seconds; 0: the volumes alone
     camera: Camera;
     hasGround: boolean; // map and ground are drawn
     exaggeration: number;
     opacity: number;
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
+    drafts: Draft[]; // tables that the user made, at most one of a moment; they go before `colors`
+    layers: Layers;
+    units: Units;
 }
 
 export const usualState: ViewState = {
     domain: '',
     moment: '',
     time: 'latest',
+    betweenS: 0,
     camera: { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40 },
     hasGround: true,
     exaggeration: 5,
     opacity: 1,
     least: null,
     colors: '',
+    drafts: [],
+    layers: usualLayers,
+    units: usualUnits,
 };
+
+const mostDrafts = 7; // as many as there are moments
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
 
@@ -44,10 +58,24 @@ export function addressOf(state: ViewState): string {
     if (camera.lookAtM) {
         parts.push(['look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(',')]);
     }
+    if (state.betweenS > 0) parts.push(['between', rounded(state.betweenS, 0)]);
     if (!state.hasGround) parts.push(['ground', '0']);
-    if (state.least !== null) parts.push(['least', rounded(state.least, 2)]);
+    if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
     if (state.colors) parts.push(['colors', state.colors]);
+    for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
+    parts.push(...layersAddress(state.layers));
+    if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
+}
+
+// The last one of each moment; what makes no sense is none.
+function draftsOf(words: string[]): Draft[] {
+    const drafts = new Map<string, Draft>();
+    for (const word of words.slice(0, mostDrafts)) {
+        const draft = draftOfText(word);
+        if (draft) drafts.set(draft.moment, draft);
+    }
+    return [...drafts.values()];
 }
 
 function number(text: string | null, least: number, most: number, otherwise: number): number {
@@ -65,6 +93,7 @@ export function stateOf(text: string): ViewState {
         domain: (query.get('domain') ?? '').slice(0, 100),
         moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
         time: Number.isNaN(Date.parse(time)) ? 'latest' : time,
+        betweenS: number(query.get('between'), 10, 3600, 0),
         camera: {
             azimuthDeg: number(query.get('azimuth'), 0, 360, usual.camera.azimuthDeg),
             tiltDeg: number(query.get('tilt'), 0, 90, usual.camera.tiltDeg),
@@ -77,19 +106,30 @@ export function stateOf(text: string): ViewState {
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
+        drafts: draftsOf(query.getAll('table')),
+        layers: layersOf(query),
+        units: unitsOf(query.get('units') ?? ''),
     };
 }
 
-// The command that draws the same.
-export function commandOf(state: ViewState, width: number, height: number): string {
-    const { camera } = state;
+function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): string[] {
+    const words = ['--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4)];
+    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(exaggeration, 2));
+    words.push('--opacity', rounded(opacity, 3), '--light', layers.isLit ? 'gradient' : 'none');
+    if (layers.isLit) words.push('--sun', `${rounded((camera.azimuthDeg + sunAsideDeg) % 360, 2)},${sunElevationDeg}`);
+    if (layers.hasHaze) words.push('--haze');
+    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    return words;
+}
+
+// The command that draws the same, of several layers one, with a table or a file of colors; empty: the
+// usual ones.
+export function commandOf(state: ViewState, width: number, height: number, colors: string): string {
     const words = ['stormcellar frame', state.domain, '--moment', state.moment];
     if (state.time !== 'latest') words.push('--time', state.time);
-    words.push('--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4));
-    words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(state.exaggeration, 2));
-    words.push('--opacity', rounded(state.opacity, 3), '--light', 'none');
-    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
-    if (state.colors) words.push('--colors', state.colors);
+    words.push(...(productOf(state.layers) ?? cameraWords(state)));
+    if (colors) words.push('--colors', colors);
+    if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
     return words.join(' ');
 }

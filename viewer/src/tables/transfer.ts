@@ -27,14 +27,17 @@ export interface Bins {
     width: number;
 }
 
-// A stop begins a bin if a whole number of bins fits between any two stops.
-export function chooseBins(table: ColorTable): Bins {
-    const { stops, extinction } = table;
-    const lowest = Math.max(stops[0]!.from, extinction[0]!.value);
-    const highest = Math.max(stops[stops.length - 1]!.from, extinction[extinction.length - 1]!.value);
+// A stop begins a bin if a whole number of bins fits between any two stops. What is below `least` is clear: the
+// bins are those of a table that begins there, as its file does (draft.ts).
+export function chooseBins(table: ColorTable, least = -Infinity): Bins {
+    const { extinction } = table;
+    const all = table.stops.map(stop => stop.from);
+    const stops = least > all[0]! ? [least, ...all.filter(from => from > least)] : all;
+    const lowest = Math.max(stops[0]!, extinction[0]!.value);
+    const highest = Math.max(stops[stops.length - 1]!, extinction[extinction.length - 1]!.value);
     const range = Math.max(highest - lowest, 1e-6);
     let gap = range;
-    for (let i = 1; i < stops.length; ++i) gap = Math.min(gap, stops[i]!.from - stops[i - 1]!.from);
+    for (let i = 1; i < stops.length; ++i) gap = Math.min(gap, stops[i]! - stops[i - 1]!);
     const finest = range / (binCount - 2);
     const binsAGap = Math.floor((gap / finest) * (1 + 1e-9));
     return { lowest, width: binsAGap >= 1 ? gap / binsAGap : finest };
@@ -92,7 +95,7 @@ export function makeTransfer(
     shown: Shown,
     stepM: number,
 ): Transfer {
-    const bins = chooseBins(table);
+    const bins = chooseBins(table, shown.least);
     const codeZero = quantization.firstValue - quantization.step * firstValueCode;
     const looks = looksOfBins(table, bins, shown, stepM);
     const entries = new Float32Array(4 * binCount * binCount);

@@ -5,9 +5,16 @@ export interface PlayerState {
     at: number; // index in times; -1: none
     isPlaying: boolean;
     follows: boolean; // the newest is shown as soon as it is there
+    loop: Loop | null; // playback stays in it; null: all times
 }
 
-export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true };
+// Both ends belong to it.
+export interface Loop {
+    from: string;
+    to: string;
+}
+
+export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true, loop: null };
 
 // Takes a new list. The time that is shown stays; who follows goes to the end.
 export function withTimes(player: PlayerState, times: string[]): PlayerState {
@@ -31,13 +38,32 @@ export function stepped(player: PlayerState, by: number): PlayerState {
     return { ...at(player, player.at + by), isPlaying: false };
 }
 
+// The next one that is played, from the end of the loop its beginning; none of fewer than two.
+export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null {
+    const first = loop ? times.findIndex(time => time >= loop.from) : 0;
+    const last = loop ? times.reduce((found, time, i) => (time <= loop.to ? i : found), -1) : times.length - 1;
+    const count = last - first + 1;
+    if (first < 0 || count < 2) return null;
+    if (at < first || at > last) return first;
+    return first + ((at - first + by) % count);
+}
+
 // The next time of a loop, or the same if it is not loaded yet.
 export function advanced(player: PlayerState, isLoaded: (time: string) => boolean): { player: PlayerState; waitsFor: string | null } {
-    if (!player.isPlaying || player.times.length < 2) return { player, waitsFor: null };
-    const next = (player.at + 1) % player.times.length;
+    const next = player.isPlaying ? nextOf(player) : null;
+    if (next === null) return { player, waitsFor: null };
     const time = player.times[next]!;
     if (!isLoaded(time)) return { player, waitsFor: time };
     return { player: { ...player, at: next, follows: false }, waitsFor: null };
+}
+
+// One end of the loop is put where the player is. An end beyond the other takes it along.
+export function looped(player: PlayerState, end: 'from' | 'to'): PlayerState {
+    const now = player.times[player.at];
+    if (now === undefined) return player;
+    const loop = { from: player.times[0]!, to: player.times[player.times.length - 1]!, ...player.loop, [end]: now };
+    if (loop.from > loop.to) loop.from = loop.to = now;
+    return { ...player, loop };
 }
 
 export function followed(player: PlayerState): PlayerState {

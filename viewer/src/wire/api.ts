@@ -76,8 +76,16 @@ export interface ProbedLevel {
 const base = new URL('..', document.baseURI);
 export const address = (path: string): string => new URL(path.replace(/^\//, ''), base).href;
 
+// A server that computes as much as it may says so, and is asked again.
+const busy = 503;
+const mostTries = 10;
+
 async function ask(path: string, signal?: AbortSignal): Promise<Response> {
-    const answer = await fetch(address(path), signal ? { signal } : {});
+    let answer = await fetch(address(path), signal ? { signal } : {});
+    for (let tries = 0; answer.status === busy && tries < mostTries; ++tries) {
+        await new Promise(done => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
+        answer = await fetch(address(path), signal ? { signal } : {});
+    }
     if (answer.ok) return answer;
     let message = answer.statusText;
     try {
@@ -97,14 +105,25 @@ export async function stations(): Promise<Station[]> {
 export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
 }
-export async function times(domain: string, moment: string): Promise<string[]> {
-    const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=500`;
-    return ((await (await ask(path)).json()) as { grids: { time: string }[] }).grids.map(grid => grid.time);
+export interface Times {
+    times: string[]; // rising
+    more: boolean; // there are older ones
+}
+// The newest times of a domain's grids, at most `limit`, up to 10,000; until `to`, inclusive.
+export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
+    const until = to === undefined ? '' : `&to=${encodeURIComponent(to)}`;
+    const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=${limit}${until}`;
+    const { grids, more } = (await (await ask(path)).json()) as { grids: { time: string }[]; more: boolean };
+    return { times: grids.map(grid => grid.time), more };
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
     `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
 export async function packed(domain: string, moment: string, time: string, signal?: AbortSignal): Promise<ArrayBuffer> {
     return (await ask(`${gridPath(domain, moment, time)}/packed`, signal)).arrayBuffer();
+}
+// A grid for an instant between volumes.
+export async function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
+    return (await ask(`api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`)).arrayBuffer();
 }
 export interface Tables {
     tables: ColorTable[];
@@ -117,4 +136,26 @@ export async function map(west: number, south: number, east: number, north: numb
     const kinds = detail === 0 ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
     return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(east)}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
+}
+
+// -- raw volumes
+
+export interface SweepRow {
+    sweep: number; // from 0
+    elevation_deg: number;
+    moments: { moment: string }[];
+}
+const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
+
+// The start of the newest volume of a station that began at a time or before.
+export async function volumeBefore(station: string, time: string): Promise<string | null> {
+    const path = `${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`;
+    const { volumes } = (await (await ask(path)).json()) as { volumes: { time: string | null }[] };
+    return volumes[volumes.length - 1]?.time ?? null;
+}
+export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
+    return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;
+}
+export async function gates(station: string, time: string, sweep: number, moment: string): Promise<ArrayBuffer> {
+    return (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps/${sweep}/${moment}`)).arrayBuffer();
 }

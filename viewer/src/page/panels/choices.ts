@@ -21,7 +21,8 @@ function putTitle(app: App): void {
     const { grid } = app.shown!.loaded;
     const names = grid.sites.map(site => site.icao).join(', ');
     const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
-    element('title').textContent = `${names}  ${time}${grid.isPartial ? `  ${texts.partial}` : ''}`;
+    const notes = [grid.isPartial ? texts.partial : '', app.isBetween(app.shown!.time) ? texts.isBetween : ''];
+    element('title').textContent = [names, time, ...notes.filter(note => note !== '')].join('  ');
     document.title = `${app.state.domain} ${app.state.moment} ${time} · ${texts.title}`;
 }
 

@@ -1,18 +1,23 @@
 // How the volume is shown: colors, threshold, opacity, heights, and from where.
 
+import { valueText } from '../../tables/units';
 import { App } from '../app';
-import { button, element, press, putOptions } from '../dom';
+import { button, element, leaveByEscape, press, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
+import { tableTitle } from '../table_book';
+import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
 function putLook(app: App): void {
     const { state, table } = app;
-    const own = app.tables.tables.filter(one => one.moment === state.moment);
+    const own = app.book?.presets(state.moment) ?? [];
+    const names = own.map(one => one.name);
     putOptions(
         element<HTMLSelectElement>('colors'),
-        own.map(one => one.name),
+        table && !names.includes(table.name) ? [table.name, ...names] : names,
         table?.name,
+        tableTitle,
     );
     if (table) {
         const least = element<HTMLInputElement>('least');
@@ -21,20 +26,24 @@ function putLook(app: App): void {
         least.step = String((table.end - table.bar_begin) / 100);
         least.value = String(state.least ?? table.bar_begin);
     }
-    element('least-value').textContent = state.least === null ? '' : `${Number(state.least.toFixed(1))} ${table?.unit ?? ''}`;
+    const hidden = state.least === null ? '' : valueText(state.least, table?.unit ?? '', state.units);
+    element('least-value').textContent = hidden;
+    element('least').setAttribute('aria-valuetext', hidden || texts.nothingHidden);
     element<HTMLInputElement>('opacity').value = String(Math.log2(state.opacity));
+    element('opacity').setAttribute('aria-valuetext', String(state.opacity));
     element<HTMLInputElement>('exaggeration').value = String(state.exaggeration);
     press('perspective', state.camera.fieldOfViewDeg > 0);
 }
 
-function addSliders(app: App, drawing: Drawing): void {
+function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     const slider = (id: string, take: (value: number) => void) =>
         element<HTMLInputElement>(id).addEventListener('input', event => {
             take(Number((event.target as HTMLInputElement).value));
             drawing.move();
             app.changed();
         });
-    slider('least', value => (app.state.least = value <= Number(element<HTMLInputElement>('least').min) ? null : value));
+    slider('least', value => editing.hideBelow(value <= Number(element<HTMLInputElement>('least').min) ? null : value, 'threshold'));
+    element('least').addEventListener('change', () => editing.rest());
     slider('opacity', value => (app.state.opacity = Number((2 ** value).toFixed(3))));
     slider('exaggeration', value => (app.state.exaggeration = value));
 }
@@ -45,7 +54,7 @@ export function openSettings(drawing: Drawing, isOpen: boolean): void {
     drawing.draw();
 }
 
-export function addLook(app: App, drawing: Drawing, keys: Keys): void {
+export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEditing): void {
     for (const [id, text] of [
         ['colors-name', texts.colors],
         ['least-name', texts.threshold],
@@ -59,11 +68,11 @@ export function addLook(app: App, drawing: Drawing, keys: Keys): void {
     }
     element('views').append(button('perspective', texts.perspective, () => keys.togglePerspective()));
     element('colors').addEventListener('change', event => {
-        app.state.colors = (event.target as HTMLSelectElement).value;
-        app.changed();
+        editing.choosePreset((event.target as HTMLSelectElement).value);
     });
-    addSliders(app, drawing);
+    addSliders(app, drawing, editing);
     element('open').addEventListener('click', () => openSettings(drawing, element('settings').hidden));
+    leaveByEscape(element('settings'), 'open', () => openSettings(drawing, false));
     keys.add('Escape', () => openSettings(drawing, false));
     app.on('view', () => putLook(app));
     app.on('camera', () => putLook(app));

@@ -1,6 +1,7 @@
 // The numbers of the column under a click. After another volume came the same place is read again.
 
 import { Plane, planeOf } from '../../scene/projection';
+import { Units, heightNumber, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
 import { button, element, paragraph } from '../dom';
 import { Drawing } from '../drawing';
@@ -10,25 +11,25 @@ import { ColumnReading, columnAt, readColumn } from '../reading';
 import { texts } from '../texts';
 
 const mostRows = 10;
-const km = (meters: number) => (meters / 1000).toFixed(1);
+const mostDigits = 6; // of a value: all that its code has
 
-function summaryOf({ greatest, seenFromM }: ColumnReading, unit: string): string {
-    if (greatest) return `${texts.highest} ${greatest.value} ${unit} at ${km(greatest.heightM)} ${texts.heightAbove}`;
+function summaryOf({ greatest, seenFromM }: ColumnReading, unit: string, units: Units): string {
+    if (greatest) return texts.greatestAt(valueText(greatest.value!, unit, units, mostDigits), heightText(greatest.heightM, units));
     return seenFromM === null ? texts.notSeen : texts.noEcho;
 }
 
-function putColumn(body: HTMLElement, reading: ColumnReading, unit: string): void {
-    body.append(paragraph(summaryOf(reading, unit)));
+function putColumn(body: HTMLElement, reading: ColumnReading, unit: string, units: Units): void {
+    body.append(paragraph(summaryOf(reading, unit, units)));
     if (reading.seenFromM !== null) {
-        body.append(paragraph(`${texts.seenTo} ${km(reading.seenFromM)} – ${km(reading.seenToM!)} ${texts.heightAbove}`));
+        body.append(paragraph(texts.seenBetween(heightNumber(reading.seenFromM, units), heightText(reading.seenToM!, units))));
     }
     const table = document.createElement('table');
     const told = reading.levels.filter(level => level.value !== null || level.code === 2);
     const every = Math.ceil(told.length / mostRows);
     for (const level of told.filter((_, i) => i % every === 0).reverse()) {
         const row = table.insertRow();
-        row.insertCell().textContent = `${km(level.heightM)} km`;
-        row.insertCell().textContent = level.value === null ? texts.rangeFolded : `${level.value} ${unit}`;
+        row.insertCell().textContent = heightText(level.heightM, units);
+        row.insertCell().textContent = level.value === null ? texts.rangeFolded : valueText(level.value, unit, units, mostDigits);
     }
     body.append(table);
 }
@@ -45,6 +46,9 @@ export class Reader implements Tool {
     begin(keys: Keys): void {
         this.app.on('choices', () => this.takeDomain());
         this.app.on('shown', () => {
+            if (this.at) this.put();
+        });
+        this.app.on('units', () => {
             if (this.at) this.put();
         });
         keys.add('Escape', () => this.clear());
@@ -79,7 +83,7 @@ export class Reader implements Tool {
         const title = document.createElement('h2');
         title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
         const body = document.createElement('div');
-        if (column) putColumn(body, readColumn(grid, ...column), this.app.unit);
+        if (column) putColumn(body, readColumn(grid, ...column), this.app.unit, this.app.state.units);
         box.replaceChildren(title, body);
         this.drawing.draw();
     }

@@ -3,8 +3,9 @@
 import { commandOf } from '../../scene/view_state';
 import { address, gridPath } from '../../wire/api';
 import { App } from '../app';
-import { button, element } from '../dom';
+import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
+import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
 function copy(app: App, text: string, said: string): void {
@@ -21,12 +22,22 @@ function save(app: App, drawing: Drawing): void {
     link.click();
 }
 
-export function addShare(app: App, drawing: Drawing): void {
-    const { picture } = drawing;
+// Colors that no table of the program has are in a file that the command names.
+function copyCommand(app: App, drawing: Drawing, editing: TableEditing): void {
+    const { width, height } = drawing.picture;
+    const { state } = app;
+    const preset = app.book?.presets(state.moment).some(table => table.name === state.colors) ? state.colors : '';
+    if (!editing.isEdited && state.least === null) return copy(app, commandOf(state, width, height, preset), texts.commandCopied);
+    const file = editing.toml();
+    saveFile(file.name, file.text);
+    copy(app, commandOf(state, width, height, file.name), texts.commandWithFile(file.name));
+}
+
+export function addShare(app: App, drawing: Drawing, editing: TableEditing): void {
     element('actions').append(
         button('share', texts.share, () => copy(app, location.href, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),
-        button('command', texts.command, () => copy(app, commandOf(app.state, picture.width, picture.height), texts.commandCopied)),
+        button('command', texts.command, () => copyCommand(app, drawing, editing)),
         button('netcdf', texts.netcdf, () => {
             if (app.shown) location.href = address(`${gridPath(app.shown.domain, app.shown.moment, app.shown.time)}/netcdf`);
         }),

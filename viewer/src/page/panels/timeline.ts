@@ -1,8 +1,25 @@
-// The foot of the page: every time of the domain, playing, and the live edge.
+// The foot of the page: every time of the domain, playing, and the live edge. How it plays is a part of the
+// settings.
 
 import { App } from '../app';
-import { element, press } from '../dom';
+import { button, element, press } from '../dom';
+import { Keys } from '../keys';
 import { texts } from '../texts';
+
+const speeds = [1, 2, 4, 8, 15, 30];
+const betweens = [0, 30, 60, 120];
+
+// The part of the slider that is played.
+function putLoop(app: App, slider: HTMLInputElement): void {
+    const { times, loop } = app.player;
+    const shareOf = (wanted: string) => {
+        const index = times.findIndex(time => time >= wanted);
+        return (100 * (index < 0 ? times.length - 1 : index)) / Math.max(1, times.length - 1);
+    };
+    slider.style.setProperty('--loop-from', loop ? `${shareOf(loop.from)}%` : '0%');
+    slider.style.setProperty('--loop-to', loop ? `${shareOf(loop.to)}%` : '100%');
+    element('loop-all').hidden = loop === null;
+}
 
 function putTimes(app: App): void {
     const { player } = app;
@@ -10,11 +27,41 @@ function putTimes(app: App): void {
     slider.max = String(Math.max(0, player.times.length - 1));
     slider.value = String(Math.max(0, player.at));
     slider.setAttribute('aria-valuetext', player.times[player.at] ?? '');
+    putLoop(app, slider);
     element('play').textContent = player.isPlaying ? texts.pause : texts.play;
     press('follow', player.follows);
+    element<HTMLSelectElement>('between').value = String(app.state.betweenS);
 }
 
-export function addTimeline(app: App): void {
+function select(id: string, name: string, options: [number, string][], chosen: number, take: (value: number) => void): HTMLLabelElement {
+    const label = document.createElement('label');
+    const text = document.createElement('span');
+    text.textContent = name;
+    const made = document.createElement('select');
+    made.id = id;
+    for (const [value, shown] of options) made.add(new Option(shown, String(value), false, value === chosen));
+    made.addEventListener('change', () => take(Number(made.value)));
+    label.append(text, made);
+    return label;
+}
+
+function addPlaying(app: App): void {
+    const rates = speeds.map((rate): [number, string] => [rate, String(rate)]);
+    const { betweenS } = app.state;
+    const steps = [...new Set([...betweens, betweenS])].sort((a, b) => a - b);
+    const everys = steps.map((seconds): [number, string] => [seconds, seconds === 0 ? texts.betweenOff : texts.betweenEvery(seconds)]);
+    element('playing').append(
+        select('speed', texts.speed, rates, app.framesASecond, rate => (app.framesASecond = rate)),
+        select('between', texts.between, everys, betweenS, seconds => void app.setBetween(seconds)),
+    );
+    element('loops').append(
+        button('loop-from', texts.loopFrom, () => app.setLoop('from')),
+        button('loop-to', texts.loopTo, () => app.setLoop('to')),
+        button('loop-all', texts.loopAll, () => app.setLoop(null)),
+    );
+}
+
+export function addTimeline(app: App, keys: Keys): void {
     element('play').textContent = texts.play;
     element('follow').textContent = texts.latest;
     for (const [id, sign, text, by] of [
@@ -29,5 +76,8 @@ export function addTimeline(app: App): void {
     element('times').addEventListener('input', event => app.goTo(Number((event.target as HTMLInputElement).value)));
     element('play').addEventListener('click', () => app.play());
     element('follow').addEventListener('click', () => app.follow());
+    addPlaying(app);
+    keys.add('<', () => app.setLoop('from'));
+    keys.add('>', () => app.setLoop('to'));
     app.on('time', () => putTimes(app));
 }

@@ -1,0 +1,54 @@
+// What the timeline of the page does with several volumes of one station (scripts/check-viewer).
+import { CheckedPage, check, gridsOf } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, station] = process.argv.slice(2);
+const browser = await Browser.start();
+try {
+  const page = await browser.page(796, 532);
+  const viewer = new CheckedPage(page, address);
+  const grids = await gridsOf(address, [station]);
+  const times = grids.filter(({ moment }) => moment === 'REF').map(({ time }) => time);
+  // The server takes in the later volumes beside its first answers.
+  await viewer.open(`domain=${station}&moment=REF&tilt=0&field-of-view=0`);
+  const evaluate = (expression) => page.evaluate(expression);
+  const press = (id) => evaluate(`document.getElementById('${id}').click()`);
+  const choose = (id, value) => evaluate(`(() => { const one = document.getElementById('${id}'); one.value = '${value}'; one.dispatchEvent(new Event('change')); })()`);
+  const count = () => evaluate("Number(document.getElementById('times').max) + 1");
+  const shown = () => evaluate('document.documentElement.dataset.drawn');
+  await page.until(`Number(document.getElementById('times').max) + 1 >= ${times.length}`);
+  check(`the timeline has ${await count()} volumes`, (await count()) >= 5);
+  check(`the newest is shown: ${await shown()}`, (await viewer.told('time')) === 'latest');
+
+  await viewer.settled(() => press('earlier'));
+  const second = await shown();
+  await viewer.settled(() => press('earlier'));
+  const third = await shown();
+  check('a step shows the volume before', third < second);
+
+  // What is played is loaded: never a picture of another time than the page says.
+  await press('loop-to');
+  await viewer.settled(() => press('earlier'));
+  await press('loop-from');
+  await choose('speed', 15);
+  await evaluate(`window.seen = new Set(); new MutationObserver(() => window.seen.add(document.documentElement.dataset.drawn)).observe(document.documentElement, { attributes: true })`);
+  await press('play');
+  await page.until('window.seen.size >= 2', 30);
+  await new Promise((done) => setTimeout(done, 1500));
+  await press('play');
+  const seen = await evaluate('[...window.seen].filter(Boolean)');
+  check(`playback stays in its loop: ${seen.length} volumes`, seen.length === 2 && seen.includes(third));
+
+  // Frames between volumes.
+  await press('loop-all');
+  const before = await count();
+  await viewer.settled(() => choose('between', 60));
+  const after = await count();
+  check(`with frames every minute the timeline has ${after} times`, after > 3 * before);
+  const title = await evaluate("document.getElementById('title').textContent");
+  check(`the title says what it is: ${title}`, title.includes('made between volumes') && title.includes(':00 UTC'));
+  check('the address says it', (await viewer.told('between')) === '60');
+  check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
+} finally {
+  await browser.end();
+}

@@ -1,0 +1,73 @@
+// What lies between cells of a grid: the status rule of the pictures (render/products/cell_mixer.h).
+//
+// The cells give a place the weights of values, no echo, range folded and not seen. If more than half
+// was not seen, the place was not seen; else range folded where that is the largest part; else no echo
+// where it outweighs the values; else it is the mean of the values alone. The phase is averaged on its
+// circle; of velocities, whose circle a grid does not tell, the value that weighs most stands.
+
+import { CellState } from '../wire/packed_grid';
+
+export type Mixing = 'mean' | 'heaviest' | 'circle';
+
+export function mixingOf(moment: string): Mixing {
+    if (moment === 'VEL') return 'heaviest';
+    return moment === 'PHI' ? 'circle' : 'mean';
+}
+
+const circle = 360;
+const mostParts = 8;
+
+export class Mixer {
+    state: CellState = CellState.notSeen; // of the last result()
+    value = 0;
+
+    private weights = new Float64Array(4); // of each state
+    private values = new Float64Array(mostParts);
+    private shares = new Float64Array(mostParts);
+    private count = 0;
+
+    constructor(private mixing: Mixing) {}
+
+    clear(): void {
+        this.weights.fill(0);
+        this.count = 0;
+    }
+
+    add(state: CellState, value: number, weight: number): void {
+        if (!(weight > 0)) return;
+        this.weights[state]! += weight;
+        if (state !== CellState.value) return;
+        this.values[this.count] = value;
+        this.shares[this.count++] = weight;
+    }
+
+    // Puts the result into `state` and `value`.
+    result(): void {
+        const [notSeen, noEcho, folded, valued] = this.weights as unknown as [number, number, number, number];
+        const seen = noEcho + folded + valued;
+        this.value = 0;
+        if (notSeen > seen || seen === 0) this.state = CellState.notSeen;
+        else if (folded > valued && folded > noEcho) this.state = CellState.rangeFolded;
+        else if (valued < noEcho) this.state = CellState.noEcho;
+        else {
+            this.state = CellState.value;
+            this.value = this.mean();
+        }
+    }
+
+    private mean(): number {
+        let heaviest = 0;
+        for (let i = 1; i < this.count; ++i) if (this.shares[i]! > this.shares[heaviest]!) heaviest = i;
+        const reference = this.values[heaviest]!;
+        if (this.mixing === 'heaviest') return reference;
+        let [sum, weight] = [0, 0];
+        for (let i = 0; i < this.count; ++i) {
+            let off = this.values[i]! - reference;
+            if (this.mixing === 'circle') off -= circle * Math.floor(off / circle + 0.5);
+            sum += this.shares[i]! * off;
+            weight += this.shares[i]!;
+        }
+        const mean = reference + sum / weight;
+        return this.mixing === 'circle' ? mean - circle * Math.floor(mean / circle) : mean;
+    }
+}

@@ -1,0 +1,83 @@
+// A sweep in its place: which radial sees an azimuth, and the cone on which its gates lie.
+//
+// A gate is where the beam of the sweep's mean elevation has its slant range: a straight ray over a sphere
+// of 4/3 of the Gaussian earth radius (docs/geometry.md).
+
+import { Plane, GridPlane, Place, destination } from '../scene/projection';
+import { PackedSweep } from '../wire/packed_sweep';
+
+const semiMajorM = 6378137;
+const flattening = 1 / 298.257223563;
+const radians = Math.PI / 180;
+
+// Where a beam has a slant range: along the earth at sea level, and above it.
+export function beamAt(site: { latitudeDeg: number; altitudeM: number }, elevationDeg: number, rangeM: number): { arcM: number; heightM: number } {
+    const sine = Math.sin(site.latitudeDeg * radians);
+    const gaussian = (semiMajorM * (1 - flattening)) / (1 - flattening * (2 - flattening) * sine * sine);
+    const radius = (4 / 3) * gaussian;
+    const antenna = radius + site.altitudeM;
+    const up = rangeM * Math.sin(elevationDeg * radians);
+    const along = rangeM * Math.cos(elevationDeg * radians);
+    const q = rangeM * rangeM + 2 * antenna * up;
+    return { arcM: radius * Math.atan2(along, antenna + up), heightM: site.altitudeM + q / (Math.sqrt(antenna * antenna + q) + antenna) };
+}
+
+export const azimuthSteps = 7200; // of a turn
+export const noRadial = 65535;
+
+// Of each step of azimuth the nearest radial. Where neighbors are more than one and a half spacings apart,
+// each reaches half a spacing, and nothing was seen in between.
+export function radialsByAzimuth({ azimuthsDeg, gateCounts }: PackedSweep): Uint16Array {
+    const order = [...azimuthsDeg.keys()].filter(i => gateCounts[i]! > 0 && Number.isFinite(azimuthsDeg[i]!)).sort((a, b) => azimuthsDeg[a]! - azimuthsDeg[b]!);
+    const found = new Uint16Array(azimuthSteps).fill(noRadial);
+    if (order.length === 0) return found;
+    const steps = order.map((radial, i) => (azimuthsDeg[order[(i + 1) % order.length]!]! - azimuthsDeg[radial]! + 360) % 360 || 360);
+    const spacing = [...steps].sort((a, b) => a - b)[steps.length >> 1]!;
+    let next = 0;
+    for (let step = 0; step < azimuthSteps; ++step) {
+        const azimuth = ((step + 0.5) * 360) / azimuthSteps;
+        while (next < order.length && azimuthsDeg[order[next]!]! < azimuth) ++next;
+        const after = order[next % order.length]!;
+        const before = order[(next + order.length - 1) % order.length]!;
+        const toAfter = (azimuthsDeg[after]! - azimuth + 360) % 360;
+        const toBefore = (azimuth - azimuthsDeg[before]! + 360) % 360;
+        const isGap = toAfter + toBefore > 1.5 * spacing;
+        if (!isGap || Math.min(toAfter, toBefore) <= 0.5 * spacing) found[step] = toAfter < toBefore ? after : before;
+    }
+    return found;
+}
+
+export interface Cone {
+    // Of each corner: x and y in meters from the middle of the grid, height above sea level, azimuth in
+    // degrees and slant range.
+    corners: Float32Array;
+    triangles: Uint32Array;
+}
+
+const turns = 360; // corners of a ring
+const rings = 48;
+
+export function coneOf(sweep: PackedSweep, plane: GridPlane): Cone {
+    const site: Place = { latitudeDeg: sweep.latitudeDeg, longitudeDeg: sweep.longitudeDeg };
+    const first = Math.max(0, sweep.firstGateM - 0.5 * sweep.gateSpacingM);
+    const last = sweep.firstGateM + (Math.max(0, ...sweep.gateCounts) - 0.5) * sweep.gateSpacingM;
+    const corners = new Float32Array(5 * (turns + 1) * (rings + 1));
+    for (let ring = 0, at = 0; ring <= rings; ++ring) {
+        const rangeM = first + (ring / rings) * (last - first);
+        const beam = beamAt(sweep, sweep.elevationDeg, rangeM);
+        for (let turn = 0; turn <= turns; ++turn, at += 5) {
+            const azimuth = (turn * 360) / turns;
+            const point: Plane = plane.toPlane(destination(site, azimuth * radians, beam.arcM)) ?? [NaN, NaN];
+            corners.set([point[0], point[1], beam.heightM, azimuth, rangeM], at);
+        }
+    }
+    const triangles = new Uint32Array(6 * turns * rings);
+    for (let ring = 0, at = 0; ring < rings; ++ring) {
+        for (let turn = 0; turn < turns; ++turn, at += 6) {
+            const a = ring * (turns + 1) + turn;
+            const b = a + turns + 1;
+            triangles.set([a, a + 1, b, b, a + 1, b + 1], at);
+        }
+    }
+    return { corners, triangles };
+}

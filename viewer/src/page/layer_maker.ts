@@ -1,0 +1,182 @@
+// Makes of the view's layers what the renderer draws: cuts of the grid that is shown, the grid of another
+// moment, the sweep of its volume. What was made is kept as long as it is the same.
+
+import { Air, airOf } from '../fields/air';
+import { Falls, fallsOf } from '../fields/falls';
+import { maximumField, planeField } from '../fields/flat_field';
+import { Section, cutSection } from '../fields/section';
+import { mixingOf } from '../fields/status_rule';
+import { nearestSweep } from '../fields/sweep_choice';
+import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
+import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
+import { LoadedGrid } from '../renderer/renderer';
+import { Layers, usualLayers } from '../scene/layers';
+import { Place, planeOf } from '../scene/projection';
+import { ColorTable } from '../tables/color_table';
+import { Looks, looksOf } from '../tables/looks';
+import { SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
+import { PackedGrid } from '../wire/packed_grid';
+import { readPackedSweep } from '../wire/packed_sweep';
+import { App, Shown } from './app';
+import { texts } from './texts';
+
+const sectionColumns = 480;
+const sectionRows = 192;
+
+// The last value of each name, with what it was made of.
+class Kept {
+    private held = new Map<string, { of: readonly unknown[]; value: unknown }>();
+
+    take<T>(name: string, of: readonly unknown[], make: () => T): T {
+        const known = this.held.get(name);
+        if (known && known.of.length === of.length && known.of.every((part, i) => part === of[i])) return known.value as T;
+        const value = make();
+        this.held.set(name, { of, value });
+        return value;
+    }
+}
+
+// Something from the server that is asked for once for a key; null until it has come.
+class Asked<T> {
+    private key = '';
+    private value: T | null = null;
+    isWaiting = false;
+
+    constructor(
+        private came: () => void,
+        private failed: (error: unknown) => void,
+    ) {}
+
+    take(key: string, ask: () => Promise<T>): T | null {
+        if (this.key === key) return this.value;
+        this.key = key;
+        this.value = null;
+        this.isWaiting = true;
+        ask().then(
+            value => this.key === key && this.put(value),
+            error => {
+                if (this.key !== key) return;
+                this.isWaiting = false;
+                this.failed(error);
+            },
+        );
+        return null;
+    }
+    private put(value: T): void {
+        this.isWaiting = false;
+        this.value = value;
+        this.came();
+    }
+}
+
+const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
+    a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
+
+export class LayerMaker {
+    private kept = new Kept();
+    private other: Asked<LoadedGrid>;
+    private rows: Asked<{ time: string; rows: SweepRow[] }>;
+    private sweep: Asked<DrawnSweep>;
+    rowsCame: () => void = () => undefined; // the sweeps of the volume are known now
+
+    constructor(
+        private app: App,
+        came: () => void,
+    ) {
+        const failed = (error: unknown) => app.fail(error);
+        this.other = new Asked(came, failed);
+        this.sweep = new Asked(came, failed);
+        this.rows = new Asked(() => {
+            this.rowsCame();
+            came();
+        }, failed);
+    }
+
+    // Something that is wanted has not come yet.
+    get isWaiting(): boolean {
+        return this.other.isWaiting || this.rows.isWaiting || this.sweep.isWaiting;
+    }
+
+    // Null if nothing is to be drawn but the volume as it always was.
+    make(): DrawnLayers | null {
+        const { shown, table, state } = this.app;
+        const { layers } = state;
+        const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
+        if (!shown || !table || isUsual) return null;
+        const { grid } = shown.loaded;
+        return {
+            plane: this.planeOf(grid, shown.moment, layers.planeM),
+            section: layers.section && this.sectionOf(grid, shown.moment, layers.section),
+            surface: this.surfaceOf(shown, layers),
+            maximum: layers.hasMaximum ? this.kept.take('maximum', [grid], () => maximumField(grid)) : null,
+            sweep: layers.sweepDeg === null ? null : this.sweepOf(shown, layers.sweepDeg),
+            crop: layers.crop,
+            falls: layers.isLit ? this.fallsOf(grid, shown.moment, table) : null,
+            air: layers.hasHaze || layers.hasFolded ? this.airOf(grid) : null,
+            hasHaze: layers.hasHaze,
+            hasFolded: layers.hasFolded,
+            mixes: mixingOf(shown.moment) === 'mean',
+            folded: table.range_folded,
+            looks: this.looksOf(table, state.least),
+        };
+    }
+
+    private planeOf(grid: PackedGrid, moment: string, heightM: number | null): DrawnLayers['plane'] {
+        if (heightM === null) return null;
+        const field = this.kept.take('plane', [grid, heightM], () => planeField(grid, moment, heightM));
+        return field && this.kept.take('drawn plane', [field], () => ({ field, heightM }));
+    }
+    private sectionOf(grid: PackedGrid, moment: string, ends: readonly [Place, Place]): Section {
+        return this.kept.take('section', [grid, ends[0], ends[1]], () => cutSection(grid, moment, ends[0], ends[1], sectionColumns, sectionRows));
+    }
+    private airOf(grid: PackedGrid): Air {
+        return this.kept.take('air', [grid], () => airOf(grid));
+    }
+    private fallsOf(grid: PackedGrid, moment: string, table: ColorTable): Falls {
+        return this.kept.take('falls', [grid, table], () => fallsOf(grid, moment, table.stops[0]!.from));
+    }
+    private looksOf(table: ColorTable, least: number | null): Looks {
+        return this.kept.take('looks', [table, least], () => looksOf(table, least ?? -1e9));
+    }
+
+    private surfaceOf(shown: Shown, { surface }: Layers): DrawnSurface | null {
+        if (!surface) return null;
+        const moment = surface.moment || shown.moment;
+        // Of velocities a negative value encloses what is faster toward the radar.
+        const isBelow = moment === 'VEL' && surface.value < 0;
+        if (moment === shown.moment) return { value: surface.value, isBelow, of: null };
+        const key = `${shown.domain} ${moment} ${shown.time}`;
+        const of = this.other.take(key, () => this.app.loader.load(shown.domain, moment, shown.time));
+        if (!of) return null;
+        if (!hasSameCells(of.grid, shown.loaded.grid)) {
+            this.app.say(texts.layers.otherCells(moment));
+            return null;
+        }
+        return { value: surface.value, isBelow, of };
+    }
+
+    // The sweeps of the volume that is shown; null until they are known.
+    sweepRows(): SweepRow[] | null {
+        const { shown } = this.app;
+        return shown && (this.rowsOf(shown)?.rows ?? null);
+    }
+    private rowsOf({ loaded, time }: Shown): { time: string; rows: SweepRow[] } | null {
+        const station = loaded.grid.sites[0]?.icao ?? '';
+        return this.rows.take(`${station} ${time}`, async () => {
+            const volume = await volumeBefore(station, time);
+            if (volume === null) throw new Error(texts.layers.noVolume(station));
+            return { time: volume, rows: await sweeps(station, volume) };
+        });
+    }
+
+    private sweepOf(shown: Shown, elevationDeg: number): DrawnSweep | null {
+        const known = this.rowsOf(shown);
+        const row = known && nearestSweep(known.rows, shown.moment, elevationDeg);
+        if (!row) return null;
+        const station = shown.loaded.grid.sites[0]!.icao;
+        return this.sweep.take(`${station} ${known.time} ${row.sweep} ${shown.moment} ${shown.key}`, async () => {
+            const read = readPackedSweep(new Uint8Array(await gates(station, known.time, row.sweep, shown.moment)));
+            return { gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(shown.loaded.grid)) };
+        });
+    }
+}

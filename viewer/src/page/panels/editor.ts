@@ -1,0 +1,318 @@
+// The editor of colors and opacity: presets, points, threshold, undo and redo, files. It is made when it is
+// first opened; while it is closed it costs nothing.
+
+import { OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
+import { withColor, withColorAdded, withColorMoved, withColorRemoved, withOpacityAdded, withOpacityMoved, withOpacityRemoved } from '../../tables/draft_edits';
+import { histogramOf } from '../../tables/histogram';
+import { TableError, colorOfHex, hexOf, mostFileBytes } from '../../tables/table_file';
+import { shownUnit } from '../../tables/units';
+import { App, Shown } from '../app';
+import { button, element, labeledButton, putOptions, saveFile } from '../dom';
+import { Drawing } from '../drawing';
+import { Keys } from '../keys';
+import { ExportedFile, TableEditing } from '../table_editing';
+import { tableTitle } from '../table_book';
+import { texts } from '../texts';
+import { EditorPlot, Selection } from './editor_plot';
+
+const words = texts.editor;
+const otherPanels = [
+    { id: 'settings', opener: 'open' },
+    { id: 'layers', opener: 'layers-open' },
+];
+
+export class Editor {
+    private section: HTMLElement | null = null;
+    private plot = new EditorPlot({
+        select: selection => this.select(selection),
+        move: (selection, value, perKm, doing) => this.move(selection, value, perKm, doing),
+        add: (kind, value, perKm) => this.add(kind, value, perKm),
+        remove: selection => this.remove(selection),
+        rest: () => this.editing.rest(),
+    });
+    private selected: Selection = { kind: 'color', at: 0 };
+    private counted: { shown: Shown; key: string; histogram: Uint32Array } | null = null;
+    private says = document.createElement('p');
+    private opener: HTMLElement | null = null;
+
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+        private editing: TableEditing,
+    ) {}
+
+    begin(keys: Keys): void {
+        const open = button('edit-colors', words.open, () => this.open());
+        open.setAttribute('aria-expanded', 'false');
+        element('colors').closest('label')!.after(open);
+        keys.add('e', () => (this.isOpen ? this.close() : this.open()));
+        keys.add('Escape', () => this.close());
+        for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
+        // One panel is open at a time.
+        for (const other of otherPanels) element(other.opener).addEventListener('click', () => this.close(false));
+        window.addEventListener('resize', () => this.put());
+    }
+
+    get isOpen(): boolean {
+        return this.section !== null && !this.section.hidden;
+    }
+
+    open(): void {
+        this.opener = document.activeElement as HTMLElement | null;
+        for (const { id, opener } of otherPanels) if (!element(id).hidden) element(opener).click();
+        this.section ??= this.make();
+        this.section.hidden = false;
+        element('edit-colors').setAttribute('aria-expanded', 'true');
+        this.put();
+        this.drawing.draw();
+        element('editor-preset').focus();
+    }
+    close(takesKeyboard = true): void {
+        if (!this.isOpen) return;
+        this.section!.hidden = true;
+        element('edit-colors').setAttribute('aria-expanded', 'false');
+        const isThere = this.opener !== null && this.opener.offsetParent !== null;
+        if (takesKeyboard) (isThere ? this.opener! : element('picture')).focus();
+        this.drawing.draw();
+    }
+
+    // -- the panel
+
+    private make(): HTMLElement {
+        const section = document.createElement('section');
+        section.id = 'editor';
+        section.setAttribute('aria-label', words.title);
+        section.addEventListener('keydown', event => this.press(event));
+        this.says.id = 'editor-says';
+        this.says.setAttribute('role', 'status');
+        section.append(this.tools(), this.plot.box, this.pointRow(), this.says);
+        section.addEventListener('dragover', event => event.preventDefault());
+        section.addEventListener('drop', event => {
+            event.preventDefault();
+            const file = event.dataTransfer?.files[0];
+            if (file) void this.take(file);
+        });
+        element('reading').before(section);
+        return section;
+    }
+
+    private tools(): HTMLElement {
+        const tools = document.createElement('div');
+        tools.className = 'tools';
+        const preset = document.createElement('select');
+        preset.id = 'editor-preset';
+        preset.setAttribute('aria-label', words.preset);
+        preset.addEventListener('change', () => {
+            if (preset.value) this.editing.choosePreset(preset.value);
+        });
+        const file = document.createElement('input');
+        file.type = 'file';
+        file.accept = '.pal,.toml';
+        file.hidden = true;
+        file.id = 'editor-file';
+        file.setAttribute('aria-label', words.import);
+        file.addEventListener('change', () => {
+            if (file.files?.[0]) void this.take(file.files[0]);
+            file.value = '';
+        });
+        tools.append(
+            preset,
+            labeledButton('editor-undo', '↶', words.undo, () => this.editing.undo()),
+            labeledButton('editor-redo', '↷', words.redo, () => this.editing.redo()),
+            button('editor-import', words.import, () => file.click()),
+            file,
+            button('editor-toml', words.toToml, () => this.save(this.editing.toml())),
+            button('editor-pal', words.toPal, () => this.save(this.editing.pal())),
+            labeledButton('editor-close', '×', words.close, () => this.close()),
+        );
+        return tools;
+    }
+
+    private pointRow(): HTMLElement {
+        const row = document.createElement('div');
+        row.className = 'point';
+        const labeled = (id: string, text: string, type: string) => {
+            const label = document.createElement('label');
+            const name = document.createElement('span');
+            name.textContent = text;
+            const input = document.createElement('input');
+            [input.id, input.type] = [id, type];
+            label.append(name, input);
+            row.append(label);
+            return input;
+        };
+        const value = labeled('point-value', words.value, 'number');
+        value.step = 'any';
+        value.addEventListener('change', () => this.move(this.selected, Number(value.value) / this.unit.perStored, this.perKmOfSelected(), null));
+        const color = labeled('point-color', words.color, 'color');
+        color.addEventListener('input', () => {
+            const rgba = colorOfHex(color.value);
+            if (rgba && this.selected.kind === 'color') this.edit(draft => withColor(draft, this.selected.at, rgba), `color ${this.selected.at}`);
+        });
+        color.addEventListener('change', () => this.editing.rest());
+        const opacity = labeled('point-opacity', words.opacity, 'number');
+        [opacity.min, opacity.step] = ['0', 'any'];
+        opacity.addEventListener('change', () => this.move(this.selected, this.valueOfSelected(), Number(opacity.value), null));
+        row.append(
+            button('point-add', words.add, () => this.addAfter()),
+            button('point-remove', words.remove, () => this.remove(this.selected)),
+        );
+        return row;
+    }
+
+    private press(event: KeyboardEvent): void {
+        const isUndo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z';
+        if (event.key === 'Escape') this.close();
+        else if (isUndo && !event.shiftKey) this.editing.undo();
+        else if (isUndo || ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'y')) this.editing.redo();
+        else return;
+        event.preventDefault();
+    }
+
+    // -- points
+
+    private get unit() {
+        return shownUnit(this.app.table?.unit ?? '', this.app.state.units);
+    }
+    // The points of opacity that would be edited.
+    private opacities(): OpacityPoint[] {
+        const { draft } = this.editing;
+        if (!draft) return [];
+        if (draft.opacity) return draft.opacity;
+        const table = this.app.table!;
+        // A table of another moment: its opacity is not the usual one, and becomes points.
+        return draftOf({ ...table, moment: '' }, draft.moment, this.app.book!.usual).opacity ?? [];
+    }
+    private valueOfSelected(): number {
+        const { kind, at } = this.selected;
+        if (kind === 'least') return this.least;
+        return kind === 'color' ? (this.editing.draft?.colors[at]?.value ?? 0) : (this.opacities()[at]?.value ?? 0);
+    }
+    private perKmOfSelected(): number | null {
+        return this.selected.kind === 'opacity' ? (this.opacities()[this.selected.at]?.perKm ?? 0) : null;
+    }
+    private get least(): number {
+        return this.app.state.least ?? this.editing.draft!.barBegin;
+    }
+
+    private edit(change: Parameters<TableEditing['edit']>[0], doing: string | null): void {
+        this.drawing.move();
+        this.editing.edit(change, doing);
+    }
+    private select(selection: Selection): void {
+        this.selected = selection;
+        this.put();
+    }
+    private move({ kind, at }: Selection, value: number, perKm: number | null, doing: string | null): void {
+        if (!Number.isFinite(value)) return this.put();
+        const opacity = this.opacities();
+        if (kind === 'color') this.edit(draft => withColorMoved(draft, at, value), doing);
+        else if (kind === 'opacity') this.edit(draft => withOpacityMoved(draft, opacity, at, value, perKm ?? opacity[at]!.perKm), doing);
+        else this.hideBelow(value, doing);
+    }
+    private hideBelow(value: number, doing: string | null): void {
+        const { barBegin, end } = this.editing.draft!;
+        this.drawing.move();
+        this.editing.hideBelow(value <= barBegin ? null : Math.min(end, value), doing);
+    }
+    private add(kind: 'color' | 'opacity', value: number, perKm: number): void {
+        const opacity = this.opacities();
+        let at = -1;
+        this.edit(draft => {
+            const [next, place] =
+                kind === 'color' ? withColorAdded(draft, value) : withOpacityAdded(draft, opacity, value, Number.isNaN(perKm) ? perKmAt(opacity, value) : perKm);
+            at = place;
+            return next;
+        }, null);
+        if (at >= 0) {
+            this.select({ kind, at });
+            this.plot.focus(this.selected);
+        } else {
+            this.say(words.noRoom);
+        }
+    }
+    private addAfter(): void {
+        const kind = this.selected.kind === 'opacity' ? 'opacity' : 'color';
+        this.add(kind, this.plot.middleAfter(kind, this.selected.kind === kind ? this.selected.at : 0), NaN);
+    }
+    private remove({ kind, at }: Selection): void {
+        const opacity = this.opacities();
+        if (kind === 'least') return;
+        const before = this.editing.draft;
+        this.edit(draft => (kind === 'color' ? withColorRemoved(draft, at) : withOpacityRemoved(draft, opacity, at)), null);
+        if (this.editing.draft === before) return this.say(words.lastPoints);
+        this.select({ kind, at: Math.max(0, at - 1) });
+        this.plot.focus(this.selected);
+    }
+
+    // -- files
+
+    private say(text: string, isWrong = false): void {
+        this.says.textContent = text;
+        this.says.classList.toggle('wrong', isWrong);
+    }
+    private async take(file: File): Promise<void> {
+        try {
+            if (file.size > mostFileBytes) throw new TableError(words.tooLarge(file.name));
+            this.say(this.editing.take(await file.text(), file.name));
+        } catch (error) {
+            this.say(error instanceof Error ? error.message : String(error), true);
+        }
+    }
+    private save({ name, text, isWhole }: ExportedFile): void {
+        saveFile(name, text);
+        this.say(isWhole ? words.saved(name) : words.savedInPart(name), !isWhole);
+    }
+
+    // -- what is shown
+
+    private put(): void {
+        const { app, editing } = this;
+        const { draft } = editing;
+        const { table } = app;
+        if (!this.isOpen || !draft || !table) return;
+        const opacity = this.opacities();
+        const count = { color: draft.colors.length, opacity: opacity.length, least: 1 }[this.selected.kind];
+        this.selected = { ...this.selected, at: Math.max(0, Math.min(count - 1, this.selected.at)) };
+        this.putTools();
+        this.putPoint(opacity);
+        const content = { draft, opacity, table, least: this.least, unit: this.unit, selected: this.selected };
+        this.plot.show({ ...content, histogram: null });
+        const histogram = this.histogram();
+        if (histogram) this.plot.show({ ...content, histogram });
+    }
+
+    private histogram(): Uint32Array | null {
+        const { shown } = this.app;
+        if (!shown || shown.moment !== this.app.state.moment) return null;
+        const range = this.plot.range();
+        const key = `${range.join()} ${this.plot.columns}`;
+        if (this.counted?.shown !== shown || this.counted.key !== key) {
+            this.counted = { shown, key, histogram: histogramOf(shown.loaded.grid, ...range, this.plot.columns) };
+        }
+        return this.counted.histogram;
+    }
+
+    private putTools(): void {
+        const { app, editing } = this;
+        const preset = element<HTMLSelectElement>('editor-preset');
+        const names = app.book!.presets(app.state.moment).map(table => table.name);
+        if (editing.isEdited) names.unshift('');
+        putOptions(preset, names, editing.isEdited ? '' : app.table!.name, name => (name ? tableTitle(name) : words.edited(editing.draft!.name)));
+        element<HTMLButtonElement>('editor-undo').disabled = !editing.canUndo;
+        element<HTMLButtonElement>('editor-redo').disabled = !editing.canRedo;
+    }
+
+    private putPoint(opacity: OpacityPoint[]): void {
+        const { kind, at } = this.selected;
+        const value = element<HTMLInputElement>('point-value');
+        value.value = String(Number((this.valueOfSelected() * this.unit.perStored).toFixed(3)));
+        const color = element<HTMLInputElement>('point-color');
+        color.parentElement!.hidden = kind !== 'color';
+        if (kind === 'color') color.value = hexOf(this.editing.draft!.colors[at]!.color).slice(0, 7);
+        const perKm = element<HTMLInputElement>('point-opacity');
+        perKm.parentElement!.hidden = kind !== 'opacity';
+        if (kind === 'opacity') perKm.value = String(opacity[at]!.perKm);
+        element<HTMLButtonElement>('point-remove').disabled = kind === 'least';
+    }
+}

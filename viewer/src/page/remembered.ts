@@ -1,0 +1,21 @@
+// What the browser keeps from one visit to the next. Where it keeps nothing, the page works all the same.
+
+import { Units, namesOf, unitsOf } from '../tables/units';
+
+const unitsKey = 'stormcellar-units';
+
+export function rememberUnits(units: Units): void {
+    try {
+        localStorage.setItem(unitsKey, namesOf(units));
+    } catch {
+        // Storage is forbidden here.
+    }
+}
+
+export function rememberedUnits(): Units {
+    try {
+        return unitsOf(localStorage.getItem(unitsKey) ?? '');
+    } catch {
+        return unitsOf('');
+    }
+}

@@ -1,0 +1,48 @@
+// The color tables that the page knows: those of the server, and what the user made of them.
+
+import { ViewState } from '../scene/view_state';
+import { ColorTable } from '../tables/color_table';
+import { Draft, draftOf, tableOf } from '../tables/draft';
+import { UsualOpacity, usualOpacity } from '../tables/usual_opacity';
+import { Tables } from '../wire/api';
+import { texts } from './texts';
+
+// Tables of the server with this in front differ from class to class for every kind of color vision
+// (render/colour/built_in_tables.h).
+const safePrefix = 'safe-';
+export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.editor.safe(name) : name);
+
+export class TableBook {
+    readonly usual: UsualOpacity;
+    private made = new WeakMap<Draft, ColorTable>();
+
+    constructor(private tables: Tables) {
+        this.usual = usualOpacity(tables.tables, tables.usual);
+    }
+
+    // The tables of a moment; what is for a product of it is not among them.
+    presets(moment: string): ColorTable[] {
+        const own = this.tables.tables.filter(table => table.moment === moment);
+        const unit = own.find(table => table.name === this.tables.usual[moment])?.unit;
+        return own.filter(table => table.unit === unit);
+    }
+    preset(moment: string, name: string): ColorTable | undefined {
+        const presets = this.presets(moment);
+        return presets.find(table => table.name === name) ?? presets.find(table => table.name === this.tables.usual[moment]);
+    }
+
+    // The table of a moment in a view; the same draft has the same table.
+    of(state: ViewState, moment: string): ColorTable | undefined {
+        const draft = state.drafts.find(one => one.moment === moment);
+        if (!draft) return this.preset(moment, state.colors);
+        const made = this.made.get(draft) ?? tableOf(draft, this.usual);
+        this.made.set(draft, made);
+        return made;
+    }
+    // The draft of a moment, or the one that its table would become.
+    draftOf(state: ViewState, moment: string): Draft | undefined {
+        const draft = state.drafts.find(one => one.moment === moment);
+        const preset = this.preset(moment, state.colors);
+        return draft ?? (preset && { ...draftOf(preset, moment, this.usual), name: `my-${preset.name}` });
+    }
+}

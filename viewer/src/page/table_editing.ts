@@ -1,0 +1,116 @@
+// What the user does to the colors: presets, drafts, the threshold, files; with undo and redo.
+
+import { Draft, draftOf, fileOf, tableForPal } from '../tables/draft';
+import { History } from '../tables/history';
+import { readPal, writePal } from '../tables/pal_file';
+import { TableError, mostFileBytes, tableOfFile } from '../tables/table_file';
+import { readToml, writeToml } from '../tables/toml_file';
+import { App } from './app';
+import { texts } from './texts';
+
+interface Colors {
+    colors: string;
+    drafts: Draft[];
+    least: number | null;
+}
+
+export interface ExportedFile {
+    name: string;
+    text: string;
+    isWhole: boolean; // the file says all that the table has
+}
+
+export class TableEditing {
+    private history = new History<Colors>();
+    private known: { key: string; draft: Draft | undefined } = { key: '', draft: undefined };
+
+    constructor(private app: App) {}
+
+    // What is edited: the draft of the shown moment, or what its table would become.
+    get draft(): Draft | undefined {
+        const { state, book } = this.app;
+        const draft = state.drafts.find(one => one.moment === state.moment);
+        if (draft) return draft;
+        const key = `${state.moment} ${state.colors}`;
+        if (this.known.key !== key || !this.known.draft) this.known = { key, draft: book?.draftOf(state, state.moment) };
+        return this.known.draft;
+    }
+    get isEdited(): boolean {
+        const { state } = this.app;
+        return state.drafts.some(one => one.moment === state.moment);
+    }
+    get canUndo(): boolean {
+        return this.history.canUndo;
+    }
+    get canRedo(): boolean {
+        return this.history.canRedo;
+    }
+
+    private get now(): Colors {
+        const { colors, drafts, least } = this.app.state;
+        return { colors, drafts, least };
+    }
+    private become(next: Partial<Colors>): void {
+        Object.assign(this.app.state, next);
+        this.app.changed();
+    }
+
+    // Changes of one doing, such as a drag, are undone at once.
+    edit(change: (draft: Draft) => Draft, doing: string | null = null): void {
+        const { draft } = this;
+        const next = draft && change(draft);
+        if (!draft || !next || next === draft) return;
+        this.history.note(this.now, doing);
+        this.become({ drafts: this.with(next) });
+    }
+    private with(draft: Draft): Draft[] {
+        return [...this.app.state.drafts.filter(one => one.moment !== draft.moment), draft];
+    }
+    rest(): void {
+        this.history.rest();
+    }
+    hideBelow(least: number | null, doing: string | null = null): void {
+        this.history.note(this.now, doing);
+        this.become({ least: least === null ? null : Number(least.toFixed(4)) });
+    }
+    choosePreset(name: string): void {
+        this.history.note(this.now);
+        const { state } = this.app;
+        this.become({ colors: name, drafts: state.drafts.filter(one => one.moment !== state.moment) });
+    }
+    undo(): void {
+        this.become(this.history.undo(this.now));
+    }
+    redo(): void {
+        this.become(this.history.redo(this.now));
+    }
+
+    // -- files
+
+    // Takes a table from a file. Returns what is to be said of it. Errors: a TableError.
+    take(text: string, fileName: string): string {
+        const { state, book } = this.app;
+        const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
+        if (!ending || !book) throw new TableError(texts.editor.otherEnding(fileName));
+        if (text.length > mostFileBytes) throw new TableError(texts.editor.tooLarge(fileName));
+        const table = ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
+        const moment = table.moment || state.moment;
+        const unit = book.preset(moment, '')?.unit ?? table.unit;
+        if (table.unit && table.unit !== unit) throw new TableError(texts.editor.otherUnit(fileName, table.unit, unit));
+        const draft = { ...draftOf({ ...table, name: table.name || fileName.replace(/\.[^.]*$/, '') }, moment, book.usual), unit };
+        this.history.note(this.now);
+        this.become({ drafts: this.with(draft) });
+        return moment === state.moment ? texts.editor.taken(fileName, draft.colors.length) : texts.editor.otherMoment(fileName, moment);
+    }
+
+    // The table as it is shown; what is hidden is not in it.
+    toml(): ExportedFile {
+        const draft = this.draft!;
+        return { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true };
+    }
+    pal(): ExportedFile {
+        const draft = this.draft!;
+        const { table, isWhole } = tableForPal(draft, this.app.book!.usual, this.app.state.least);
+        return { name: `${draft.name}.pal`, text: writePal(table), isWhole };
+    }
+}

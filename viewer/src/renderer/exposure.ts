@@ -1,0 +1,81 @@
+// The exposure of a lit picture: by it the mean lightness of its echo is that without light
+// (render/volume/lit_layer.h). It is found from a small picture.
+
+import { ViewGeometry } from '../camera/geometry';
+
+const stride = 5; // pixels along each side that one of the small picture stands for
+const [leastExposure, mostExposure] = [0.7, 1.4];
+const halvings = 10;
+
+function litLightness(l: number, factor: number): number {
+    if (factor < 1) return l * Math.max(0.5, 1 - 0.9 * (1 - factor));
+    return l + Math.max(0, 0.98 - l) * (1 - Math.exp(-1.44 * (factor - 1)));
+}
+
+// `pixels` has lightness, half of the factor, and opacity, each of 255, and a byte that is not used.
+export function exposureOf(pixels: Uint8Array): number {
+    let [low, high] = [leastExposure, mostExposure];
+    let isEmpty = true;
+    for (let step = 0; step < halvings; ++step) {
+        const middle = 0.5 * (low + high);
+        let lighter = 0;
+        for (let i = 0; i < pixels.length; i += 4) {
+            if (pixels[i + 2] === 0) continue;
+            isEmpty = false;
+            const l = pixels[i]! / 255;
+            lighter += pixels[i + 2]! * (litLightness(l, (middle * 2 * pixels[i + 1]!) / 255) - l);
+        }
+        if (lighter > 0) high = middle;
+        else low = middle;
+    }
+    return isEmpty ? 1 : 0.5 * (low + high);
+}
+
+export class Exposure {
+    value = 1;
+    private target: { framebuffer: WebGLFramebuffer; texture: WebGLTexture; width: number; height: number } | null = null;
+
+    constructor(private gl: WebGL2RenderingContext) {}
+
+    forget(): void {
+        this.target = null;
+    }
+
+    private targetOf(width: number, height: number): WebGLFramebuffer {
+        const { gl } = this;
+        if (this.target?.width === width && this.target.height === height) return this.target.framebuffer;
+        if (this.target) {
+            gl.deleteFramebuffer(this.target.framebuffer);
+            gl.deleteTexture(this.target.texture);
+        }
+        const texture = gl.createTexture()!;
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, width, height);
+        const framebuffer = gl.createFramebuffer()!;
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+        gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
+        this.target = { framebuffer, texture, width, height };
+        return framebuffer;
+    }
+
+    // `draw` draws what is measured.
+    measure(geometry: ViewGeometry, draw: () => void): void {
+        const { gl } = this;
+        const [width, height] = [Math.ceil(geometry.width / stride), Math.ceil(geometry.height / stride)];
+        gl.bindFramebuffer(gl.FRAMEBUFFER, this.targetOf(width, height));
+        gl.viewport(0, 0, width, height);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+        draw();
+        const pixels = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        this.value = exposureOf(pixels);
+    }
+
+    // The camera of the small picture.
+    shrink(geometry: ViewGeometry, at: (name: string) => WebGLUniformLocation | null): void {
+        this.gl.uniform2f(at('size'), geometry.width / stride, geometry.height / stride);
+        this.gl.uniform1f(at('scale'), geometry.isPerspective ? geometry.focalPixels / stride : geometry.metersPerPixel * stride);
+    }
+}

@@ -1,0 +1,139 @@
+// What is drawn beside the map: which layers, and how. One value, and its part of the address.
+
+import { Place } from './projection';
+
+// Sides of a box in meters: from the middle of the grid, and above sea level.
+export interface Crop {
+    westM: number;
+    eastM: number;
+    southM: number;
+    northM: number;
+    bottomM: number;
+    topM: number;
+}
+
+export interface Surface {
+    value: number; // it encloses what is at least this
+    moment: string; // empty: the one that is shown; of another one, the shown one colors it
+}
+
+export interface Layers {
+    hasVolume: boolean;
+    planeM: number | null; // height of a plane above sea level
+    section: readonly [Place, Place] | null;
+    surface: Surface | null;
+    hasMaximum: boolean; // of each column, on the ground
+    sweepDeg: number | null; // elevation of a sweep
+    crop: Crop | null; // of volume and surface
+    isLit: boolean;
+    hasHaze: boolean; // where no beam saw
+    hasFolded: boolean; // range folded air
+}
+
+export const usualLayers: Layers = {
+    hasVolume: true,
+    planeM: null,
+    section: null,
+    surface: null,
+    hasMaximum: false,
+    sweepDeg: null,
+    crop: null,
+    isLit: false,
+    hasHaze: false,
+    hasFolded: false,
+};
+
+const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
+const kilometers = (m: number): string => rounded(m / 1000, 3);
+const cropSides = ['westM', 'eastM', 'southM', 'northM', 'bottomM', 'topM'] as const;
+const farthestM = 2e7;
+
+export const sectionText = (section: readonly [Place, Place]): string =>
+    section.flatMap(({ latitudeDeg, longitudeDeg }) => [rounded(latitudeDeg, 5), rounded(longitudeDeg, 5)]).join(',');
+
+// Names and texts in the address of what is not usual.
+export function layersAddress(layers: Layers): [string, string][] {
+    const parts: [string, string][] = [];
+    if (!layers.hasVolume) parts.push(['volume', '0']);
+    if (layers.planeM !== null) parts.push(['height-km', kilometers(layers.planeM)]);
+    if (layers.section) parts.push(['section', sectionText(layers.section)]);
+    if (layers.surface) {
+        parts.push(['surface', rounded(layers.surface.value, 3)]);
+        if (layers.surface.moment) parts.push(['surface-moment', layers.surface.moment]);
+    }
+    if (layers.hasMaximum) parts.push(['maximum', '1']);
+    if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
+    if (layers.crop) parts.push(['crop-km', cropSides.map(side => kilometers(layers.crop![side])).join(',')]);
+    if (layers.isLit) parts.push(['light', 'gradient']);
+    if (layers.hasHaze) parts.push(['haze', '1']);
+    if (layers.hasFolded) parts.push(['folded', '1']);
+    return parts;
+}
+
+function numbers(text: string | null, count: number, least: number, most: number): number[] | null {
+    if (text === null || text === '') return null;
+    const found = text.split(',').map(part => (part.trim() === '' ? NaN : Number(part)));
+    return found.length === count && found.every(one => one >= least && one <= most) ? found : null;
+}
+
+// Two places as "LAT,LON,LAT,LON"; null where the text makes no sense or the places are the same.
+export function sectionOf(text: string | null): [Place, Place] | null {
+    const found = numbers(text, 4, -360, 360);
+    if (!found) return null;
+    const [latitudeA, longitudeA, latitudeB, longitudeB] = found as [number, number, number, number];
+    const isOnEarth = Math.abs(latitudeA) <= 90 && Math.abs(latitudeB) <= 90;
+    if (!isOnEarth || (latitudeA === latitudeB && longitudeA === longitudeB)) return null;
+    return [
+        { latitudeDeg: latitudeA, longitudeDeg: longitudeA },
+        { latitudeDeg: latitudeB, longitudeDeg: longitudeB },
+    ];
+}
+
+function cropOf(text: string | null): Crop | null {
+    const found = numbers(text, 6, -farthestM / 1000, farthestM / 1000);
+    if (!found) return null;
+    const [westM, eastM, southM, northM, bottomM, topM] = found.map(km => km * 1000) as [number, number, number, number, number, number];
+    return westM < eastM && southM < northM && bottomM < topM ? { westM, eastM, southM, northM, bottomM, topM } : null;
+}
+
+// What makes no sense in the address is left out.
+export function layersOf(query: URLSearchParams): Layers {
+    const one = (name: string, least: number, most: number) => numbers(query.get(name), 1, least, most)?.[0] ?? null;
+    const planeKm = one('height-km', -1, 100);
+    const surface = one('surface', -1000, 1000);
+    return {
+        hasVolume: query.get('volume') !== '0',
+        planeM: planeKm === null ? null : planeKm * 1000,
+        section: sectionOf(query.get('section')),
+        surface: surface === null ? null : { value: surface, moment: (query.get('surface-moment') ?? '').toUpperCase().slice(0, 8) },
+        hasMaximum: query.get('maximum') === '1',
+        sweepDeg: one('elevation', -5, 90),
+        crop: cropOf(query.get('crop-km')),
+        isLit: query.get('light') === 'gradient',
+        hasHaze: query.get('haze') === '1',
+        hasFolded: query.get('folded') === '1',
+    };
+}
+
+// The words with which `stormcellar frame` draws one of the layers; null if it draws the volume. Of several
+// the one that is named first here.
+export function productOf(layers: Layers): string[] | null {
+    if (layers.hasVolume) return null;
+    if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];
+    if (layers.planeM !== null) return ['--product', 'cappi', '--height-km', kilometers(layers.planeM)];
+    if (layers.sweepDeg !== null) return ['--product', 'ppi', '--elevation', rounded(layers.sweepDeg, 2)];
+    return layers.hasMaximum ? ['--product', 'composite'] : null;
+}
+
+// The sun stands so far to the left of the camera, and so high.
+export const sunAsideDeg = 65;
+export const sunElevationDeg = 40;
+
+// The box of a crop within another.
+export function croppedBox(box: Crop, crop: Crop | null): Crop {
+    if (!crop) return box;
+    const within = { ...box };
+    for (const side of ['westM', 'southM', 'bottomM'] as const) within[side] = Math.max(box[side], crop[side]);
+    for (const side of ['eastM', 'northM', 'topM'] as const) within[side] = Math.min(box[side], crop[side]);
+    return within;
+}

@@ -1,0 +1,31 @@
+// How often each value occurs in a grid, from its exact codes.
+
+import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
+
+// Of each code of a value how many cells have it. Cells of a brick beyond the grid have no values.
+export function countCodes(grid: PackedGrid): Uint32Array {
+    const counts = new Uint32Array(grid.codeBytes === 1 ? 256 : 65536);
+    const cells = grid.brickEdge ** 3;
+    for (let brick = 0; brick < grid.kind.length; ++brick) {
+        if (grid.kind[brick] !== BrickKind.codes || grid.valueCount[brick] === 0) continue;
+        const from = grid.block[brick]! * cells;
+        for (let i = from; i < from + cells; ++i) ++counts[grid.codes[i]!]!;
+    }
+    counts.fill(0, 0, firstValueCode);
+    return counts;
+}
+
+// Counts in at most `most` columns of equal width from `low` to `high`, each with as many codes as the others;
+// values beyond are left out.
+export function histogramOf(grid: PackedGrid, low: number, high: number, most: number): Uint32Array {
+    const counts = countCodes(grid);
+    const codes = Math.max(1, (high - low) / grid.step);
+    const columns = Math.ceil(codes / Math.ceil(codes / most) - 1e-6);
+    const histogram = new Uint32Array(columns);
+    for (let code = firstValueCode; code < counts.length; ++code) {
+        if (counts[code] === 0) continue;
+        const column = Math.floor(((valueOf(grid, code) - low) / (high - low)) * columns + 1e-6);
+        if (column >= 0 && column < columns) histogram[column]! += counts[code]!;
+    }
+    return histogram;
+}

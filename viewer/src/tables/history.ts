@@ -1,0 +1,42 @@
+// Undo and redo of whole values.
+
+const mostSteps = 200;
+
+export class History<T> {
+    private past: T[] = [];
+    private future: T[] = [];
+    private doing: string | null = null;
+
+    // Something is about to change from `before`. Changes of one doing, such as a drag, are one step.
+    note(before: T, doing: string | null = null): void {
+        if (doing !== null && doing === this.doing) return;
+        this.doing = doing;
+        this.past.push(before);
+        if (this.past.length > mostSteps) this.past.shift();
+        this.future = [];
+    }
+    // What follows is another doing.
+    rest(): void {
+        this.doing = null;
+    }
+
+    get canUndo(): boolean {
+        return this.past.length > 0;
+    }
+    get canRedo(): boolean {
+        return this.future.length > 0;
+    }
+    undo(now: T): T {
+        return this.go(now, this.past, this.future);
+    }
+    redo(now: T): T {
+        return this.go(now, this.future, this.past);
+    }
+    private go(now: T, from: T[], to: T[]): T {
+        this.rest();
+        const next = from.pop();
+        if (next === undefined) return now;
+        to.push(now);
+        return next;
+    }
+}

@@ -1,0 +1,37 @@
+// A color table by value, for what is drawn flat.
+
+import { ColorTable, colorOf } from './color_table';
+
+export const lookCount = 2048;
+
+export interface Looks {
+    // Red, green, blue and opacity on maps, 0 to 255. The first one is clear, for values below the table.
+    rgba: Uint8Array;
+    // entry = offset + slope * value, rounded down
+    offset: number;
+    slope: number;
+}
+
+// So that a value at which a class begins is in it.
+const slack = 1 / 64;
+
+export function looksOf(table: ColorTable, least: number): Looks {
+    const low = table.stops[0]!.from;
+    const high = Math.max(table.end, table.stops[table.stops.length - 1]!.from);
+    const width = (high - low) / (lookCount - 1);
+    const rgba = new Uint8Array(4 * lookCount);
+    for (let i = 1; i < lookCount; ++i) {
+        const value = low + (i - 0.5) * width;
+        const color = value < least ? null : colorOf(table, value);
+        if (color) rgba.set(color.map(Math.round), 4 * i);
+    }
+    return { rgba, offset: 1 + slack - low / width, slope: 1 / width };
+}
+
+// The color of a value over another one, as maps have it; null where it is clear.
+export function lookOver(looks: Looks, value: number, under: readonly number[]): [number, number, number] | null {
+    const entry = Math.min(lookCount - 1, Math.max(0, Math.floor(looks.offset + looks.slope * value)));
+    const alpha = looks.rgba[4 * entry + 3]! / 255;
+    if (alpha === 0) return null;
+    return [0, 1, 2].map(c => Math.round(under[c]! + alpha * (looks.rgba[4 * entry + c]! - under[c]!))) as [number, number, number];
+}

@@ -1,0 +1,47 @@
+// Lines with fewer corners that are near enough to the given ones.
+
+import { Rgba } from './color_table';
+
+// The corners to keep of a line of `count` points, so that `errorAt(first, last, i)` of each point i
+// between two kept neighbors is at most `most` (Douglas and Peucker).
+export function cornersToKeep(count: number, most: number, errorAt: (first: number, last: number, i: number) => number): number[] {
+    const kept = new Set([0, count - 1]);
+    const open: [number, number][] = [[0, count - 1]];
+    for (let range = open.pop(); range; range = open.pop()) {
+        const [first, last] = range;
+        let [worst, at] = [most, -1];
+        for (let i = first + 1; i < last; ++i) {
+            const error = errorAt(first, last, i);
+            if (error > worst) [worst, at] = [error, i];
+        }
+        if (at < 0) continue;
+        kept.add(at);
+        open.push([first, at], [at, last]);
+    }
+    return [...kept].sort((a, b) => a - b);
+}
+
+const linearOf = (level: number): number => (level <= 10.31475 ? level / 3294.6 : ((level / 255 + 0.055) / 1.055) ** 2.4);
+
+// OKLab, in which equal distances look about equal: render/colour/ok_lab.h.
+export function okLabOf([r, g, b]: readonly number[]): [number, number, number] {
+    const [red, green, blue] = [linearOf(r!), linearOf(g!), linearOf(b!)];
+    const l = Math.cbrt(0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue);
+    const m = Math.cbrt(0.2119034982 * red + 0.6806995451 * green + 0.1073969566 * blue);
+    const s = Math.cbrt(0.0883024619 * red + 0.2817188376 * green + 0.6299787005 * blue);
+    return [
+        0.2104542553 * l + 0.793617785 * m - 0.0040720468 * s,
+        1.9779984951 * l - 2.428592205 * m + 0.4505937099 * s,
+        0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s,
+    ];
+}
+
+// How different two colors look; 0.02 can just be seen side by side.
+export function colorDistance(one: readonly number[], other: readonly number[]): number {
+    const [a, b] = [okLabOf(one), okLabOf(other)];
+    return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+export function mixed(one: Rgba, other: Rgba, share: number): Rgba {
+    return one.map((c, k) => c + share * (other[k]! - c)) as Rgba;
+}

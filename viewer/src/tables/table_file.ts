@@ -1,0 +1,82 @@
+// What a file of a color table says, and the table that it makes: render/colour/colour_file.h has the
+// same rules, so that `stormcellar frame --colors FILE` and the page draw the same.
+//
+// Errors: a TableError that names the file, the line where there is one, and the reason.
+
+import { ColorTable, Rgba } from './color_table';
+import { UsualOpacity, fadedByAlpha, rising } from './usual_opacity';
+
+export class TableError extends Error {}
+
+export const mostFileBytes = 2 ** 20;
+export const mostStops = 4096;
+export const greatestValue = 1e6;
+export const usualFolded: Rgba = [0x77, 0x00, 0x7d, 255];
+
+export interface FilePoint {
+    value: number;
+    color: Rgba;
+    until?: Rgba; // to which it blends, instead of the next point's
+    perKm: number | null; // null in all points or in none
+}
+
+// The content of a TOML file.
+export interface TableFile {
+    name: string;
+    moment: string | null;
+    unit: string;
+    isStepped: boolean;
+    end: number | null;
+    rangeFolded: Rgba | null;
+    points: FilePoint[]; // values rise; at least two, or one of a stepped table
+}
+
+// Where the color bar of a table ends that does not say it: its last class is as long as the one before.
+export function endOf(table: ColorTable): number {
+    const [before, last] = table.stops.slice(-2).map(stop => stop.from);
+    return last === undefined ? before! + 1 : last + (last - before!);
+}
+
+export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
+    const points = file.points.map(point => ({ ...point, value: Math.fround(point.value) }));
+    const table: ColorTable = {
+        name: file.name,
+        moment: file.moment ?? '',
+        unit: file.unit,
+        stops: points.map(({ value, color, until }, i) => ({ from: value, color, until: until ?? (file.isStepped ? color : (points[i + 1]?.color ?? color)) })),
+        end: 0,
+        bar_begin: points[0]!.value,
+        range_folded: file.rangeFolded ?? usualFolded,
+        extinction: [],
+    };
+    table.end = file.end ?? endOf(table);
+    if (points.every(point => point.perKm !== null)) table.extinction = points.map(({ value, perKm }) => ({ value, per_km: perKm! }));
+    else table.extinction = usualExtinctionOf(table, usual);
+    return table;
+}
+
+// The opacity of a table whose file does not say it.
+export function usualExtinctionOf(table: ColorTable, usual: UsualOpacity): ColorTable['extinction'] {
+    const lowest = table.stops[0]!.from;
+    return fadedByAlpha(table.moment ? usual.of(table.moment, lowest) : rising(lowest, table.end), table);
+}
+
+const twoDigits = (channel: number): string => channel.toString(16).padStart(2, '0');
+
+// "#rrggbb", with alpha where it is not opaque.
+export function hexOf(color: Rgba): string {
+    const channels = color[3] === 255 ? color.slice(0, 3) : color;
+    return `#${channels.map(twoDigits).join('')}`;
+}
+
+// null: the text is no color.
+export function colorOfHex(text: string): Rgba | null {
+    const found = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})?$/i.exec(text);
+    if (!found) return null;
+    return [found[1]!, found[2]!, found[3]!, found[4] ?? 'ff'].map(digits => parseInt(digits, 16)) as Rgba;
+}
+
+// A part of a file in a form that is safe in a message.
+export function shownWord(word: string): string {
+    return word.slice(0, 64).replace(/[^\x20-\x7e]/g, '?');
+}

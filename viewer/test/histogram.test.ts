@@ -1,0 +1,30 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { countCodes, histogramOf } from '../src/tables/histogram';
+import { codeAt, firstValueCode, readPackedGrid, valueOf } from '../src/wire/packed_grid';
+import { makeGrid } from './made_grid';
+
+test('each value of the grid is counted once, in its column', () => {
+    const grid = readPackedGrid(makeGrid(20, 18, 17).bytes);
+    const slow = new Map<number, number>();
+    for (let x = 0; x < grid.nx; ++x) {
+        for (let y = 0; y < grid.ny; ++y) {
+            for (let z = 0; z < grid.nz; ++z) {
+                const code = codeAt(grid, x, y, z);
+                if (code >= firstValueCode) slow.set(code, (slow.get(code) ?? 0) + 1);
+            }
+        }
+    }
+    const counts = countCodes(grid);
+    assert(slow.size > 1);
+    for (const [code, count] of slow) assert.equal(counts[code], count);
+    const all = [...slow.values()].reduce((a, b) => a + b, 0);
+    assert.equal(counts.reduce((a, b) => a + b, 0), all, 'states are not counted');
+    const first = Math.min(...slow.keys());
+    const low = valueOf(grid, first);
+    const histogram = histogramOf(grid, low, low + 10 * grid.step, 8);
+    assert.equal(histogram.length, 5, 'two codes a column');
+    assert.equal(histogram[0], (slow.get(first) ?? 0) + (slow.get(first + 1) ?? 0));
+    assert.equal(histogram[4], (slow.get(first + 8) ?? 0) + (slow.get(first + 9) ?? 0), 'what lies beyond is left out');
+});

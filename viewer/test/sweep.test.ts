@@ -1,0 +1,81 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { elevationsOf, nearestSweep } from '../src/fields/sweep_choice';
+import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from '../src/fields/sweep_cone';
+import { planeOf } from '../src/scene/projection';
+import { PackedError } from '../src/wire/packed_grid';
+import { readPackedSweep } from '../src/wire/packed_sweep';
+
+// A sweep as docs/web/packed-grid.md has it: radials at some azimuths, the code of a gate tells both.
+function packedSweep(azimuths: number[], gateCount: number): Uint8Array {
+    const [radialsAt, codesAt] = [128, 128 + 32 * azimuths.length];
+    const view = new DataView(new ArrayBuffer(codesAt + azimuths.length * gateCount));
+    [0x89, 0x53, 0x43, 0x57, 0x0d, 0x0a, 0x1a, 0x0a, 1, 0, 0, 0, 128].forEach((byte, i) => view.setUint8(i, byte));
+    view.setBigUint64(16, BigInt(view.byteLength), true);
+    [35.3331, -97.2777, 389].forEach((value, i) => view.setFloat64(24 + 8 * i, value, true));
+    view.setFloat32(60, 0.5, true);
+    [azimuths.length, gateCount].forEach((value, i) => view.setUint32(72 + 4 * i, value, true));
+    [2000, 1000].forEach((value, i) => view.setInt32(80 + 4 * i, value, true));
+    [1, 2].forEach((value, i) => view.setUint32(88 + 4 * i, value, true));
+    [2, 66].forEach((value, i) => view.setFloat32(96 + 4 * i, value, true));
+    [radialsAt, codesAt].forEach((value, i) => view.setBigUint64(104 + 8 * i, BigInt(value), true));
+    azimuths.forEach((azimuth, i) => {
+        view.setFloat32(radialsAt + 32 * i + 8, azimuth, true);
+        view.setFloat32(radialsAt + 32 * i + 12, 0.5, true);
+        view.setUint32(radialsAt + 32 * i + 24, gateCount, true);
+        for (let gate = 0; gate < gateCount; ++gate) view.setUint8(codesAt + i * gateCount + gate, (7 * i + gate) % 256);
+    });
+    return new Uint8Array(view.buffer);
+}
+
+test('a packed sweep is read as its document has it', () => {
+    const sweep = readPackedSweep(packedSweep([10, 11, 12], 20));
+    assert.equal(sweep.firstGateM, 2000);
+    assert.equal(sweep.codes[20 * 2 + 5], 19);
+    assert.equal((sweep.codes[19]! - sweep.offset) / sweep.scale, -23.5);
+    assert.throws(() => readPackedSweep(packedSweep([10], 20).subarray(0, 140)), PackedError);
+    assert.throws(() => readPackedSweep(new Uint8Array(200)), PackedError);
+});
+
+test('each azimuth has its nearest radial, and a gap has none', () => {
+    const azimuths = Array.from({ length: 360 }, (_, i) => (i + 200.25) % 360).filter(azimuth => azimuth < 90 || azimuth > 95);
+    const found = radialsByAzimuth(readPackedSweep(packedSweep(azimuths, 4)));
+    for (let step = 0; step < azimuthSteps; ++step) {
+        const azimuth = ((step + 0.5) * 360) / azimuthSteps;
+        const off = azimuths.map(one => Math.abs(((one - azimuth + 540) % 360) - 180));
+        const nearest = off.indexOf(Math.min(...off));
+        if (off[nearest]! > 0.5001) assert.equal(found[step], noRadial, `${azimuth}`);
+        else if (off[nearest]! < 0.4999) assert.equal(found[step], nearest, `${azimuth}`);
+    }
+});
+
+test('a beam of half a degree is where the formula of Doviak and Zrnic has it', () => {
+    const radius = (4 / 3) * 6371e3;
+    const { arcM, heightM } = beamAt({ latitudeDeg: 35, altitudeM: 400 }, 0.5, 200000);
+    const height = Math.sqrt(200000 ** 2 + radius ** 2 + 2 * 200000 * radius * Math.sin((0.5 * Math.PI) / 180)) - radius + 400;
+    assert(Math.abs(heightM - height) < 15, `${heightM} ${height}`);
+    assert(Math.abs(arcM - radius * Math.asin((200000 * Math.cos((0.5 * Math.PI) / 180)) / (radius + height - 400))) < 60);
+});
+
+test('the cone stands about its site', () => {
+    const grid = { projection: 0, centerDeg: [35.3331, -97.2777] as [number, number], parallelsDeg: [0, 0] as [number, number], offsetCells: [0, 0] as [number, number], spacing: 1000, nx: 400, ny: 400 };
+    const sweep = readPackedSweep(packedSweep([0, 90, 180, 270], 100));
+    const { corners, triangles } = coneOf(sweep, planeOf(grid));
+    for (let i = 0; i < corners.length; i += 5 * 97) {
+        const [x, y, height, azimuth, range] = corners.subarray(i, i + 5) as unknown as [number, number, number, number, number];
+        const beam = beamAt(sweep, 0.5, range);
+        assert(Math.abs(Math.hypot(x, y) - beam.arcM) < 0.1 && Math.abs(height - beam.heightM) < 0.1);
+        assert(Math.abs(x - beam.arcM * Math.sin((azimuth * Math.PI) / 180)) < 0.1);
+    }
+    assert(Math.max(...triangles) < corners.length / 5);
+});
+
+test('of sweeps at one elevation the last is meant, of those that have the moment', () => {
+    const row = (sweep: number, elevation_deg: number, ...moments: string[]) => ({ sweep, elevation_deg, moments: moments.map(moment => ({ moment })) });
+    const rows = [row(0, 0.48, 'REF'), row(1, 0.5, 'VEL'), row(2, 1.4, 'REF'), row(3, 0.52, 'REF'), row(4, 2.4, 'REF')];
+    assert.equal(nearestSweep(rows, 'REF', 0.5)!.sweep, 3);
+    assert.equal(nearestSweep(rows, 'VEL', 9)!.sweep, 1);
+    assert.equal(nearestSweep(rows, 'ZDR', 0.5), null);
+    assert.deepEqual(elevationsOf(rows, 'REF'), [0.48, 1.4, 2.4]);
+});
