@@ -76,6 +76,7 @@ export const texts = {
     commandCopied: 'The command is in the clipboard.',
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     netcdf: 'Grid (netCDF)',
+    close: 'Close',
     help: 'Keys',
     helpText: [
         'Drag to turn, with Shift or the right button to move, wheel or pinch to zoom.',
