@@ -9,6 +9,7 @@ namespace stormcellar::cli {
 
 // Each is defined in the file of its subcommand.
 Run set_up_accuracy(CLI::App& command);
+Run set_up_batch(CLI::App& command);
 Run set_up_cache(CLI::App& command);
 Run set_up_catalog(CLI::App& command);
 Run set_up_fetch(CLI::App& command);
@@ -28,6 +29,7 @@ namespace {
 constexpr std::array registry{
     Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",
                set_up_accuracy},
+    Subcommand{"batch", "Make the grids and frames of an archive on many machines", set_up_batch},
     Subcommand{"cache", "List, verify, pin and evict the grids in the cache", set_up_cache},
     Subcommand{"catalog", "Query, check and rebuild the catalog of raw files", set_up_catalog},
     Subcommand{"fetch", "Fetch raw volumes by station and time from a public bucket", set_up_fetch},

@@ -13,7 +13,6 @@
 #include "cli/shared/interrupt.h"
 #include "cli/shared/progress.h"
 #include "cli/shared/query_options.h"
-#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -27,27 +26,6 @@ struct FetchOptions {
     bool quiet = false;
     bool json = false;
 };
-
-// Returns the stations of the table within the bounds.
-Result<std::vector<std::string>> stations_within(const std::string& text) {
-    const auto bounds = parse_bounds(text);
-    if (!bounds) return pass_on(bounds);
-    const auto [west, south, east, north] = *bounds;
-    std::vector<std::string> stations;
-    for (const Station& station : all_stations()) {
-        const double longitude = station.longitude_deg;
-        const bool fits = west < east ? longitude >= west && longitude <= east
-                                      : longitude >= west || longitude <= east;
-        if (fits && station.latitude_deg >= south && station.latitude_deg <= north) {
-            stations.emplace_back(station.icao);
-        }
-    }
-    if (stations.empty()) {
-        return fail(ErrorCode::bad_argument, "--bounds {}: no station lies within these bounds",
-                    text);
-    }
-    return stations;
-}
 
 Status complete_request(FetchOptions& options) {
     const auto range = parse_time_range(options.times);

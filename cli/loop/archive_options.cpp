@@ -81,6 +81,18 @@ Result<std::vector<std::string>> parse_stations(const std::string& text) {
     return std::vector<std::string>(names.begin(), names.end());
 }
 
+void add_overlap_options(CLI::App& app, ArchiveOptions& options, const std::string& group) {
+    app.add_option("--overlap", options.overlap,
+                   fmt::format("Rule for cells that several sites see: {} (the default)",
+                               names_in(grid::overlap_facts, ", ", " or ")))
+        ->group(group);
+    app.add_option(
+           "--overlap-km", options.overlap_km,
+           "Length L in km of the weight exp(-r^2/L^2) of a site at the distance r. Default: 250")
+        ->group(group)
+        ->check(CLI::Range(1.0, 10'000.0));
+}
+
 void add_archive_options(CLI::App& app, ArchiveOptions& options) {
     const std::string group = "From an archive's raw files";
     app.add_option(
@@ -98,15 +110,7 @@ void add_archive_options(CLI::App& app, ArchiveOptions& options) {
         ->group(group);
     CLI::App* place = app.add_option_group(group + ": the grid");
     add_place_options(*place, options.place);
-    app.add_option("--overlap", options.overlap,
-                   fmt::format("Rule for cells that several sites see: {} (the default)",
-                               names_in(grid::overlap_facts, ", ", " or ")))
-        ->group(group);
-    app.add_option(
-           "--overlap-km", options.overlap_km,
-           "Length L in km of the weight exp(-r^2/L^2) of a site at the distance r. Default: 250")
-        ->group(group)
-        ->check(CLI::Range(1.0, 10'000.0));
+    add_overlap_options(app, options, group);
     app.add_flag("--keep-cache,!--no-keep-cache", options.keep_cache,
                  "Keep the grids for the next run (the default), or remove them at the end")
         ->group(group);

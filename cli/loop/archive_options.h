@@ -32,6 +32,8 @@ struct ArchiveOptions {
     [[nodiscard]] bool asked() const { return !catalog.empty(); }
 };
 
+// Adds --overlap and --overlap-km.
+void add_overlap_options(CLI::App& app, ArchiveOptions& options, const std::string& group);
 // Adds the options to the subcommand. `options` must outlive the parse.
 void add_archive_options(CLI::App& app, ArchiveOptions& options);
 

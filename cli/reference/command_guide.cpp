@@ -54,6 +54,33 @@ Guides guides_of_files() {
     };
 }
 
+Guides guides_of_batch() {
+    return {
+        {"batch check",
+         {{"stormcellar batch check --plan PLAN --table",
+           "How far it is, and what there is of each station and hour."}}},
+        {"batch merge", {{"stormcellar batch merge --plan PLAN --task 160", "One hour's frames."}}},
+        {"batch plan",
+         {{"stormcellar batch plan --source files/ --from 1999-05-03 --to 1999-05-04 -o PLAN",
+           "Own grids of all stations, two days."},
+          {"stormcellar batch plan --source files/ --from 1999-05-03T20:00 --to 1999-05-04T02:00 "
+           "--mosaic oklahoma --bounds=-100,33.5,-95,37 -o PLAN",
+           "A mosaic every five minutes."},
+          {"stormcellar batch plan --source https://unidata-nexrad-level2.s3.amazonaws.com "
+           "--stations KTLX,KFDR --from 1999-05-03 --to 1999-05-04 -o PLAN",
+           "Raw files from the public bucket, fetched by each task."}},
+         {"--source", "--from", "--to", "--stations", "--bounds", "--output", "--cache", "--moment",
+          "--mosaic", "--spacing-km"}},
+        {"batch run",
+         {{"stormcellar batch run --plan PLAN --task 12", "One station's day."},
+          {"stormcellar batch run --plan PLAN --task 12-19", "Eight of them."}}},
+        {"batch submit",
+         {{"stormcellar batch submit --plan PLAN --engine local", "On this machine."},
+          {"stormcellar batch submit --plan PLAN --engine slurm --dry-run",
+           "What Slurm would be told."}}},
+    };
+}
+
 Guides guides_of_cache() {
     return {
         {"cache evict",
@@ -161,8 +188,8 @@ Guides guides_of_pictures() {
 
 Guides all_guides() {
     Guides all;
-    for (const auto group : {guides_of_use, guides_of_files, guides_of_cache, guides_of_catalog,
-                             guides_of_grids, guides_of_pictures})
+    for (const auto group : {guides_of_use, guides_of_files, guides_of_batch, guides_of_cache,
+                             guides_of_catalog, guides_of_grids, guides_of_pictures})
         std::ranges::move(group(), std::back_inserter(all));
     return all;
 }

@@ -80,6 +80,9 @@ Names fields() {
     return names;
 }
 
+Names engines() {
+    return {"slurm", "make", "local"};
+}
 Names smoothings() {
     return {"cubic", "none"};
 }
@@ -162,12 +165,21 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--state", "DIRECTORY", Kept::directories},
     {"--drop", "DIRECTORY", Kept::directories},
     {"--source", "ADDRESS"},
+    {"--source", "DIRECTORY", Kept::directories, nullptr, "batch plan"},
+    {"--output", "DIRECTORY", Kept::directories, nullptr, "batch plan"},
+    {"--plan", "DIRECTORY", Kept::directories},
+    {"--program", "FILE", Kept::files},
+    {"--engine", "ENGINE", Kept::nowhere, offered::engines},
+    {"--task", "NUMBER"},
+    {"--mosaic", "NAME"},
+    {"--partition", "NAME"},
     // times
     {"--time", "TIME"},
     {"--from", "TIME"},
     {"--to", "TIME"},
     {"--time-zone", "ZONE"},
     {"--interval", "TIME", Kept::nowhere, nullptr, "loop"},
+    {"--interval", "TIME", Kept::nowhere, nullptr, "batch plan"},
     {"--interval", "SECONDS", Kept::nowhere, nullptr, "replay"},
     {"--dwell", "SECONDS"},
     {"--older-than", "HOURS"},

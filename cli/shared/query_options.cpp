@@ -8,6 +8,7 @@
 
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::cli {
 
@@ -68,6 +69,26 @@ Result<pipeline::Bounds> parse_bounds(const std::string& text) {
     return fail(ErrorCode::bad_argument,
                 "--bounds takes WEST,SOUTH,EAST,NORTH in degrees, as in -80,40,-72,45, not '{}'",
                 text);
+}
+
+Result<std::vector<std::string>> stations_within(const std::string& text) {
+    const auto bounds = parse_bounds(text);
+    if (!bounds) return pass_on(bounds);
+    const auto [west, south, east, north] = *bounds;
+    std::vector<std::string> stations;
+    for (const Station& station : all_stations()) {
+        const double longitude = station.longitude_deg;
+        const bool fits = west < east ? longitude >= west && longitude <= east
+                                      : longitude >= west || longitude <= east;
+        if (fits && station.latitude_deg >= south && station.latitude_deg <= north) {
+            stations.emplace_back(station.icao);
+        }
+    }
+    if (stations.empty()) {
+        return fail(ErrorCode::bad_argument, "--bounds {}: no station lies within these bounds",
+                    text);
+    }
+    return stations;
 }
 
 }  // namespace stormcellar::cli

@@ -47,5 +47,7 @@ int report_nothing_matched();
 [[nodiscard]] Result<std::vector<std::string>> parse_stations(const std::string& text);
 // Parses "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
 [[nodiscard]] Result<pipeline::Bounds> parse_bounds(const std::string& text);
+// Returns the stations of the table within --bounds. Errors: bad_argument, also if there is none.
+[[nodiscard]] Result<std::vector<std::string>> stations_within(const std::string& bounds);
 
 }  // namespace stormcellar::cli

@@ -153,6 +153,30 @@ std::string reason_left_out(const IngestOutcome& outcome, level2::Moment moment)
     }
 }
 
+std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
+                             std::size_t frames) {
+    double cells = 0, cells_a_file = 0;
+    if (options.domain) {
+        const grid::GridSpec& spec = options.domain->spec;
+        const auto all = static_cast<double>(spec.cell_count());
+        // The part of it that one site reaches.
+        const double side = 2 * grid::site_reach_m;
+        const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
+                               std::min(1.0, side / (spec.ny * spec.cell_height_m()));
+        cells_a_file = all;
+        cells = all * reached * static_cast<double>(volumes) + all * static_cast<double>(frames);
+    } else {
+        const std::size_t levels = options.levels_m.empty()
+                                       ? grid::default_spec(0, 0).levels_m.size()
+                                       : options.levels_m.size();
+        cells_a_file = static_cast<double>(options.nx) * options.ny * static_cast<double>(levels);
+        cells = cells_a_file * static_cast<double>(volumes);
+    }
+    const auto files = static_cast<double>(volumes + frames);
+    const double echo = files * std::min(cells_a_file, cells_of_small_grid);
+    return static_cast<std::uint64_t>((cells + echo) * bytes_a_cell + files * bytes_a_file);
+}
+
 ArchiveFill::ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                          std::filesystem::path scratch, ArchiveOptions options)
     : catalog_(catalog),
@@ -207,29 +231,6 @@ Result<ArchiveFill::DueFrames> ArchiveFill::due(const std::vector<UtcTime>& inst
         if (!std::filesystem::exists(*path, ignored)) ++found.missing;
     }
     return found;
-}
-
-std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) const {
-    double cells = 0, cells_a_file = 0;
-    if (options_.domain) {
-        const grid::GridSpec& spec = options_.domain->spec;
-        const auto all = static_cast<double>(spec.cell_count());
-        // The part of it that one site reaches.
-        const double side = 2 * grid::site_reach_m;
-        const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
-                               std::min(1.0, side / (spec.ny * spec.cell_height_m()));
-        cells_a_file = all;
-        cells = all * reached * static_cast<double>(volumes) + all * static_cast<double>(frames);
-    } else {
-        const std::size_t levels = options_.levels_m.empty()
-                                       ? grid::default_spec(0, 0).levels_m.size()
-                                       : options_.levels_m.size();
-        cells_a_file = static_cast<double>(options_.nx) * options_.ny * static_cast<double>(levels);
-        cells = cells_a_file * static_cast<double>(volumes);
-    }
-    const auto files = static_cast<double>(volumes + frames);
-    const double echo = files * std::min(cells_a_file, cells_of_small_grid);
-    return static_cast<std::uint64_t>((cells + echo) * bytes_a_cell + files * bytes_a_file);
 }
 
 // Returns the drop directory if all files are below it.

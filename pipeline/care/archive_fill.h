@@ -66,6 +66,10 @@ using FillProgress = std::function<void(std::size_t done)>;
                               const cache::GridDescription& description);
 // Returns why the chain made no grid of a file.
 [[nodiscard]] std::string reason_left_out(const IngestOutcome& outcome, level2::Moment moment);
+// Returns an estimate of the bytes on disk of these grids and, with a domain, frames. It is on the
+// safe side: two to four times the size of grids with little echo.
+[[nodiscard]] std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
+                                           std::size_t frames);
 
 class ArchiveFill {
   public:
@@ -84,9 +88,9 @@ class ArchiveFill {
     };
     [[nodiscard]] Result<DueFrames> due(const std::vector<UtcTime>& instants,
                                         const std::vector<ArchiveVolume>& volumes) const;
-    // Returns an estimate of the bytes on disk of these grids and, with a domain, frames. It is on
-    // the safe side: two to four times the size of grids with little echo.
-    [[nodiscard]] std::uint64_t bytes_of(std::size_t volumes, std::size_t frames) const;
+    [[nodiscard]] std::uint64_t bytes_of(std::size_t volumes, std::size_t frames) const {
+        return bytes_of_grids(options_, volumes, frames);
+    }
 
     // Grids the volumes. When `stop` is set, no further volume begins. Errors: those that do not
     // concern the data (the cache or the scratch directory cannot be written, the disk is full).

@@ -34,6 +34,7 @@ const std::map<std::string, Rooms> allowed = {
     {"synth", {"accuracy", "archive", "base", "level2", "grid"}},
     {"export", {"base", "level2", "grid"}},
     {"pipeline", {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache"}},
+    {"batch", {"archive", "base", "cache", "catalog", "fetch", "grid", "level2", "pipeline"}},
     {"daemon",
      {"base", "accuracy", "archive", "bunzip", "level2", "catalog", "grid", "cache", "pipeline",
       "web/config"}},
@@ -41,8 +42,8 @@ const std::map<std::string, Rooms> allowed = {
      {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache", "render", "export",
       "pipeline"}},
     {"cli",
-     {"base", "accuracy", "archive", "bunzip", "fetch", "level2", "catalog", "grid", "cache",
-      "render", "synth", "export", "pipeline", "web"}},
+     {"base", "accuracy", "archive", "batch", "bunzip", "fetch", "level2", "catalog", "grid",
+      "cache", "render", "synth", "export", "pipeline", "web"}},
 };
 
 // Of the rooms inside a room, what each may include beside itself; the lowest ones first. A room
@@ -108,6 +109,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"query", {"files", "shared"}},
       {"picture", {"grid", "shared"}},
       {"loop", {"grid", "picture", "shared"}},
+      {"batch", {"grid", "loop", "shared"}},
       {"accuracy", {"grid", "picture", "shared"}},
       {"synth", {"shared"}},
       {"serve", {"grid", "shared"}},

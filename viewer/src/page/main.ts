@@ -15,6 +15,7 @@ import { addShare } from './panels/share';
 import { addTimeline } from './panels/timeline';
 import { addUnits } from './panels/units';
 import { Pointers } from './pointers';
+import { StartMap } from './start/start_map';
 import { TableEditing } from './table_editing';
 import { texts } from './texts';
 
@@ -32,6 +33,8 @@ async function begin(): Promise<void> {
     addUnits(app);
     addShare(app, drawing, editing);
     reader.begin(keys);
+    new StartMap(app).begin();
+    keys.add('h', () => app.goToMap());
     new LayersPanel(app, drawing, pointers).begin(keys);
     new Editor(app, drawing, editing).begin(keys);
     keys.add('Escape', () => pointers.use(null));

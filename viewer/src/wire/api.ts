@@ -18,6 +18,7 @@ export interface MomentOfDomain {
     units: string;
     grids: number;
     newest: string;
+    age_s: number; // of the newest
 }
 export interface Domain {
     domain: string;
@@ -132,8 +133,8 @@ export interface Tables {
 export async function tables(): Promise<Tables> {
     return (await ask('api/v1/tables')).json() as Promise<Tables>;
 }
-export async function map(west: number, south: number, east: number, north: number, detail: number): Promise<MapAnswer> {
-    const kinds = detail === 0 ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
+export async function map(west: number, south: number, east: number, north: number, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
+    const kinds = withCounties ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
     return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(east)}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
 }

@@ -3,7 +3,7 @@
 import { Plane, planeOf } from '../../scene/projection';
 import { Units, heightNumber, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
-import { button, element, paragraph } from '../dom';
+import { button, element, labeledButton, leaveByEscape, paragraph } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { Tool } from '../pointers';
@@ -37,6 +37,7 @@ function putColumn(body: HTMLElement, reading: ColumnReading, unit: string, unit
 export class Reader implements Tool {
     private at: Plane | null = null; // the place that was clicked, meters from the middle
     private domain = '';
+    private close = labeledButton('reading-close', '×', texts.close, () => this.leave());
 
     constructor(
         private app: App,
@@ -51,6 +52,7 @@ export class Reader implements Tool {
         this.app.on('units', () => {
             if (this.at) this.put();
         });
+        leaveByEscape(element('reading'), 'picture', () => this.clear());
         keys.add('Escape', () => this.clear());
         keys.add('?', () => this.showHelp());
         element('actions').append(button('help', texts.help, () => this.showHelp()));
@@ -67,6 +69,10 @@ export class Reader implements Tool {
         this.domain = this.app.state.domain;
     }
 
+    private leave(): void {
+        this.clear();
+        element('picture').focus();
+    }
     private clear(): void {
         this.at = null;
         element('reading').hidden = true;
@@ -84,14 +90,14 @@ export class Reader implements Tool {
         title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
         const body = document.createElement('div');
         if (column) putColumn(body, readColumn(grid, ...column), this.app.unit, this.app.state.units);
-        box.replaceChildren(title, body);
+        box.replaceChildren(this.close, title, body);
         this.drawing.draw();
     }
 
     private showHelp(): void {
         this.clear();
         const box = element('reading');
-        box.replaceChildren(...texts.helpText.map(paragraph));
+        box.replaceChildren(this.close, ...texts.helpText.map(paragraph));
         box.hidden = false;
     }
 }

@@ -1,0 +1,243 @@
+#include "batch/check.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "batch/standing.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t most_summary_bytes = std::uint64_t{64} << 20;
+constexpr const char* summary_name = "summary.json";
+
+template <class Number>
+void add(const std::array<Number, 24>& more, std::array<Number, 24>& all) {
+    std::ranges::transform(more, all, all.begin(), std::plus<>{});
+}
+
+void widen(std::optional<UtcTime> started, std::optional<UtcTime> ended, Totals& totals) {
+    if (started && (!totals.started || *started < *totals.started)) totals.started = started;
+    if (ended && (!totals.ended || *ended > *totals.ended)) totals.ended = ended;
+}
+
+void add(const Record& record, double cost_s, Totals& totals) {
+    if (record.station.empty()) {
+        ++totals.frame_tasks;
+        totals.frames += record.grids;
+    } else {
+        ++totals.grid_tasks;
+        totals.grids += record.grids;
+        totals.files += record.files;
+        totals.left_out += record.left_out.size();
+        StationHours& hours = totals.stations[record.station];
+        add(record.taken_by_hour, hours.taken);
+        add(record.left_out_by_hour, hours.left_out);
+        if (!record.left_out.empty()) totals.with_left_out.push_back(record.number);
+    }
+    totals.cpu_s += record.cpu_s;
+    totals.cost_s += cost_s;
+    totals.bytes_read += record.bytes_read;
+    totals.bytes_written += record.bytes_written;
+    totals.most_memory_bytes = std::max(totals.most_memory_bytes, record.memory_bytes);
+    widen(record.started, record.ended, totals);
+}
+
+void add(const Totals& more, Totals& all) {
+    all.grid_tasks += more.grid_tasks;
+    all.frame_tasks += more.frame_tasks;
+    all.files += more.files;
+    all.left_out += more.left_out;
+    all.grids += more.grids;
+    all.frames += more.frames;
+    all.cpu_s += more.cpu_s;
+    all.cost_s += more.cost_s;
+    all.bytes_read += more.bytes_read;
+    all.bytes_written += more.bytes_written;
+    all.most_memory_bytes = std::max(all.most_memory_bytes, more.most_memory_bytes);
+    widen(more.started, more.ended, all);
+    for (const auto& [station, hours] : more.stations) {
+        StationHours& known = all.stations[station];
+        add(hours.taken, known.taken);
+        add(hours.left_out, known.left_out);
+    }
+    all.with_left_out.insert(all.with_left_out.end(), more.with_left_out.begin(),
+                             more.with_left_out.end());
+}
+
+Json json_of(const Totals& totals, const std::string& plan) {
+    Json stations = Json::object();
+    for (const auto& [station, hours] : totals.stations)
+        stations[station] = {{"taken", hours.taken}, {"left_out", hours.left_out}};
+    return {{"plan", plan},
+            {"grid_tasks", totals.grid_tasks},
+            {"frame_tasks", totals.frame_tasks},
+            {"files", totals.files},
+            {"left_out", totals.left_out},
+            {"grids", totals.grids},
+            {"frames", totals.frames},
+            {"cpu_s", totals.cpu_s},
+            {"cost_s", totals.cost_s},
+            {"bytes_read", totals.bytes_read},
+            {"bytes_written", totals.bytes_written},
+            {"most_memory_bytes", totals.most_memory_bytes},
+            {"started", format_utc(*totals.started)},
+            {"ended", format_utc(*totals.ended)},
+            {"stations", stations},
+            {"with_left_out", totals.with_left_out}};
+}
+
+// It throws what nlohmann::json throws.
+Totals totals_of(const Json& json) {
+    Totals totals;
+    totals.grid_tasks = json.at("grid_tasks");
+    totals.frame_tasks = json.at("frame_tasks");
+    totals.files = json.at("files");
+    totals.left_out = json.at("left_out");
+    totals.grids = json.at("grids");
+    totals.frames = json.at("frames");
+    totals.cpu_s = json.at("cpu_s");
+    totals.cost_s = json.at("cost_s");
+    totals.bytes_read = json.at("bytes_read");
+    totals.bytes_written = json.at("bytes_written");
+    totals.most_memory_bytes = json.at("most_memory_bytes");
+    totals.started = parse_utc(json.at("started").get<std::string>(), {}).value();
+    totals.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();
+    for (const auto& [station, hours] : json.at("stations").items()) {
+        hours.at("taken").get_to(totals.stations[station].taken);
+        hours.at("left_out").get_to(totals.stations[station].left_out);
+    }
+    json.at("with_left_out").get_to(totals.with_left_out);
+    return totals;
+}
+
+class Check {
+  public:
+    Check(const Plan& plan, const CheckOptions& options) : plan_(plan), options_(options) {}
+
+    Result<CheckReport> run() {
+        if (options_.deep) {
+            auto store = cache::StoreReader::open(plan_.recipe().cache);
+            if (store) store_ = std::move(*store);
+        }
+        const std::size_t all = plan_.facts().tasks();
+        for (std::size_t first = 0; first < all; first += records_a_directory) {
+            if (options_.progress) options_.progress(first, all);
+            const std::size_t end = std::min(first + records_a_directory, all);
+            if (Status read = directory(first, end); !read) return pass_on(read);
+        }
+        report_.cost_left_s = plan_.facts().cost_s - report_.done.cost_s;
+        estimate_time_left();
+        return std::move(report_);
+    }
+
+  private:
+    Status directory(std::size_t first, std::size_t end) {
+        const fs::path path = record_path(plan_.directory(), first).parent_path() / summary_name;
+        if (!options_.deep) {
+            if (const auto known = read_summary(path, end - first)) {
+                add(*known, report_.done);
+                return {};
+            }
+        }
+        Totals totals;
+        bool is_whole = true;
+        for (std::size_t number = first; number < end; ++number) {
+            const auto done = look_at(number, totals);
+            if (!done) return pass_on(done);
+            if (*done) continue;
+            report_.missing.push_back(number);
+            is_whole = false;
+        }
+        if (is_whole) write_summary(path, totals);
+        add(totals, report_.done);
+        return {};
+    }
+
+    Result<bool> look_at(std::size_t number, Totals& totals) {
+        const auto task = plan_.task(number);
+        if (!task) return pass_on(task);
+        const auto record = read_record(plan_, *task);
+        if (!record) return false;
+        if (options_.deep) {
+            const auto stand = stands(*task, *record);
+            if (!stand) return stand;
+            if (!*stand) {
+                report_.changed.push_back(number);
+                return false;
+            }
+        }
+        add(*record, task->cost_s, totals);
+        return true;
+    }
+
+    Result<bool> stands(const Task& task, const Record& record) const {
+        if (!store_) return false;
+        const auto standing = grids_standing(*store_, plan_.recipe(), task);
+        if (!standing) return pass_on(standing);
+        return digest_of(*standing) == record.digest;
+    }
+
+    std::optional<Totals> read_summary(const fs::path& path, std::size_t tasks) const {
+        const auto bytes = read_file(path, most_summary_bytes);
+        if (!bytes) return std::nullopt;
+        try {
+            const Json json =
+                Json::parse(reinterpret_cast<const char*>(bytes->data()),
+                            reinterpret_cast<const char*>(bytes->data()) + bytes->size());
+            Totals totals = totals_of(json);
+            const bool is_whole = totals.grid_tasks + totals.frame_tasks == tasks;
+            if (is_whole && json.at("plan") == plan_.facts().hash) return totals;
+        } catch (const std::exception&) {
+            // It is made again.
+        }
+        return std::nullopt;
+    }
+
+    // Without a summary, the next check reads the records again.
+    void write_summary(const fs::path& path, const Totals& totals) const {
+        const std::string text = json_of(totals, plan_.facts().hash).dump() + "\n";
+        (void)write_file_atomically(real_file_system(), path, std::as_bytes(std::span(text)));
+    }
+
+    void estimate_time_left() {
+        const Totals& done = report_.done;
+        if (!done.started || done.cost_s <= 0) return;
+        const double so_far_s = seconds_between(*done.started, *done.ended);
+        report_.seconds_left = so_far_s / done.cost_s * report_.cost_left_s;
+    }
+
+    const Plan& plan_;
+    const CheckOptions& options_;
+    std::optional<cache::StoreReader> store_;
+    CheckReport report_;
+};
+
+}  // namespace
+
+Result<CheckReport> check(const Plan& plan, const CheckOptions& options) {
+    return Check(plan, options).run();
+}
+
+std::vector<LeftOutFile> left_out_of(const Plan& plan, const std::vector<std::size_t>& tasks) {
+    std::vector<LeftOutFile> files;
+    for (const std::size_t number : tasks) {
+        const auto task = plan.task(number);
+        if (!task) continue;
+        const auto record = read_record(plan, *task);
+        if (!record) continue;
+        for (const NamedReason& file : record->left_out)
+            files.push_back({number, file});
+    }
+    return files;
+}
+
+}  // namespace stormcellar::batch

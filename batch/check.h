@@ -1,0 +1,64 @@
+// batch/check.h -- how far a plan is done, by the records of its tasks.
+//
+// The records of a thousand tasks that are all done are summed up once, in
+// PLAN/tasks/00012/summary.json, which appears by rename: the sum of the same records is the same
+// whoever writes it. So checking a plan of millions of tasks reads thousands of files.
+//
+// Threads   One thread at a time for a plan; other processes may check it, too.
+// Errors    Those of reading the plan and, with `deep`, the cache.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/plan.h"
+#include "batch/record.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::batch {
+
+// What a station gave, by the hour of the day.
+struct StationHours {
+    HourCounts taken{}, left_out{};
+};
+
+// Sums of records.
+struct Totals {
+    std::size_t grid_tasks = 0, frame_tasks = 0;  // done
+    std::size_t files = 0, left_out = 0, grids = 0, frames = 0;
+    double cpu_s = 0, cost_s = 0;  // taken, and what the plan estimated for the same tasks
+    std::uint64_t bytes_read = 0, bytes_written = 0, most_memory_bytes = 0;
+    std::optional<UtcTime> started, ended;  // of the first, and of the last
+    std::map<std::string, StationHours> stations;
+    std::vector<std::size_t> with_left_out;  // tasks that left files out
+};
+
+struct CheckReport {
+    Totals done;
+    std::vector<std::size_t> missing;  // tasks that are not done, rising
+    std::vector<std::size_t> changed;  // of these, tasks whose grids are not those of their record
+    double cost_left_s = 0;            // of the missing tasks, as the plan estimates them
+    // By what was done since the first task began; none before the first one is done.
+    std::optional<double> seconds_left;
+};
+
+struct CheckOptions {
+    bool deep = false;  // compares the grids with what the records say
+    std::function<void(std::size_t done, std::size_t all)> progress;
+};
+
+[[nodiscard]] Result<CheckReport> check(const Plan& plan, const CheckOptions& options);
+
+// Returns what tasks left out, with reasons, from their records.
+struct LeftOutFile {
+    std::size_t task = 0;
+    NamedReason file;
+};
+[[nodiscard]] std::vector<LeftOutFile> left_out_of(const Plan& plan,
+                                                   const std::vector<std::size_t>& tasks);
+
+}  // namespace stormcellar::batch

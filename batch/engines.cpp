@@ -1,0 +1,164 @@
+#include "batch/engines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "batch/resources.h"
+
+namespace stormcellar::batch {
+namespace {
+
+// One of the two kinds of tasks, as a job array.
+struct Step {
+    const char* name;        // "grids"
+    const char* command;     // of `stormcellar batch`
+    std::size_t first, end;  // its tasks in the plan
+    Resources needed;        // by one task
+};
+
+// Returns "0-3,7,9-11".
+std::string ranges_of(const std::set<std::size_t>& numbers) {
+    std::string text;
+    for (auto at = numbers.begin(); at != numbers.end();) {
+        const std::size_t first = *at;
+        std::size_t last = first;
+        while (++at != numbers.end() && *at == last + 1)
+            last = *at;
+        text += fmt::format("{}{}", text.empty() ? "" : ",", first);
+        if (last != first) text += fmt::format("-{}", last);
+    }
+    return text;
+}
+
+std::uint64_t mebibytes(std::uint64_t bytes) {
+    return (bytes + (std::uint64_t{1} << 20) - 1) >> 20;
+}
+
+SlurmJob job_of(const Plan& plan, const Step& step, const std::vector<std::size_t>& missing,
+                const EngineOptions& options) {
+    const std::size_t tasks = step.end - step.first;
+    const std::size_t each = (tasks + options.array_size - 1) / options.array_size;
+    std::set<std::size_t> elements;
+    for (const std::size_t number : missing)
+        elements.insert((number - step.first) / each);
+    const std::string limit = options.jobs > 0 ? fmt::format("%{}", options.jobs) : "";
+    const std::string partition =
+        options.partition.empty() ? "" : fmt::format("#SBATCH --partition={}\n", options.partition);
+    const double minutes = std::ceil(step.needed.seconds_of(each) / 60);
+    const std::string plan_path = plan.directory().native();
+    return {step.name,
+            fmt::format("#!/bin/bash\n"
+                        "# Made by stormcellar batch submit. A task needs {} MiB of $TMPDIR, which "
+                        "should be a local disk.\n"
+                        "#SBATCH --job-name=stormcellar-{}\n"
+                        "#SBATCH --array={}{}\n"
+                        "#SBATCH --cpus-per-task={}\n"
+                        "#SBATCH --mem={}M\n"
+                        "#SBATCH --time={:.0f}\n"
+                        "{}"
+                        "#SBATCH --requeue\n"
+                        "#SBATCH --open-mode=append\n"
+                        "#SBATCH --output=\"{}/log/{}-%a.txt\"\n"
+                        "first=$(({} + SLURM_ARRAY_TASK_ID * {}))\n"
+                        "last=$((first + {}))\n"
+                        "((last < {})) || last={}\n"
+                        "exec {} batch {} --plan {} --task \"$first-$last\" --threads {}\n",
+                        mebibytes(step.needed.scratch_bytes), step.name, ranges_of(elements), limit,
+                        options.threads, mebibytes(step.needed.memory_bytes), minutes, partition,
+                        plan_path, step.name, step.first, each, each - 1, step.end, step.end - 1,
+                        quoted(options.program.native()), step.command, quoted(plan_path),
+                        options.threads)};
+}
+
+std::string targets_of(const char* kind, const std::vector<std::size_t>& numbers) {
+    std::string text;
+    for (const std::size_t number : numbers)
+        text += fmt::format(" {}-{}", kind, number);
+    return text;
+}
+
+// In a Makefile a dollar is doubled.
+std::string in_makefile(const std::string& text) {
+    std::string doubled;
+    for (const char c : text)
+        doubled += c == '$' ? "$$" : std::string(1, c);
+    return doubled;
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+    std::string in_quotes = "'";
+    for (const char c : text) {
+        if (c == '\'') {
+            in_quotes += "'\\''";
+        } else {
+            in_quotes += c;
+        }
+    }
+    return in_quotes + "'";
+}
+
+TaskLists lists_of(const Plan& plan, const std::vector<std::size_t>& missing) {
+    TaskLists lists;
+    for (const std::size_t number : missing)
+        (number < plan.facts().grid_tasks ? lists.grids : lists.frames).push_back(number);
+    return lists;
+}
+
+std::vector<SlurmJob> slurm_jobs(const Plan& plan, const TaskLists& tasks,
+                                 const EngineOptions& options) {
+    const std::size_t grids = plan.facts().grid_tasks, all = plan.facts().tasks();
+    std::vector<SlurmJob> jobs;
+    if (!tasks.grids.empty()) {
+        const Step step{"grids", "run", 0, grids, resources_of_grids(plan, options.threads)};
+        jobs.push_back(job_of(plan, step, tasks.grids, options));
+    }
+    if (!tasks.frames.empty()) {
+        const Step step{"frames", "merge", grids, all, resources_of_frames(plan, options.threads)};
+        jobs.push_back(job_of(plan, step, tasks.frames, options));
+    }
+    return jobs;
+}
+
+Result<std::string> makefile_of(const Plan& plan, const TaskLists& tasks,
+                                const EngineOptions& options) {
+    std::string text = fmt::format(
+        "# Made by stormcellar batch submit: make -k -j JOBS runs the tasks that are not done.\n"
+        "RUN = @{0} batch run --plan {1} --threads {2} --task\n"
+        "MERGE = @{0} batch merge --plan {1} --threads {2} --task\n"
+        "GRIDS ={3}\n"
+        "FRAMES ={4}\n"
+        ".PHONY: all $(GRIDS) $(FRAMES)\n"
+        "all: $(GRIDS) $(FRAMES)\n"
+        "$(GRIDS): grid-%:\n\t$(RUN) $*\n"
+        "$(FRAMES): frame-%:\n\t$(MERGE) $*\n",
+        in_makefile(quoted(options.program.native())),
+        in_makefile(quoted(plan.directory().native())), options.threads,
+        targets_of("grid", tasks.grids), targets_of("frame", tasks.frames));
+    // The hours of a day need the same grids, which are named once.
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_needs;
+    for (const std::size_t number : tasks.frames) {
+        const auto task = plan.task(number);
+        if (!task) return pass_on(task);
+        const auto& hour = std::get<FrameHour>(task->work);
+        by_needs[{hour.first_need, hour.end_need}].push_back(number);
+    }
+    for (const auto& [needs, frames] : by_needs) {
+        const auto first = std::ranges::lower_bound(tasks.grids, needs.first);
+        const auto end = std::ranges::lower_bound(tasks.grids, needs.second);
+        if (first == end) continue;
+        text += fmt::format("{}: needs-{}-{}\nneeds-{}-{}:{}\n.PHONY: needs-{}-{}\n",
+                            targets_of("frame", frames).substr(1), needs.first, needs.second,
+                            needs.first, needs.second, targets_of("grid", {first, end}),
+                            needs.first, needs.second);
+    }
+    return text;
+}
+
+}  // namespace stormcellar::batch

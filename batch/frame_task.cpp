@@ -1,0 +1,71 @@
+#include "batch/frame_task.h"
+
+#include <set>
+#include <utility>
+
+#include "batch/leftovers.h"
+#include "batch/standing.h"
+#include "batch/usage.h"
+#include "pipeline/care/archive_frames.h"
+#include "pipeline/mosaic/domain_frames.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::batch {
+namespace {
+
+Status check_needs(const Plan& plan, const FrameHour& hour) {
+    for (std::size_t need = hour.first_need; need < hour.end_need; ++need) {
+        const auto task = plan.task(need);
+        if (!task) return pass_on(task);
+        if (read_record(plan, *task)) continue;
+        return fail(ErrorCode::unmet, "needs grid task {}, which is not done", need);
+    }
+    return {};
+}
+
+void add(const pipeline::FillReport& report, Record& record) {
+    std::set<std::string> noted;  // each frame of a damaged partial notes it
+    for (const pipeline::LeftOut& note : report.notes) {
+        if (noted.insert(note.reason).second) record.notes.push_back({"", note.reason});
+    }
+}
+
+}  // namespace
+
+Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const TaskOptions& options) {
+    const auto& hour = std::get<FrameHour>(task.work);
+    const Recipe& recipe = plan.recipe();
+    if (Status met = check_needs(plan, hour); !met) return pass_on(met);
+    auto store = cache::StoreWriter::open(real_file_system(), recipe.cache, false);
+    if (!store) return pass_on(store);
+    remove_own_leftovers(recipe, task);
+    const Usage usage;
+    Record record;
+    record.number = task.number;
+    record.plan = plan.facts().hash;
+    const auto instants = pipeline::instants_between(hour.from, hour.to, recipe.domain->interval);
+    std::size_t made = 0;
+    for (const level2::Moment moment : recipe.moments) {
+        pipeline::FillReport report;
+        const Status framed = pipeline::make_frames(*store, *recipe.domain, moment, instants,
+                                                    options.threads, {}, options.stop, report);
+        if (!framed) return pass_on(framed);
+        made += report.frames_made;
+        add(report, record);
+    }
+    if (options.stop) return fail(ErrorCode::busy, "stopped; the next run continues");
+    const auto standing = grids_standing(*store, recipe, task);
+    if (!standing) return pass_on(standing);
+    record.grids = standing->size();
+    record.digest = digest_of(*standing);
+    for (const StandingGrid& frame : *standing)
+        record.bytes_written += frame.bytes;
+    usage.end(record);
+    if (auto old = read_record(plan, task); made == 0 && old && old->digest == record.digest) {
+        return TaskOutcome{true, std::move(*old)};
+    }
+    if (Status written = write_record(plan.directory(), record); !written) return pass_on(written);
+    return TaskOutcome{false, std::move(record)};
+}
+
+}  // namespace stormcellar::batch

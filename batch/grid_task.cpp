@@ -1,0 +1,168 @@
+#include "batch/grid_task.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "batch/leftovers.h"
+#include "batch/source.h"
+#include "batch/standing.h"
+#include "batch/usage.h"
+#include "pipeline/care/archive_fill.h"
+#include "pipeline/drop/file_facts.h"
+#include "pipeline/ingest/ingest.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
+
+namespace stormcellar::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using pipeline::IngestOutcome;
+using pipeline::IngestResult;
+
+// What stands of each file, by its name.
+using StandingFiles = std::map<std::string, std::int64_t>;
+
+std::size_t hour_of(const fs::path& path) {
+    const auto volume = volume_named(path.filename().native());
+    if (!volume) return 0;
+    return static_cast<std::size_t>((volume->start - UtcTime{volume->day()}) /
+                                    std::chrono::hours{1});
+}
+
+class GridRun {
+  public:
+    GridRun(const Plan& plan, const Task& task, const TaskOptions& options,
+            cache::StoreWriter& store)
+        : recipe_(plan.recipe()),
+          task_(task),
+          day_(std::get<StationDay>(task.work)),
+          options_(options),
+          store_(store) {
+        record_.number = task.number;
+        record_.plan = plan.facts().hash;
+        record_.station = day_.station;
+        record_.day = format_compact(UtcTime{day_.day}).substr(0, 8);
+    }
+
+    Result<Record> run() {
+        auto brought = bring(recipe_, day_, make_directory("files"), options_.stop);
+        if (!brought) return pass_on(brought);
+        auto catalog = catalog::CatalogWriter::open(options_.scratch / "catalog");
+        if (!catalog) return pass_on(catalog);
+        pipeline::Ingestor ingestor(*catalog, store_, ingest_options(brought->beneath));
+        const auto done = files_done(brought->files);
+        if (!done) return pass_on(done);
+        record_.files = brought->files.size();
+        for (const fs::path& path : brought->files) {
+            if (done->contains(path)) {
+                ++record_.taken_by_hour.at(hour_of(path));
+                continue;
+            }
+            if (options_.stop) return fail(ErrorCode::busy, "stopped; the next run continues");
+            if (Status taken = take(ingestor, path); !taken) return pass_on(taken);
+        }
+        const auto standing = grids_standing(store_, recipe_, task_);
+        if (!standing) return pass_on(standing);
+        record_.grids = standing->size();
+        record_.digest = digest_of(*standing);
+        usage_.end(record_);
+        return std::move(record_);
+    }
+
+  private:
+    fs::path make_directory(const char* name) const {
+        const fs::path path = options_.scratch / name;
+        std::error_code ignored;
+        fs::create_directories(path, ignored);
+        return path;
+    }
+
+    [[nodiscard]] pipeline::IngestOptions ingest_options(const fs::path& beneath) const {
+        auto options = pipeline::ingest_options(recipe_.archive_options(options_.threads));
+        options.moments = recipe_.moments;
+        options.beneath = beneath;
+        return options;
+    }
+
+    // The files that need not be read again: those before the last one of which there is a grid, if
+    // there is a grid of them as they are. Of the last one a grid may be missing.
+    Result<std::set<fs::path>> files_done(const std::vector<fs::path>& files) const {
+        const auto standing = grids_standing(store_, recipe_, task_);
+        if (!standing) return pass_on(standing);
+        StandingFiles made_of;
+        for (const StandingGrid& grid : *standing)
+            made_of[grid.file] = grid.modified_ns;
+        std::set<fs::path> done;
+        std::optional<fs::path> last;
+        for (const fs::path& path : files) {
+            const auto found = made_of.find(path.filename().native());
+            const auto stamp = pipeline::stamp_of(path);
+            if (found == made_of.end() || !stamp || stamp->modified_ns != found->second) continue;
+            done.insert(path);
+            last = path;
+        }
+        if (last) done.erase(*last);
+        return done;
+    }
+
+    Status take(pipeline::Ingestor& ingestor, const fs::path& path) {
+        const auto outcome = ingestor.ingest(path, true, pipeline::Tries::last);
+        if (!outcome) return pass_on(outcome);
+        const std::string name = path.filename().native();
+        std::error_code ignored;
+        const auto size = fs::file_size(path, ignored);
+        if (!ignored) record_.bytes_read += size;
+        if (outcome->result() != IngestResult::gridded) {
+            record_.left_out.push_back(
+                {name, pipeline::reason_left_out(*outcome, recipe_.moments.front())});
+            ++record_.left_out_by_hour.at(hour_of(path));
+            return {};
+        }
+        if (!outcome->reason.empty()) record_.notes.push_back({name, outcome->reason});
+        ++record_.taken_by_hour.at(hour_of(path));
+        count_written(outcome->grids);
+        count_written(outcome->partials);
+        return {};
+    }
+
+    void count_written(const std::vector<fs::path>& paths) {
+        for (const fs::path& path : paths) {
+            struct stat facts {};
+            if (::stat(path.c_str(), &facts) == 0)
+                record_.bytes_written += static_cast<std::uint64_t>(facts.st_blocks) * 512;
+        }
+    }
+
+    const Recipe& recipe_;
+    const Task& task_;
+    const StationDay& day_;
+    const TaskOptions& options_;
+    cache::StoreWriter& store_;
+    Usage usage_;
+    Record record_;
+};
+
+}  // namespace
+
+Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const TaskOptions& options) {
+    auto store = cache::StoreWriter::open(real_file_system(), plan.recipe().cache, false);
+    if (!store) return pass_on(store);
+    remove_own_leftovers(plan.recipe(), task);
+    if (auto record = read_record(plan, task)) {
+        const auto standing = grids_standing(*store, plan.recipe(), task);
+        if (!standing) return pass_on(standing);
+        if (digest_of(*standing) == record->digest) return TaskOutcome{true, std::move(*record)};
+    }
+    auto record = GridRun(plan, task, options, *store).run();
+    if (!record) return pass_on(record);
+    if (Status written = write_record(plan.directory(), *record); !written) return pass_on(written);
+    return TaskOutcome{false, std::move(*record)};
+}
+
+}  // namespace stormcellar::batch

@@ -1,0 +1,288 @@
+#include "batch/plan.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "base/system_error.h"
+#include "pipeline/mosaic/domain_frames.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/version.h"
+
+namespace stormcellar::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using std::chrono::days;
+using std::chrono::hours;
+
+constexpr int version = 1;
+constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_task_bytes = std::size_t{1} << 20;
+
+// What gridding takes, by docs/performance.md: bytes of raw files a second and processor.
+constexpr double grid_bytes_a_second = 35e6;
+constexpr double share_of_more_moments = 0.6;
+// Seconds for a million cells of a frame.
+constexpr double advected_s = 0.2, plain_s = 0.005;
+
+double cost_of(const Recipe& recipe, const StationDay& day) {
+    const auto bytes = static_cast<double>(day.files == 0 ? bytes_of_unlisted_day : day.bytes);
+    const auto more = static_cast<double>(recipe.moments.size() - 1);
+    return std::ceil(bytes / grid_bytes_a_second * (1 + share_of_more_moments * more));
+}
+
+double cost_of(const Recipe& recipe, const FrameHour& hour) {
+    const pipeline::Domain& domain = *recipe.domain;
+    const auto frames = pipeline::instants_between(hour.from, hour.to, domain.interval).size();
+    const double million_cells = static_cast<double>(domain.spec.cell_count()) / 1e6;
+    const double a_frame =
+        million_cells * (domain.time == grid::TimeMethod::advected ? advected_s : plain_s);
+    return std::ceil(a_frame * static_cast<double>(frames * recipe.moments.size()));
+}
+
+// The volumes around an hour's frames begin on the hour's day, or on a day that touches it.
+FrameHour hour_of(const Recipe& recipe, UtcTime begin, const std::vector<StationDay>& all) {
+    const UtcTime from = std::max(begin, recipe.from);
+    const UtcTime to = std::min(begin + hours{1} - std::chrono::milliseconds{1}, recipe.to);
+    const auto first_day = std::chrono::floor<days>(from - recipe.margin());
+    const auto last_day = std::chrono::floor<days>(to + recipe.margin());
+    const auto first = std::ranges::lower_bound(all, first_day, {}, &StationDay::day);
+    const auto end = std::ranges::upper_bound(all, last_day, {}, &StationDay::day);
+    return {from, to, static_cast<std::size_t>(first - all.begin()),
+            static_cast<std::size_t>(end - all.begin())};
+}
+
+std::vector<FrameHour> hours_of(const Recipe& recipe, const std::vector<StationDay>& all) {
+    std::vector<FrameHour> found;
+    if (!recipe.domain) return found;
+    for (auto begin = std::chrono::floor<hours>(recipe.from); begin <= recipe.to;
+         begin += hours{1}) {
+        const FrameHour hour = hour_of(recipe, begin, all);
+        const bool has_frames =
+            !pipeline::instants_between(hour.from, hour.to, recipe.domain->interval).empty();
+        if (has_frames && hour.first_need < hour.end_need) found.push_back(hour);
+    }
+    return found;
+}
+
+std::string day_text(std::chrono::sys_days day) {
+    return format_compact(UtcTime{day}).substr(0, 8);
+}
+
+std::string line_of(std::size_t number, const StationDay& day, double cost_s) {
+    Json json{
+        {"n", number},  {"kind", "grid"},     {"station", day.station}, {"day", day_text(day.day)},
+        {"in", day.in}, {"files", day.files}, {"bytes", day.bytes},     {"cost_s", cost_s}};
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string line_of(std::size_t number, const FrameHour& hour, double cost_s) {
+    return Json{{"n", number},
+                {"kind", "frames"},
+                {"from", format_utc(hour.from)},
+                {"to", format_utc(hour.to)},
+                {"needs", {hour.first_need, hour.end_need}},
+                {"cost_s", cost_s}}
+        .dump();
+}
+
+// Gathers the lines of a plan, and what its first line says about them.
+class PlanText {
+  public:
+    explicit PlanText(const Recipe& recipe) : recipe_(recipe) { facts_.hash = hash_of(recipe); }
+
+    void add(const StationDay& day) {
+        add_line(day, cost_of(recipe_, day));
+        ++facts_.grid_tasks;
+        facts_.volumes += day.files;
+        facts_.bytes += day.bytes;
+        facts_.largest = std::max(facts_.largest, day.bytes);
+    }
+    void add(const FrameHour& hour) {
+        add_line(hour, cost_of(recipe_, hour));
+        ++facts_.frame_tasks;
+    }
+
+    [[nodiscard]] std::string text() {
+        std::size_t longest = 0;
+        for (const std::string& line : lines_)
+            longest = std::max(longest, line.size());
+        std::string text = header(longest + 1) + "\n";
+        text.reserve(text.size() + lines_.size() * (longest + 1));
+        for (std::string& line : lines_) {
+            line.resize(longest, ' ');
+            text += line;
+            text += '\n';
+        }
+        return text;
+    }
+
+  private:
+    template <class Work>
+    void add_line(const Work& work, double cost_s) {
+        lines_.push_back(line_of(lines_.size(), work, cost_s));
+        facts_.cost_s += cost_s;
+        facts_.largest_cost_s = std::max(facts_.largest_cost_s, cost_s);
+    }
+    [[nodiscard]] std::string header(std::size_t task_bytes) const {
+        return Json{{"version", version},
+                    {"software", software_version},
+                    {"hash", facts_.hash},
+                    {"task_bytes", task_bytes},
+                    {"grid_tasks", facts_.grid_tasks},
+                    {"frame_tasks", facts_.frame_tasks},
+                    {"volumes", facts_.volumes},
+                    {"bytes", facts_.bytes},
+                    {"largest_bytes", facts_.largest},
+                    {"cost_s", facts_.cost_s},
+                    {"largest_cost_s", facts_.largest_cost_s},
+                    {"recipe", json_of(recipe_)}}
+            .dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+
+    const Recipe& recipe_;
+    PlanFacts facts_;
+    std::vector<std::string> lines_;
+};
+
+Result<std::string> read_at(const Descriptor& file, const fs::path& path, std::uint64_t at,
+                            std::size_t most) {
+    std::string text(most, '\0');
+    std::size_t have = 0;
+    while (have < most) {
+        const ssize_t got =
+            ::pread(file.number(), text.data() + have, most - have, static_cast<off_t>(at + have));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return system_failure(path.native(), errno);
+        if (got == 0) break;
+        have += static_cast<std::size_t>(got);
+    }
+    text.resize(have);
+    return text;
+}
+
+// It throws what nlohmann::json throws.
+Task task_of(const Json& json) {
+    Task task;
+    task.number = json.at("n");
+    task.cost_s = json.at("cost_s");
+    if (json.at("kind") == "frames") {
+        FrameHour hour;
+        hour.from = parse_utc(json.at("from").get<std::string>(), {}).value();
+        hour.to = parse_utc(json.at("to").get<std::string>(), {}).value();
+        hour.first_need = json.at("needs").at(0);
+        hour.end_need = json.at("needs").at(1);
+        task.work = hour;
+        return task;
+    }
+    StationDay day;
+    day.station = json.at("station");
+    day.day = std::chrono::floor<days>(
+        parse_compact(json.at("day").get<std::string>() + "_000000").value());
+    json.at("in").get_to(day.in);
+    day.files = json.at("files");
+    day.bytes = json.at("bytes");
+    task.work = std::move(day);
+    return task;
+}
+
+}  // namespace
+
+Result<Plan> Plan::open(const fs::path& directory) {
+    std::error_code error;
+    const fs::path absolute = fs::absolute(directory, error).lexically_normal();
+    const fs::path path = absolute / file_name;
+    Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (!file.is_open()) return system_failure(path.native(), errno);
+    Plan plan(absolute, std::move(file));
+    if (Status read = plan.read_header(); !read) return pass_on(read);
+    return plan;
+}
+
+Status Plan::read_header() {
+    const fs::path path = directory_ / file_name;
+    const auto text = read_at(file_, path, 0, most_header_bytes);
+    if (!text) return pass_on(text);
+    const std::size_t end = text->find('\n');
+    const Json json = Json::parse(text->substr(0, end), nullptr, false);
+    if (end == std::string::npos || json.is_discarded()) {
+        return fail(ErrorCode::corrupt, "{}: is not a plan", path.native());
+    }
+    first_task_at_ = end + 1;
+    try {
+        if (json.at("version") != version || json.at("software") != software_version) {
+            return fail(ErrorCode::unsupported,
+                        "{}: is a plan of another version of stormcellar; make it again",
+                        path.native());
+        }
+        task_bytes_ = json.at("task_bytes");
+        facts_ = {json.at("hash"),    json.at("grid_tasks"),    json.at("frame_tasks"),
+                  json.at("volumes"), json.at("bytes"),         json.at("largest_bytes"),
+                  json.at("cost_s"),  json.at("largest_cost_s")};
+        auto recipe = recipe_of(json.at("recipe"));
+        if (!recipe) return pass_on(recipe);
+        recipe_ = std::move(*recipe);
+    } catch (const nlohmann::json::exception& error) {
+        return fail(ErrorCode::corrupt, "{}: is damaged: {}", path.native(), error.what());
+    }
+    if (task_bytes_ < 2 || task_bytes_ > most_task_bytes || facts_.hash != hash_of(recipe_)) {
+        return fail(ErrorCode::corrupt, "{}: is damaged", path.native());
+    }
+    return {};
+}
+
+Result<Task> Plan::task(std::size_t number) const {
+    const fs::path path = directory_ / file_name;
+    if (number >= facts_.tasks()) {
+        return fail(ErrorCode::bad_argument, "{}: has no task {}; its tasks are 0 to {}",
+                    path.native(), number, facts_.tasks() - 1);
+    }
+    const auto line = read_at(file_, path, first_task_at_ + number * task_bytes_, task_bytes_);
+    if (!line) return pass_on(line);
+    try {
+        Task task = task_of(Json::parse(*line));
+        if (task.number == number) return task;
+    } catch (const std::exception&) {
+        // A damaged line is told below.
+    }
+    return fail(ErrorCode::corrupt, "{}: the line of task {} is damaged", path.native(), number);
+}
+
+Status write_plan(const fs::path& directory, const Recipe& recipe,
+                  const std::vector<StationDay>& all) {
+    if (all.empty()) {
+        return fail(ErrorCode::not_found, "{}: has no volume of these stations and times",
+                    recipe.source);
+    }
+    PlanText plan(recipe);
+    for (const StationDay& day : all)
+        plan.add(day);
+    for (const FrameHour& hour : hours_of(recipe, all))
+        plan.add(hour);
+    const std::string text = plan.text();
+    const auto bytes = std::as_bytes(std::span(text));
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    const fs::path path = directory / Plan::file_name;
+    constexpr std::uint64_t no_limit = ~std::uint64_t{0} - 1;
+    if (fs::exists(path, error)) {
+        const auto old = read_file(path, no_limit);
+        if (old && std::ranges::equal(*old, bytes)) return {};
+        return fail(ErrorCode::bad_argument,
+                    "{}: is another plan, or its source has changed; choose another directory",
+                    path.native());
+    }
+    return write_file_atomically(real_file_system(), path, bytes);
+}
+
+}  // namespace stormcellar::batch

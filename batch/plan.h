@@ -1,0 +1,80 @@
+// batch/plan.h -- the tasks that make an archive, in a file that each task reads one line of.
+//
+// PLAN/plan.jsonl is JSON, a document a line. The first line has the recipe; each further line is a
+// task, filled up with blanks to the same length, so that task N is found without reading the
+// others (docs/batch.md has the fields). Grid tasks come first, by day and then station; then the
+// frame tasks, by hour. The same source, range and recipe give the same bytes.
+//
+// Threads   A plan may be read by many threads.
+// Errors    not_found, corrupt, io; bad_argument for a number that is no task.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "batch/recipe.h"
+#include "batch/source.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::batch {
+
+// The frames of an hour. They are made of what the tasks from `first_need` on, and before
+// `end_need`, made.
+struct FrameHour {
+    UtcTime from, to;  // inclusive
+    std::size_t first_need = 0, end_need = 0;
+};
+
+struct Task {
+    std::size_t number = 0;
+    double cost_s = 0;  // of a processor, estimated
+    std::variant<StationDay, FrameHour> work;
+
+    [[nodiscard]] bool is_frames() const { return std::holds_alternative<FrameHour>(work); }
+};
+
+struct PlanFacts {
+    std::string hash;  // of the recipe
+    std::size_t grid_tasks = 0, frame_tasks = 0;
+    std::size_t volumes = 0;    // 0: not known before the tasks run
+    std::uint64_t bytes = 0;    // of the raw files
+    std::uint64_t largest = 0;  // of one station-day
+    double cost_s = 0;          // of all tasks
+    double largest_cost_s = 0;  // of one task
+
+    [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks; }
+};
+
+class Plan {
+  public:
+    static constexpr const char* file_name = "plan.jsonl";
+
+    [[nodiscard]] static Result<Plan> open(const std::filesystem::path& directory);
+
+    [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
+    [[nodiscard]] const Recipe& recipe() const { return recipe_; }
+    [[nodiscard]] const PlanFacts& facts() const { return facts_; }
+    [[nodiscard]] Result<Task> task(std::size_t number) const;
+
+  private:
+    Plan(std::filesystem::path directory, Descriptor file)
+        : directory_(std::move(directory)), file_(std::move(file)) {}
+    Status read_header();
+
+    std::filesystem::path directory_;
+    Descriptor file_;
+    Recipe recipe_;
+    PlanFacts facts_;
+    std::uint64_t first_task_at_ = 0, task_bytes_ = 0;
+};
+
+// Writes the plan of these station-days. Errors: also bad_argument if the directory has another
+// plan, or nothing is to be done.
+[[nodiscard]] Status write_plan(const std::filesystem::path& directory, const Recipe& recipe,
+                                const std::vector<StationDay>& days);
+
+}  // namespace stormcellar::batch

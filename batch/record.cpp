@@ -1,0 +1,124 @@
+#include "batch/record.h"
+
+#include <span>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/base/file_system.h"
+
+namespace stormcellar::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t most_record_bytes = std::uint64_t{64} << 20;
+
+Json json_of(const std::vector<NamedReason>& reasons) {
+    Json list = Json::array();
+    for (const NamedReason& one : reasons)
+        list.push_back({{"name", one.name}, {"reason", one.reason}});
+    return list;
+}
+
+// It throws what nlohmann::json throws.
+std::vector<NamedReason> reasons_of(const Json& json) {
+    std::vector<NamedReason> reasons;
+    for (const Json& one : json)
+        reasons.push_back({one.at("name"), one.at("reason")});
+    return reasons;
+}
+
+Json json_of(const Record& record) {
+    Json json{{"n", record.number}, {"plan", record.plan}};
+    if (!record.station.empty()) {
+        json["station"] = record.station;
+        json["day"] = record.day;
+        json["files"] = record.files;
+        json["taken_by_hour"] = record.taken_by_hour;
+        json["left_out_by_hour"] = record.left_out_by_hour;
+        json["left_out"] = json_of(record.left_out);
+    }
+    json["grids"] = record.grids;
+    json["digest"] = record.digest;
+    json["notes"] = json_of(record.notes);
+    json["started"] = format_utc(record.started);
+    json["ended"] = format_utc(record.ended);
+    json["cpu_s"] = record.cpu_s;
+    json["bytes_read"] = record.bytes_read;
+    json["bytes_written"] = record.bytes_written;
+    json["memory_bytes"] = record.memory_bytes;
+    json["host"] = record.host;
+    return json;
+}
+
+Record read_fields(const Json& json) {
+    Record record;
+    record.number = json.at("n");
+    record.plan = json.at("plan");
+    if (json.contains("station")) {
+        record.station = json.at("station");
+        record.day = json.at("day");
+        record.files = json.at("files");
+        json.at("taken_by_hour").get_to(record.taken_by_hour);
+        json.at("left_out_by_hour").get_to(record.left_out_by_hour);
+        record.left_out = reasons_of(json.at("left_out"));
+    }
+    record.grids = json.at("grids");
+    record.digest = json.at("digest");
+    record.notes = reasons_of(json.at("notes"));
+    record.started = parse_utc(json.at("started").get<std::string>(), {}).value();
+    record.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();
+    record.cpu_s = json.at("cpu_s");
+    record.bytes_read = json.at("bytes_read");
+    record.bytes_written = json.at("bytes_written");
+    record.memory_bytes = json.at("memory_bytes");
+    record.host = json.at("host");
+    return record;
+}
+
+bool is_of(const Record& record, const Plan& plan, const Task& task) {
+    if (record.number != task.number || record.plan != plan.facts().hash) return false;
+    const auto* const day = std::get_if<StationDay>(&task.work);
+    return day == nullptr ? record.station.empty()
+                          : record.station == day->station &&
+                                record.day == format_compact(UtcTime{day->day}).substr(0, 8);
+}
+
+}  // namespace
+
+fs::path record_path(const fs::path& plan, std::size_t number) {
+    return plan / "tasks" / fmt::format("{:05}", number / records_a_directory) /
+           fmt::format("{}.json", number);
+}
+
+Status write_record(const fs::path& plan, const Record& record) {
+    const fs::path path = record_path(plan, record.number);
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) {
+        return fail(ErrorCode::io, "{}: {}", path.parent_path().native(), error.message());
+    }
+    const std::string text =
+        json_of(record).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return write_file_atomically(real_file_system(), path, std::as_bytes(std::span(text)));
+}
+
+Result<Record> parse_record(std::string_view text) {
+    try {
+        return read_fields(Json::parse(text));
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::corrupt, "is not the record of a task: {}", error.what());
+    }
+}
+
+std::optional<Record> read_record(const Plan& plan, const Task& task) {
+    const auto bytes = read_file(record_path(plan.directory(), task.number), most_record_bytes);
+    if (!bytes) return std::nullopt;
+    const auto record = parse_record({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    if (!record || !is_of(*record, plan, task)) return std::nullopt;
+    return *record;
+}
+
+}  // namespace stormcellar::batch

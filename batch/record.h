@@ -1,0 +1,62 @@
+// batch/record.h -- what a task did, in a file that appears when the task is done.
+//
+// PLAN/tasks/00012/12345.json is the record of task 12345: a thousand records to a directory. When
+// a thousand tasks are done, `batch check` writes their sum beside them, so that the next one need
+// not read the records. docs/batch.md has the fields.
+//
+// A record appears by rename. Of two tasks that ran at the same time, the last one's record stays;
+// what they made is the same.
+//
+// Units     Seconds, bytes; times are UTC.
+// Threads   Pure functions, but for the files.
+// Errors    Those of reading and writing files; corrupt.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/plan.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::batch {
+
+struct NamedReason {
+    std::string name;  // of a file, without directories
+    std::string reason;
+};
+
+using HourCounts = std::array<std::uint32_t, 24>;  // by the hour of the day, UTC
+
+struct Record {
+    std::size_t number = 0;
+    std::string plan;     // the hash of its recipe
+    std::string station;  // empty: frames
+    std::string day;      // of a station's files, as 20130520
+    // Raw files that were taken and left out, and what there is of them: grids, or frames.
+    std::size_t files = 0;
+    std::size_t grids = 0;
+    std::string digest;  // identifies the grids to the byte
+    std::vector<NamedReason> left_out;
+    std::vector<NamedReason> notes;  // taken, with a remark
+    HourCounts taken_by_hour{}, left_out_by_hour{};
+    // What the last run of the task took. A run that found grids of another one took less.
+    UtcTime started, ended;
+    double cpu_s = 0;
+    std::uint64_t bytes_read = 0, bytes_written = 0, memory_bytes = 0;
+    std::string host;
+};
+
+inline constexpr std::size_t records_a_directory = 1000;
+[[nodiscard]] std::filesystem::path record_path(const std::filesystem::path& plan,
+                                                std::size_t number);
+
+[[nodiscard]] Status write_record(const std::filesystem::path& plan, const Record& record);
+// Returns none if there is no record, or it is damaged, or of another recipe or another task.
+[[nodiscard]] std::optional<Record> read_record(const Plan& plan, const Task& task);
+[[nodiscard]] Result<Record> parse_record(std::string_view text);
+
+}  // namespace stormcellar::batch

@@ -1,0 +1,71 @@
+#include "batch/standing.h"
+
+#include <span>
+
+#include "base/checksum.h"
+#include "pipeline/care/archive_fill.h"
+#include "stormcellar/base/version.h"
+#include "stormcellar/cache/grid_file.h"
+
+namespace stormcellar::batch {
+namespace {
+
+// A volume begins at most this long before the time in its file's name. A file that several volumes
+// were joined in may hold later ones; those that begin later than this are made again each time.
+constexpr std::chrono::minutes most_before{15};
+constexpr std::chrono::hours most_after{2};
+
+struct Where {
+    std::string domain;
+    UtcTime from, to;
+};
+
+Where where_of(const Recipe& recipe, const Task& task) {
+    if (const auto* const hour = std::get_if<FrameHour>(&task.work)) {
+        return {recipe.domain->name, hour->from, hour->to};
+    }
+    const auto& day = std::get<StationDay>(task.work);
+    return {recipe.domain_of(day.station), UtcTime{day.day} - most_before,
+            UtcTime{day.day} + std::chrono::days{1} + most_after};
+}
+
+bool is_of(const cache::GridDescription& description, const Recipe& recipe, const Task& task) {
+    const grid::Provenance& provenance = description.provenance;
+    if (provenance.software_version != software_version) return false;
+    const auto* const day = std::get_if<StationDay>(&task.work);
+    if (day == nullptr) return description.spec == recipe.domain->spec;
+    if (provenance.source_files.size() != 1) return false;
+    const auto volume = volume_named(provenance.source_files.front());
+    return volume && volume->station == day->station && volume->day() == day->day &&
+           pipeline::is_of_grid(recipe.archive_options(1), description);
+}
+
+}  // namespace
+
+Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
+                                                 const Recipe& recipe, const Task& task) {
+    std::vector<StandingGrid> standing;
+    const Where where = where_of(recipe, task);
+    for (const level2::Moment moment : recipe.moments) {
+        const auto entries = store.list(where.domain, moment, where.from, where.to);
+        if (!entries) return pass_on(entries);
+        for (const cache::StoreEntry& entry : *entries) {
+            const auto file = cache::GridFile::open(entry.path);
+            if (!file || !is_of(file->description(), recipe, task)) continue;
+            const grid::Provenance& provenance = file->description().provenance;
+            standing.push_back({task.is_frames() ? std::string{} : provenance.source_files.front(),
+                                provenance.source_modified_ns, entry.time, file->checksum(),
+                                entry.bytes_on_disk});
+        }
+    }
+    return standing;
+}
+
+std::string digest_of(const std::vector<StandingGrid>& grids) {
+    std::vector<std::uint64_t> sums;
+    for (const StandingGrid& grid : grids)
+        sums.push_back(grid.checksum);
+    return fmt::format("{:016x}", xxh3_64(std::as_bytes(std::span(sums))));
+}
+
+}  // namespace stormcellar::batch

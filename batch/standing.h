@@ -1,0 +1,34 @@
+// batch/standing.h -- the grids of a task that the cache holds, whoever made them.
+//
+// Threads   Pure functions, but for the files.
+// Errors    Those of listing the cache. A grid that cannot be opened, is of another shape or was
+//           made by another version of this software does not stand.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "batch/plan.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::batch {
+
+struct StandingGrid {
+    std::string file;  // the raw file that it was made of; empty: a frame
+    std::int64_t modified_ns = 0;
+    UtcTime time;
+    std::uint64_t checksum = 0;
+    std::uint64_t bytes = 0;  // on disk
+};
+
+// Returns the grids of the task in order of moment, then time.
+[[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
+                                                               const Recipe& recipe,
+                                                               const Task& task);
+
+// Identifies grids to the byte, in their order.
+[[nodiscard]] std::string digest_of(const std::vector<StandingGrid>& grids);
+
+}  // namespace stormcellar::batch

@@ -1,0 +1,35 @@
+// cli/batch/batch.h -- what the subcommands of `stormcellar batch` share.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <functional>
+
+#include "batch/check.h"
+#include "batch/plan.h"
+#include "cli/shared/commands.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stormcellar::cli {
+
+// The exit status of a task that another try, or another machine, may finish (EX_TEMPFAIL).
+inline constexpr int exit_try_again = 75;
+// Of a plan of which tasks are not done.
+inline constexpr int exit_incomplete = 3;
+
+void add_plan_option(CLI::App& app, std::string& plan);
+
+Run set_up_batch_plan(CLI::App& command);
+Run set_up_batch_run(CLI::App& command);
+Run set_up_batch_merge(CLI::App& command);
+Run set_up_batch_check(CLI::App& command);
+Run set_up_batch_submit(CLI::App& command);
+
+// Checks a plan, with a bar on stderr.
+[[nodiscard]] Result<batch::CheckReport> check_with_bar(const batch::Plan& plan, bool deep,
+                                                        bool quiet);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,154 @@
+// stormcellar batch run --plan PLAN --task N, and batch merge.
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+
+#include "base/byte_size.h"
+#include "batch/frame_task.h"
+#include "batch/grid_task.h"
+#include "cli/batch/batch.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/scratch_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using batch::Task;
+using batch::TaskOutcome;
+
+struct TaskRange {
+    std::size_t first = 0, last = 0;
+};
+
+struct TaskCommand {
+    std::string plan, tasks;
+    int threads = 1;
+    bool frames = false;  // merge
+};
+
+Result<TaskRange> parse_tasks(const std::string& text) {
+    TaskRange range;
+    const char* const end = text.data() + text.size();
+    auto [at, error] = std::from_chars(text.data(), end, range.first);
+    range.last = range.first;
+    if (error == std::errc{} && at != end && *at == '-') {
+        const auto second = std::from_chars(at + 1, end, range.last);
+        at = second.ptr;
+        error = second.ec;
+    }
+    if (error != std::errc{} || at != end || range.last < range.first) {
+        return fail(ErrorCode::bad_argument,
+                    "--task takes a number or a range, as in 12 or 12-19, not '{}'", text);
+    }
+    return range;
+}
+
+// What the data or the plan cause, another try does not change.
+int status_of(const Error& error) {
+    if (error.cause() == Cause::system) return exit_try_again;
+    return error.code == ErrorCode::bad_argument ? exit_bad_usage : exit_failed;
+}
+
+std::string name_of(const Task& task) {
+    if (const auto* const hour = std::get_if<batch::FrameHour>(&task.work)) {
+        return fmt::format("frames {} to {}", format_utc(hour->from), format_utc(hour->to));
+    }
+    const auto& day = std::get<batch::StationDay>(task.work);
+    return fmt::format("{} {}", day.station, format_compact(UtcTime{day.day}).substr(0, 8));
+}
+
+void say_done(const Task& task, const TaskOutcome& outcome) {
+    const batch::Record& record = outcome.record;
+    for (const batch::NamedReason& file : record.left_out) {
+        fmt::print(stderr, "stormcellar: left out: {}: {}\n", printable(file.name),
+                   printable(file.reason));
+    }
+    if (outcome.stood) {
+        fmt::print("task {}: {}: stands already\n", task.number, name_of(task));
+        return;
+    }
+    const std::string of_files =
+        task.is_frames() ? ""
+                         : fmt::format("{} {}, {} left out, ", record.files,
+                                       plural(record.files, "file"), record.left_out.size());
+    fmt::print("task {}: {}: {}{} {}, {} written, {:.1f} s of a processor\n", task.number,
+               name_of(task), of_files, record.grids,
+               plural(record.grids, task.is_frames() ? "frame" : "grid"),
+               format_byte_size(record.bytes_written), record.cpu_s);
+}
+
+Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs::path& scratch,
+                             const TaskCommand& command, const std::atomic<bool>& stop) {
+    const fs::path own = scratch / std::to_string(task.number);
+    std::error_code error;
+    fs::create_directory(own, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", own.native(), error.message());
+    const batch::TaskOptions options{command.threads, own, stop};
+    auto outcome = command.frames ? batch::run_frame_task(plan, task, options)
+                                  : batch::run_grid_task(plan, task, options);
+    fs::remove_all(own, error);
+    return outcome;
+}
+
+// The status of a range is that of the task that went worst.
+int run_tasks(const TaskCommand& command) {
+    const auto range = parse_tasks(command.tasks);
+    if (!range) return report_error(range.error());
+    const auto plan = batch::Plan::open(command.plan);
+    if (!plan) return report_error(plan.error());
+    const auto scratch = ScratchDirectory::make();
+    if (!scratch) return report_error(scratch.error());
+    Interrupt interrupt;
+    int worst = exit_done;
+    for (std::size_t number = range->first; number <= range->last && !interrupt.flag(); ++number) {
+        const auto task = plan->task(number);
+        if (!task) return report_error(task.error());
+        if (task->is_frames() != command.frames) {
+            return report_error(
+                {ErrorCode::bad_argument, fmt::format("task {} makes {}: use stormcellar batch {}",
+                                                      number, command.frames ? "grids" : "frames",
+                                                      command.frames ? "run" : "merge")});
+        }
+        const auto outcome = run_task(*plan, *task, scratch->path(), command, interrupt.flag());
+        if (outcome) {
+            say_done(*task, *outcome);
+            continue;
+        }
+        fmt::print(stderr, "stormcellar: task {}: {}: {}\n", number, name_of(*task),
+                   printable(outcome.error().message));
+        const int status = status_of(outcome.error());
+        worst = worst == exit_done || status != exit_try_again ? status : worst;
+    }
+    return interrupt.flag() && worst == exit_done ? exit_try_again : worst;
+}
+
+Run set_up(CLI::App& command, bool frames) {
+    const auto options = std::make_shared<TaskCommand>();
+    options->frames = frames;
+    add_plan_option(command, options->plan);
+    command
+        .add_option("--task", options->tasks,
+                    "Number of the task in the plan, or a range of them, as in 12-19")
+        ->required();
+    command.add_option("--threads", options->threads, "Number of threads")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 256));
+    return [options] { return run_tasks(*options); };
+}
+
+}  // namespace
+
+Run set_up_batch_run(CLI::App& command) {
+    return set_up(command, false);
+}
+
+Run set_up_batch_merge(CLI::App& command) {
+    return set_up(command, true);
+}
+
+}  // namespace stormcellar::cli

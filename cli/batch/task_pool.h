@@ -1,0 +1,34 @@
+// cli/batch/task_pool.h -- runs tasks of a plan as processes of this machine, several at a time.
+//
+// Each task is a process of its own, as with any other engine, so one that crashes takes no other
+// with it. A task that ends with status 75 is tried again, up to three times in all.
+//
+// Threads   One pool at a time; it waits for all children of the process.
+// Errors    io or exhausted if a process cannot be started.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::cli {
+
+struct PoolJob {
+    std::filesystem::path program, plan;
+    const char* command = "run";  // of `stormcellar batch`
+    int jobs = 1;
+    int threads = 1;
+};
+
+// Runs the tasks in their order. Once `stop` is set, no further task begins, and those that run are
+// told to end. `done` is called after each task that has ended for good, with their number so far.
+// Returns the tasks that failed.
+[[nodiscard]] Result<std::vector<std::size_t>> run_pool(
+    const PoolJob& job, const std::vector<std::size_t>& tasks, const std::atomic<bool>& stop,
+    const std::function<void(std::size_t done)>& done);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,94 @@
+// tests/batch/small_archive.h -- real volumes of KBGM as an archive, and plans of coarse grids of
+// them.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "batch/frame_task.h"
+#include "batch/grid_task.h"
+#include "batch/plan.h"
+#include "batch/source.h"
+#include "stormcellar/base/file_system.h"
+#include "tests/pipeline/small_domain.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::batch {
+
+inline UtcTime at(const std::string& text) {
+    return *parse_utc(text, UtcTime{});
+}
+
+// The bytes of all files below a directory, by their paths.
+inline std::map<std::string, std::vector<std::byte>> tree_of(const std::filesystem::path& root) {
+    std::map<std::string, std::vector<std::byte>> tree;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+        if (entry.is_regular_file())
+            tree[std::filesystem::relative(entry.path(), root).native()] = *read_file(entry.path());
+    }
+    return tree;
+}
+
+class SmallArchive : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        std::filesystem::create_directories(raw_ / "day");
+        for (const std::string& name : pipeline::sequence) {
+            const auto from = *testing::data_directory() / "sequence-kbgm" / name;
+            const auto to = raw_ / "day" / name;
+            std::filesystem::copy_file(from, to);
+            std::filesystem::permissions(to, std::filesystem::perms::owner_write,
+                                         std::filesystem::perm_options::add);
+            // Tars keep whole seconds.
+            std::filesystem::last_write_time(to, std::chrono::floor<std::chrono::seconds>(
+                                                     std::filesystem::last_write_time(from)));
+        }
+    }
+
+    // Frames every minute from 02:45 to 03:00, in a cache of this name.
+    [[nodiscard]] Recipe recipe(const std::string& cache) const {
+        Recipe recipe;
+        recipe.source = raw_.native();
+        recipe.cache = directory_ / cache;
+        recipe.from = at("2005-08-22T02:45Z");
+        recipe.to = at("2005-08-22T03:00Z");
+        recipe.domain = pipeline::small_domain();
+        recipe.domain->stations = {"KBGM"};
+        recipe.domain->interval = std::chrono::minutes{1};
+        return recipe;
+    }
+    [[nodiscard]] Plan plan_of(const Recipe& recipe, const std::string& name) const {
+        const auto listing =
+            list_source(recipe.source, recipe.from - recipe.margin(), recipe.to + recipe.margin());
+        EXPECT_TRUE(listing);
+        const Status written = write_plan(directory_ / name, recipe, listing->days);
+        EXPECT_TRUE(written) << written.error().message;
+        return std::move(*Plan::open(directory_ / name));
+    }
+    [[nodiscard]] Result<TaskOutcome> run(const Plan& plan, std::size_t number) const {
+        const Task task = *plan.task(number);
+        const testing::TemporaryDirectory scratch;
+        const TaskOptions options{1, scratch.path(), stop_};
+        return task.is_frames() ? run_frame_task(plan, task, options)
+                                : run_grid_task(plan, task, options);
+    }
+    void run_all(const Plan& plan) const {
+        for (std::size_t number = 0; number < plan.facts().tasks(); ++number) {
+            const auto outcome = run(plan, number);
+            ASSERT_TRUE(outcome) << outcome.error().message;
+        }
+    }
+
+    testing::TemporaryDirectory directory_;
+    std::filesystem::path raw_ = directory_ / "raw";
+    std::atomic<bool> stop_{false};
+};
+
+}  // namespace stormcellar::batch

@@ -1,0 +1,126 @@
+// Which files an archive has, and how they come to a task.
+#include "batch/source.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/batch/small_archive.h"
+#include "tests/fetch/mock_bucket.h"
+
+namespace stormcellar::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+void write(const fs::path& path, const std::string& text = "x") {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+}
+
+std::vector<std::string> names_of(const BroughtFiles& brought) {
+    std::vector<std::string> names;
+    for (const fs::path& path : brought.files)
+        names.push_back(path.filename().native());
+    return names;
+}
+
+TEST(Source, AVolumeIsKnownByItsName) {
+    const auto usual = volume_named("KTLX20130520_200356_V06.gz");
+    ASSERT_TRUE(usual);
+    EXPECT_EQ(usual->station, "KTLX");
+    EXPECT_EQ(usual->start, at("2013-05-20T20:03:56Z"));
+    const auto of_ncei = volume_named("6500KTLX19910720_160529.Z");
+    ASSERT_TRUE(of_ncei);
+    EXPECT_EQ(of_ncei->start, at("1991-07-20T16:05:29Z"));
+    for (const char* name : {"KTLX20130520_200356_V06_MDM", "KTLX_any", "notes.txt", "",
+                             "KTLX20131520_200356", "XXXX20130520_200356"}) {
+        EXPECT_FALSE(volume_named(name)) << name;
+    }
+}
+
+TEST(Source, ListsADirectoryByDayAndStation) {
+    const testing::TemporaryDirectory directory;
+    write(directory / "b/KTLX20130520_200356", "12345");
+    write(directory / "a/KTLX20130520_235959", "123");
+    write(directory / "a/KTLX20130521_000500");
+    write(directory / "a/KFDR20130521_000400");
+    write(directory / "a/KFDR20130523_000400");  // after the range
+    write(directory / "a/.KFDR20130521_000900");
+    write(directory / "a/KFDR20130521_000900.part");
+    write(directory / "a/readme");
+    const auto listing = list_source(directory.path().native(), at("2013-05-20"), at("2013-05-22"));
+    ASSERT_TRUE(listing);
+    ASSERT_EQ(listing->days.size(), 3U);
+    EXPECT_EQ(listing->days[0].station, "KTLX");
+    EXPECT_THAT(listing->days[0].in, ElementsAre("a", "b"));
+    EXPECT_EQ(listing->days[0].files, 2U);
+    EXPECT_EQ(listing->days[0].bytes, 8U);
+    EXPECT_EQ(listing->days[1].station, "KFDR");
+    EXPECT_EQ(listing->days[2].station, "KTLX");
+    EXPECT_EQ(listing->nameless, 1U);
+    EXPECT_EQ(listing->first_nameless, "a/readme");
+    EXPECT_EQ(list_source((directory / "none").native(), {}, {}).error().code,
+              ErrorCode::not_found);
+}
+
+TEST(Source, BringsTheFilesOfARangeInTheirOrder) {
+    const testing::TemporaryDirectory directory, scratch;
+    for (const char* name : {"KTLX20130520_200356", "KTLX20130520_210000", "KTLX20130520_220000",
+                             "KFDR20130520_210000"})
+        write(directory / "day" / name);
+    write(directory / "again/KTLX20130520_203000");
+    Recipe recipe;
+    recipe.source = directory.path().native();
+    recipe.from = at("2013-05-20T20:30Z");
+    recipe.to = at("2013-05-20T21:00Z");
+    const StationDay what{
+        std::chrono::floor<std::chrono::days>(recipe.from), "KTLX", {"again", "day"}, 2, 2};
+    const std::atomic<bool> stop{false};
+    const auto own = bring(recipe, what, scratch.path(), stop);
+    ASSERT_TRUE(own);
+    EXPECT_THAT(names_of(*own), ElementsAre("KTLX20130520_203000", "KTLX20130520_210000"));
+    // Frames need the volumes around the range, too.
+    recipe.domain = pipeline::small_domain();
+    recipe.to = at("2013-05-20T21:40Z");
+    EXPECT_THAT(names_of(*bring(recipe, what, scratch.path(), stop)),
+                ElementsAre("KTLX20130520_203000", "KTLX20130520_210000", "KTLX20130520_220000"));
+}
+
+TEST(Source, ABucketIsFetchedToTheScratchDirectory) {
+    fetch::MockBucket bucket;
+    bucket.set_page(1);
+    bucket.put("2017/01/01/KTLX/KTLX20170101_030027_V06", std::string(5000, 'a'));
+    bucket.put("2017/01/01/KTLX/KTLX20170101_030027_V06_MDM", std::string(50, 'm'));
+    bucket.put("2017/01/01/KTLX/KTLX20170101_030627_V06", std::string(6000, 'b'));
+    bucket.put("2017/01/01/KFDR/KFDR20170101_030127_V06", std::string(7000, 'c'));
+    bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
+                     {fetch::MockBucket::Fault::unavailable});
+    const testing::TemporaryDirectory scratch;
+    Recipe recipe;
+    recipe.source = bucket.address();
+    recipe.from = at("2017-01-01T00:00Z");
+    recipe.to = at("2017-01-01T12:00Z");
+    const StationDay what{std::chrono::floor<std::chrono::days>(recipe.from), "KTLX", {}, 0, 0};
+    const std::atomic<bool> stop{false};
+    const auto brought = bring(recipe, what, scratch.path(), stop);
+    ASSERT_TRUE(brought) << brought.error().message;
+    EXPECT_THAT(names_of(*brought),
+                ElementsAre("KTLX20170101_030027_V06", "KTLX20170101_030627_V06"));
+    EXPECT_EQ(fs::file_size(brought->files[0]), 5000U);
+
+    // A file that cannot be had now may come with another try.
+    fs::remove(brought->files[0]);
+    bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
+                     std::vector(6, fetch::MockBucket::Fault::missing));
+    const auto failed = bring(recipe, what, scratch.path(), stop);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code, ErrorCode::io);
+    EXPECT_THAT(failed.error().message, HasSubstr("1 of 2 files could not be fetched"));
+}
+
+}  // namespace
+}  // namespace stormcellar::batch

@@ -1,0 +1,181 @@
+// Tasks: what they make is the same however often, where and in how many steps they run.
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/host_name.h"
+#include "batch/check.h"
+#include "batch/leftovers.h"
+#include "batch/record.h"
+#include "stormcellar/cache/store.h"
+#include "tests/batch/small_archive.h"
+
+namespace stormcellar::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class BatchTasks : public SmallArchive {
+  protected:
+    // The directory of the partials.
+    [[nodiscard]] fs::path partials(const std::string& cache) const {
+        return directory_ / cache / "north.KBGM/REF/20050822";
+    }
+};
+
+TEST_F(BatchTasks, ASecondRunFindsWhatStandsAndASecondCacheHasTheSameBytes) {
+    const Plan plan = plan_of(recipe("one"), "plan-one");
+    ASSERT_EQ(plan.facts().grid_tasks, 1U);
+    ASSERT_EQ(plan.facts().frame_tasks, 2U);  // 02:45 to 02:59, and 03:00
+    const auto grids = run(plan, 0);
+    ASSERT_TRUE(grids) << grids.error().message;
+    EXPECT_FALSE(grids->stood);
+    EXPECT_EQ(grids->record.files, 3U);
+    EXPECT_EQ(grids->record.grids, 3U);
+    EXPECT_THAT(grids->record.left_out, IsEmpty());
+    EXPECT_EQ(grids->record.taken_by_hour[2], 3U);
+    EXPECT_GT(grids->record.cpu_s, 0);
+    EXPECT_GT(grids->record.bytes_read, 1'000'000U);
+    EXPECT_GT(grids->record.bytes_written, 0U);
+    EXPECT_EQ(grids->record.host, host_name());
+    const auto frames = run(plan, 1);
+    ASSERT_TRUE(frames) << frames.error().message;
+    EXPECT_GT(frames->record.grids, 8U);
+    ASSERT_TRUE(run(plan, 2));
+
+    const auto bytes = tree_of(directory_ / "one");
+    EXPECT_TRUE(run(plan, 0)->stood);
+    EXPECT_TRUE(run(plan, 1)->stood);
+    const Plan other = plan_of(recipe("two"), "plan-two");
+    run_all(other);
+    EXPECT_EQ(tree_of(directory_ / "one"), bytes);
+    EXPECT_EQ(tree_of(directory_ / "two"), bytes);
+}
+
+// A task that an engine started twice: both run at the same time, in processes of their own.
+TEST_F(BatchTasks, TwoAtTheSameTimeLeaveTheBytesOfOne) {
+    run_all(plan_of(recipe("one"), "plan-one"));
+    const Plan plan = plan_of(recipe("two"), "plan-two");
+    for (std::size_t number = 0; number < plan.facts().tasks(); ++number) {
+        std::vector<pid_t> children;
+        for (int copy = 0; copy < 2; ++copy) {
+            children.push_back(::fork());
+            if (children.back() == 0) ::_exit(run(plan, number) ? 0 : 1);
+        }
+        for (const pid_t child : children) {
+            int status = 0;
+            ASSERT_EQ(::waitpid(child, &status, 0), child);
+            EXPECT_EQ(status, 0);
+        }
+    }
+    EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+}
+
+TEST_F(BatchTasks, AKilledTaskContinuesWithTheFileThatItWasAt) {
+    const Plan whole = plan_of(recipe("one"), "plan-one");
+    run_all(whole);
+    // Of the second file it wrote a part, and a temporary file stayed.
+    const Plan plan = plan_of(recipe("two"), "plan-two");
+    run_all(plan);
+    ASSERT_TRUE(fs::remove(record_path(plan.directory(), 0)));
+    std::vector<fs::path> grids;
+    for (const auto& entry : fs::directory_iterator(partials("two")))
+        grids.push_back(entry.path());
+    std::ranges::sort(grids);
+    ASSERT_THAT(grids, SizeIs(3));
+    fs::remove(grids[2]);
+    const pid_t ended = ::fork();
+    if (ended == 0) ::_exit(0);
+    ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
+    const auto leftover = [&](const std::string& host, pid_t process) {
+        const fs::path path =
+            partials("two") / fmt::format("{}{}-{}-0", temporary_prefix, host, process);
+        std::ofstream(path) << "half";
+        return path;
+    };
+    const fs::path own = leftover(host_name(), ended);
+    const fs::path running = leftover(host_name(), ::getpid());
+    const fs::path of_other = leftover("elsewhere", ended);
+    const auto again = run(plan, 0);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_LT(again->record.bytes_read, fs::file_size(raw_ / "day" / pipeline::sequence[0]) +
+                                            fs::file_size(raw_ / "day" / pipeline::sequence[1]) +
+                                            fs::file_size(raw_ / "day" / pipeline::sequence[2]))
+        << "the first file need not be read again";
+    EXPECT_EQ(again->record.taken_by_hour[2], 3U);
+    EXPECT_FALSE(fs::exists(own));
+    EXPECT_TRUE(fs::exists(running)) << "another process of this host may be writing it";
+    EXPECT_TRUE(fs::exists(of_other)) << "another host may be writing it";
+    EXPECT_EQ(remove_all_leftovers(plan), 2U);
+    EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+}
+
+TEST_F(BatchTasks, ABadVolumeIsLeftOutWithItsReason) {
+    std::ofstream(raw_ / "day" / pipeline::sequence[1], std::ios::trunc)
+        << "no radar data at all, but some bytes";
+    const Plan plan = plan_of(recipe("one"), "plan");
+    const auto outcome = run(plan, 0);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->record.grids, 2U);
+    ASSERT_THAT(outcome->record.left_out, SizeIs(1));
+    EXPECT_EQ(outcome->record.left_out[0].name, pipeline::sequence[1]);
+    EXPECT_NE(outcome->record.left_out[0].reason, "");
+    EXPECT_EQ(outcome->record.left_out_by_hour[2], 1U);
+    EXPECT_TRUE(run(plan, 0)->stood);
+    EXPECT_THAT(run(plan, 0)->record.left_out, SizeIs(1));
+}
+
+TEST_F(BatchTasks, FramesWaitForTheRecordsOfTheirGrids) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    const auto early = run(plan, 1);
+    ASSERT_FALSE(early);
+    EXPECT_EQ(early.error().code, ErrorCode::unmet);
+    EXPECT_THAT(early.error().message, HasSubstr("needs grid task 0, which is not done"));
+    // A record of another recipe does not count.
+    Record other;
+    other.number = 0;
+    other.plan = "0";
+    other.station = "KBGM";
+    other.day = "20050822";
+    ASSERT_TRUE(write_record(plan.directory(), other));
+    EXPECT_EQ(run(plan, 1).error().code, ErrorCode::unmet);
+    ASSERT_TRUE(run(plan, 0));
+    EXPECT_TRUE(run(plan, 1));
+}
+
+TEST_F(BatchTasks, WhatMayPassIsAnErrorOfTheSystem) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    stop_ = true;
+    EXPECT_EQ(run(plan, 0).error().code, ErrorCode::busy);
+    stop_ = false;
+    fs::rename(raw_, directory_ / "unmounted");
+    const auto without = run(plan, 0);
+    ASSERT_FALSE(without);
+    EXPECT_EQ(without.error().cause(), Cause::system);
+    EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
+}
+
+TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
+    run_all(plan_of(recipe("one"), "plan-one"));
+    fs::create_directory(directory_ / "tars");
+    const std::string command =
+        fmt::format("tar -C {} -cf {} day", raw_.native(),
+                    (directory_ / "tars/NWS_NEXRAD_NXL2_KBGM_20050822.tar").native());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    Recipe from_tar = recipe("two");
+    from_tar.source = (directory_ / "tars").native();
+    const Plan plan = plan_of(from_tar, "plan-two");
+    EXPECT_EQ(plan.facts().volumes, 3U);
+    run_all(plan);
+    EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+}
+
+}  // namespace
+}  // namespace stormcellar::batch

@@ -1,0 +1,188 @@
+// stormcellar batch, run as a user runs it.
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include "stormcellar/base/file_system.h"
+#include "tests/cli/run_stormcellar.h"
+#include "tests/pipeline/small_house.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::ProgramResult;
+
+const std::vector<std::string> five_volumes = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
+                                               "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
+                                               "KBGM20050822_030830.gz"};
+
+// The grids below a cache, by their paths.
+std::map<std::string, std::vector<std::byte>> grids_of(const fs::path& cache) {
+    std::map<std::string, std::vector<std::byte>> grids;
+    for (const auto& entry : fs::recursive_directory_iterator(cache)) {
+        if (entry.path().extension() == ".scg")
+            grids[fs::relative(entry.path(), cache).native()] = *read_file(entry.path());
+    }
+    return grids;
+}
+
+class Batch : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        pipeline::catalog_real_volumes(directory_.path(), five_volumes);
+    }
+    [[nodiscard]] std::string place(const std::string& name) const {
+        return (directory_ / name).string();
+    }
+    // Grids of 4 km, and frames every five minutes.
+    [[nodiscard]] static std::vector<std::string> grid() {
+        return {"--bounds=-79,40,-73,44.5",
+                "--spacing-km",
+                "4",
+                "--levels-km",
+                "1:6:1",
+                "--interval",
+                "5min",
+                "--from",
+                "2005-08-22T02:50",
+                "--to",
+                "2005-08-22T03:05"};
+    }
+    [[nodiscard]] ProgramResult plan(const std::string& name,
+                                     std::vector<std::string> more = {}) const {
+        std::vector<std::string> arguments{"batch",    "plan",       "--source", place("drop"),
+                                           "--mosaic", "KBGM-alone", "-o",       place(name)};
+        const auto of_grid = grid();
+        arguments.insert(arguments.end(), of_grid.begin(), of_grid.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    [[nodiscard]] ProgramResult batch(const std::string& command, const std::string& name,
+                                      std::vector<std::string> more = {}) const {
+        more.insert(more.begin(), {"batch", command, "--plan", place(name)});
+        return run(more);
+    }
+    // What a loop makes of the same files.
+    [[nodiscard]] std::map<std::string, std::vector<std::byte>> grids_of_a_loop() const {
+        std::vector<std::string> arguments{
+            "loop",     "--catalog",   place("catalog"), "--stations", "KBGM",         "--cache",
+            place("c"), "--product",   "composite",      "--width",    "200",          "--height",
+            "150",      "--no-labels", "--quiet",        "-o",         place("a.webp")};
+        const auto of_grid = grid();
+        arguments.insert(arguments.end(), of_grid.begin(), of_grid.end());
+        const auto looped = run(arguments);
+        EXPECT_EQ(looped.status, 0) << looped.err;
+        return grids_of(directory_ / "c");
+    }
+
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(Batch, PlansRunsMergesAndChecks) {
+    const ProgramResult planned = plan("p", {"--json"});
+    ASSERT_EQ(planned.status, 0) << planned.err;
+    const auto facts = nlohmann::json::parse(planned.out);
+    EXPECT_EQ(facts["grid_tasks"], 1);
+    EXPECT_EQ(facts["frame_tasks"], 2);
+    EXPECT_EQ(facts["volumes"], 5);
+    EXPECT_GT(facts["grid_task_memory_bytes"], 100'000'000);
+    EXPECT_EQ(batch("check", "p").status, 3) << "nothing is done";
+    EXPECT_EQ(batch("merge", "p", {"--task", "1"}).status, 1) << "its grids are not done";
+    const ProgramResult ran = batch("run", "p", {"--task", "0"});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("task 0: KBGM 20050822: 5 files, 0 left out, 5 grids"));
+    EXPECT_THAT(batch("run", "p", {"--task", "0"}).out, HasSubstr("stands already"));
+    EXPECT_EQ(batch("merge", "p", {"--task", "1-2"}).status, 0);
+    const ProgramResult checked = batch("check", "p", {"--table"});
+    EXPECT_EQ(checked.status, 0) << checked.err;
+    EXPECT_THAT(checked.out, HasSubstr("3 of 3 tasks done"));
+    EXPECT_THAT(checked.out, HasSubstr("KBGM        .     .     3     2     ."));
+    const auto document = nlohmann::json::parse(batch("check", "p", {"--json"}).out);
+    EXPECT_EQ(document["frames"], 4);
+    EXPECT_THAT(document["missing"], IsEmpty());
+}
+
+TEST_F(Batch, SaysByItsStatusWhetherAnotherTryHelps) {
+    ASSERT_EQ(plan("p").status, 0);
+    EXPECT_EQ(batch("run", "p", {"--task", "7"}).status, 2);
+    EXPECT_EQ(batch("run", "p", {"--task", "one"}).status, 2);
+    EXPECT_EQ(batch("run", "p", {"--task", "1"}).status, 2) << "it makes frames";
+    EXPECT_EQ(batch("run", "elsewhere", {"--task", "0"}).status, 1);
+    fs::rename(directory_ / "drop", directory_ / "unmounted");
+    const ProgramResult away = batch("run", "p", {"--task", "0"});
+    EXPECT_EQ(away.status, 75) << away.err;
+    EXPECT_THAT(away.err, HasSubstr("No such file or directory"));
+    fs::rename(directory_ / "unmounted", directory_ / "drop");
+    std::ofstream(directory_ / "drop" / five_volumes[2], std::ios::trunc) << "no radar data";
+    const ProgramResult bad = batch("run", "p", {"--task", "0"});
+    EXPECT_EQ(bad.status, 0) << bad.err;
+    EXPECT_THAT(bad.err, HasSubstr("left out: " + five_volumes[2]));
+    EXPECT_THAT(batch("check", "p").out, HasSubstr("left out in task 0: " + five_volumes[2]));
+}
+
+TEST_F(Batch, IsToTheByteWhatALoopMakes) {
+    ASSERT_EQ(plan("p").status, 0);
+    const ProgramResult submitted = batch("submit", "p", {"--engine", "local", "--jobs", "2"});
+    ASSERT_EQ(submitted.status, 0) << submitted.err;
+    EXPECT_EQ(grids_of(directory_ / "p/cache"), grids_of_a_loop());
+    EXPECT_THAT(batch("submit", "p", {"--engine", "make"}).out, HasSubstr("all 3 tasks are done"));
+}
+
+// The program and what it started are killed as soon as there is a grid.
+TEST_F(Batch, ByMakeKilledHalfWayAndRunAgainIsWhatALoopMakes) {
+    ASSERT_EQ(plan("p").status, 0);
+    const std::string make = "setsid " STORMCELLAR_PROGRAM " batch submit --plan " + place("p") +
+                             " --engine make & echo $!; wait";
+    testing::RunningProgram killed("/bin/sh", {"-c", make});
+    const auto has_grid = [&] { return fs::exists(directory_ / "p/cache/KBGM-alone.KBGM/REF"); };
+    ASSERT_TRUE(testing::RunningProgram::wait_for(has_grid)) << killed.err();
+    const pid_t group = std::stoi(killed.out());
+    ASSERT_EQ(::kill(-group, SIGKILL), 0);
+    static_cast<void>(killed.end(SIGKILL));
+    EXPECT_EQ(batch("check", "p").status, 3);
+    const ProgramResult again = batch("submit", "p", {"--engine", "make", "--jobs", "2"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(grids_of(directory_ / "p/cache"), grids_of_a_loop());
+}
+
+TEST_F(Batch, ADryRunPrintsAllAndRunsNothing) {
+    ASSERT_EQ(plan("p").status, 0);
+    const auto slurm = batch("submit", "p", {"--engine", "slurm", "--dry-run", "--jobs", "9"});
+    EXPECT_EQ(slurm.status, 0);
+    EXPECT_THAT(slurm.out, HasSubstr("#SBATCH --array=0%9\n"));
+    EXPECT_THAT(slurm.out, HasSubstr("sbatch --parsable --dependency=afterany:JOB"));
+    EXPECT_THAT(batch("submit", "p", {"--engine", "make", "--dry-run"}).out,
+                HasSubstr("GRIDS = grid-0\n"));
+    EXPECT_THAT(batch("submit", "p", {"--engine", "local", "--dry-run"}).out,
+                HasSubstr("of tasks 0, then 1 2"));
+    EXPECT_FALSE(fs::exists(directory_ / "p/tasks"));
+    EXPECT_FALSE(fs::exists(directory_ / "p/Makefile"));
+}
+
+TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
+    const std::vector<std::string> arguments{
+        "batch",        "plan",   "--source",         place("drop"), "-o",
+        place("own"),   "--from", "2005-08-22T02:50", "--to",        "2005-08-22T03:05",
+        "--spacing-km", "4"};
+    ASSERT_EQ(run(arguments).status, 0);
+    ASSERT_EQ(batch("submit", "own", {"--engine", "local"}).status, 0);
+    EXPECT_EQ(grids_of(directory_ / "own/cache").size(), 3U) << "those that begin in the range";
+    auto wrong = arguments;
+    wrong.insert(wrong.end(), {"--center", "42,-76"});
+    const ProgramResult refused = run(wrong);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("add --mosaic NAME"));
+    EXPECT_EQ(plan("own").status, 2) << "another plan is there";
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
