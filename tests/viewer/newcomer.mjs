@@ -5,7 +5,7 @@ import { Browser } from './devtools.mjs';
 
 const [address] = process.argv.slice(2);
 const mostActions = 12;
-const [width, height] = [680, 460];
+const [width, height] = [796, 532];
 // The tornado that went from Bridge Creek to Moore was here at 23:56 UTC, within some kilometers.
 const hook = [35.27, -97.62];
 
@@ -70,8 +70,8 @@ try {
   const ends = (await viewer.told('section')).split(',').map(Number);
   check(`the section lies across the hook: ${ends}`, ends[1] < hook[1] && hook[1] < ends[3] && Math.abs(ends[0] - hook[0]) < 0.1);
   // The greatest value that was read is, but for what lies between cells, the server's own along that way.
-  const profile = await (await fetch(`${address}/api/v1/grids/KTLX/REF/latest/profile?from=${ends.slice(0, 2)}&to=${ends.slice(2)}&count=400`)).json();
-  const greatest = Math.max(...JSON.stringify(profile).match(/"value":-?[\d.]+/g).map((text) => Number(text.slice(8))));
+  const { points } = await (await fetch(`${address}/api/v1/grids/KTLX/REF/latest/profile?from=${ends.slice(0, 2)}&to=${ends.slice(2)}&count=400`)).json();
+  const greatest = Math.max(...points.flatMap(({ values }) => values ?? []).filter((value) => value !== null));
   const read = Number(said.match(/-?\d+\.\d+/)[0]);
   check(`${said}; among cells ${greatest}`, read <= greatest + 0.5 && read > greatest - 3);
 

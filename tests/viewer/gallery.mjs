@@ -1,0 +1,40 @@
+// Makes the pairs of pictures in docs/gallery.md: what the page shows, and what the command that it copies draws.
+// usage: node tests/viewer/gallery.mjs PROGRAM ADDRESS DIRECTORY OF VOLUMES, PICTURES
+import { execFileSync } from 'node:child_process';
+import { readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { CheckedPage } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [program, address, volumes, pictures] = process.argv.slice(2);
+const [width, height] = [796, 532];
+const scenes = [
+  // picture, station, what follows it in the address
+  ['supercells', 'KTLX', 'azimuth=190&tilt=62&zoom=3.2&field-of-view=40&exaggeration=3&light=gradient&look-at-km=-45,15,4'],
+  ['hurricane', 'KCRP', 'azimuth=180&tilt=50&zoom=1.6&field-of-view=40&exaggeration=4&light=gradient'],
+  ['tornadoes', 'KDMX', 'azimuth=180&tilt=58&zoom=1.7&field-of-view=40&exaggeration=4&light=gradient'],
+  ['outer-bands', 'KLIX', 'azimuth=180&tilt=55&zoom=1.3&field-of-view=40&exaggeration=5&light=gradient'],
+  ['rain', 'KLBB', 'azimuth=180&tilt=60&zoom=2&field-of-view=40&exaggeration=4&light=gradient'],
+  ['winter', 'KOKX', 'azimuth=180&tilt=45&zoom=1.6&field-of-view=40&exaggeration=6&opacity=2&light=gradient'],
+];
+
+const browser = await Browser.start();
+try {
+  const page = await browser.page(width, height);
+  await browser.send('Browser.grantPermissions', { permissions: ['clipboardReadWrite', 'clipboardSanitizedWrite'] });
+  const viewer = new CheckedPage(page, address);
+  for (const [name, station, more] of scenes) {
+    const volume = readdirSync(volumes).find((file) => file.startsWith(`${station}${{ KTLX: 1999, KDMX: 2022, KLBB: 2016 }[station] ?? ''}`));
+    await viewer.open(`domain=${station}&moment=REF&${more}`);
+    writeFileSync(join(pictures, `viewer-${name}.png`), await page.screenshot());
+    await page.evaluate("document.getElementById('command').click()");
+    const words = (await page.evaluate('navigator.clipboard.readText()')).split(' ').slice(1);
+    words[1] = join(volumes, volume);
+    words[words.indexOf('-o') + 1] = join(pictures, `slicer-${name}.png`);
+    console.log(name, words.join(' '));
+    execFileSync(program, words, { stdio: 'inherit' });
+  }
+} finally {
+  await browser.end();
+}
