@@ -107,7 +107,7 @@ export class Drawing {
         document.documentElement.dataset['frameMs'] = String(ms);
         if (isMoving) {
             window.setTimeout(() => this.draw(), stillAfterMs);
-        } else if (!this.isFinal && !this.layers!.isWaiting) {
+        } else if (!this.isFinal && !this.layers!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
             this.isFinal = true;
             app.say(texts.steps(slices, ms), false);
             document.documentElement.dataset['drawn'] = shown.key;

@@ -102,7 +102,7 @@ export class LayersPanel {
 
     private planeParts(): HTMLElement[] {
         const height = input('plane-height', 'range');
-        height.step = String(planeStepM / 5);
+        height.step = String(planeStepM / 5); // and both ends are whole steps
         height.addEventListener('input', () => this.slide({ planeM: Number(height.value) }));
         height.setAttribute('aria-label', words.plane);
         const told = document.createElement('output');
@@ -290,8 +290,9 @@ export class LayersPanel {
 
     private putPlane(box: Crop, heightM: number): void {
         const slider = element<HTMLInputElement>('plane-height');
-        slider.min = String(box.bottomM);
-        slider.max = String(box.topM);
+        const step = Number(slider.step);
+        slider.min = String(Math.ceil(box.bottomM / step) * step);
+        slider.max = String(Math.floor(box.topM / step) * step);
         slider.value = String(heightM);
         const text = words.planeAt(heightText(heightM, this.app.state.units));
         slider.setAttribute('aria-valuetext', text);
