@@ -171,6 +171,11 @@ export class Renderer implements Graphics {
         for (const texture of [uploaded.atlas, uploaded.indirection, uploaded.coverage, uploaded.levels]) this.gl.deleteTexture(texture);
     }
 
+    private releaseOther(): void {
+        this.release(this.other);
+        this.other = null;
+    }
+
     private upload(loaded: LoadedGrid): Uploaded {
         const gl = this.gl;
         const { atlas, grid, coverage } = loaded;
@@ -243,6 +248,8 @@ export class Renderer implements Graphics {
         }
         const layers = frame.layers ?? null;
         const isSolid = layers !== null && this.uploaded !== null && hasSolids(layers);
+        this.passes.begin(isSolid);
+        if (!layers?.surface?.of) this.releaseOther();
         if (isSolid) this.passes.drawSolids(geometry, layers, () => this.drawSurface(frame, layers, layers.surface!));
         gl.viewport(0, 0, geometry.width, geometry.height);
         gl.disable(gl.BLEND);

@@ -123,12 +123,10 @@ ${litColorText}
 ${facingText}
 ${lightAtText}`;
 
-// The light of a step is the mean of that at its ends; the one behind is that before the next step.
+// The light of two steps is that between them.
 const stepLit = `
-            if (frontLight < 0.0) frontLight = lightAt(cellOf(start + clamp(depth - stepM, enter, leave) * along), looks);
-            float backLight = lightAt(cellOf(start + clamp(depth, enter, leave) * along), looks);
-            lit += seen * 0.5 * (frontLight + backLight);
-            frontLight = backLight;`;
+            if (frontLight < 0.0 || mod(k, 2.0) < 0.5) frontLight = lightAt(cellOf(start + clamp(depth, enter, leave) * along), looks);
+            lit += seen * frontLight;`;
 
 // What the ray has gathered, lit.
 const putLit = `
