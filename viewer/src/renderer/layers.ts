@@ -76,6 +76,14 @@ export class LayerPasses {
         this.target = null;
     }
 
+    // A picture begins: what the last one did not need is given back.
+    begin(hasSolids: boolean): void {
+        this.shelf.clear();
+        if (hasSolids) return;
+        this.target?.dispose();
+        this.target = null;
+    }
+
     // -- what several layers need
 
     private fieldTexture(name: string, field: FlatField, inGrid: Uint8Array | null): WebGLTexture {

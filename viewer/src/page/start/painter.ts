@@ -6,7 +6,7 @@ import { shades } from '../../renderer/shades';
 import { withoutCuts } from '../../scene/ground_lines';
 import { Place } from '../../scene/projection';
 import { City, MapAnswer } from '../../wire/api';
-import { fontOf } from '../dom';
+import { fontOf, textScale } from '../dom';
 import { Rect, haloed, overlaps } from '../labels';
 import { Picture, Tiles } from './tiles';
 
@@ -208,12 +208,27 @@ function drawCities(pen: CanvasRenderingContext2D, { view, map }: StartScene, ta
     }
 }
 
-export function paint(pen: CanvasRenderingContext2D, scene: StartScene, tiles: Tiles, pixelRatio: number): void {
+// The scene in pixels that are larger, as texts are on large screens.
+function inLargerPixels(scene: StartScene, scale: number): StartScene {
+    const { view, box, covered } = scene;
+    const pixel = ([x, y]: Pixel): Pixel => [x / scale, y / scale];
+    return {
+        ...scene,
+        view: { ...view, scale: view.scale / scale, width: view.width / scale, height: view.height / scale },
+        box: box && [pixel(box[0]), pixel(box[1])],
+        covered: covered.map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale })),
+    };
+}
+
+export function paint(pen: CanvasRenderingContext2D, given: StartScene, tiles: Tiles, pixelRatio: number): void {
     pen.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     pen.fillStyle = sea;
-    pen.fillRect(0, 0, scene.view.width, scene.view.height);
-    drawLand(pen, scene);
-    drawPictures(pen, scene, tiles);
+    pen.fillRect(0, 0, given.view.width, given.view.height);
+    drawLand(pen, given);
+    drawPictures(pen, given, tiles);
+    const larger = textScale();
+    const scene = inLargerPixels(given, larger);
+    pen.scale(larger, larger);
     drawLines(pen, scene);
     const taken = [...scene.covered];
     drawOutlines(pen, scene, taken);
