@@ -45,7 +45,10 @@ const scenes = [
 ];
 if (pictures) mkdirSync(pictures, { recursive: true });
 let compared = 0;
+// Of the short form every third scene: from each side of the ground, of two moments, of both volumes.
+const isShort = Boolean(process.env.STORMCELLAR_SHORT);
 for (const [number, [one, moment, azimuth, tilt, zoom, field, exaggeration, opacity, at]] of scenes.entries()) {
+  if (isShort && number % 3 !== 0) continue;
   const file = stations[one] && (await slicer.fileOf(stations[one], moment));
   if (!file) continue;
   const scene = { station: stations[one], moment, azimuth, tilt, zoom, field, exaggeration, opacity, at };

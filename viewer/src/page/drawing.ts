@@ -95,6 +95,7 @@ export class Drawing {
 
     draw(): void {
         this.isFinal = false;
+        delete document.documentElement.dataset['drawn'];
         if (this.isDrawing) return;
         this.isDrawing = true;
         requestAnimationFrame(() => this.drawNow());
