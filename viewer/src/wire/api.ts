@@ -144,6 +144,7 @@ export async function map(west: number, south: number, east: number, north: numb
 export interface SweepRow {
     sweep: number; // from 0
     elevation_deg: number;
+    start?: string;
     moments: { moment: string }[];
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
