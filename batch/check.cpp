@@ -30,7 +30,9 @@ void widen(std::optional<UtcTime> started, std::optional<UtcTime> ended, Totals&
 }
 
 void add(const Record& record, double cost_s, Totals& totals) {
-    if (record.station.empty()) {
+    if (record.kind == TaskKind::statistics) {
+        ++totals.statistics_tasks;
+    } else if (record.kind == TaskKind::frames) {
         ++totals.frame_tasks;
         totals.frames += record.grids;
     } else {
@@ -54,6 +56,7 @@ void add(const Record& record, double cost_s, Totals& totals) {
 void add(const Totals& more, Totals& all) {
     all.grid_tasks += more.grid_tasks;
     all.frame_tasks += more.frame_tasks;
+    all.statistics_tasks += more.statistics_tasks;
     all.files += more.files;
     all.left_out += more.left_out;
     all.grids += more.grids;
@@ -80,6 +83,7 @@ Json json_of(const Totals& totals, const std::string& plan) {
     return {{"plan", plan},
             {"grid_tasks", totals.grid_tasks},
             {"frame_tasks", totals.frame_tasks},
+            {"statistics_tasks", totals.statistics_tasks},
             {"files", totals.files},
             {"left_out", totals.left_out},
             {"grids", totals.grids},
@@ -100,6 +104,7 @@ Totals totals_of(const Json& json) {
     Totals totals;
     totals.grid_tasks = json.at("grid_tasks");
     totals.frame_tasks = json.at("frame_tasks");
+    totals.statistics_tasks = json.at("statistics_tasks");
     totals.files = json.at("files");
     totals.left_out = json.at("left_out");
     totals.grids = json.at("grids");
@@ -181,7 +186,7 @@ class Check {
 
     Result<bool> stands(const Task& task, const Record& record) const {
         if (!store_) return false;
-        const auto standing = grids_standing(*store_, plan_.recipe(), task);
+        const auto standing = grids_standing(*store_, plan_, task);
         if (!standing) return pass_on(standing);
         return digest_of(*standing) == record.digest;
     }
@@ -194,7 +199,7 @@ class Check {
                 Json::parse(reinterpret_cast<const char*>(bytes->data()),
                             reinterpret_cast<const char*>(bytes->data()) + bytes->size());
             Totals totals = totals_of(json);
-            const bool is_whole = totals.grid_tasks + totals.frame_tasks == tasks;
+            const bool is_whole = totals.tasks() == tasks;
             if (is_whole && json.at("plan") == plan_.facts().hash) return totals;
         } catch (const std::exception&) {
             // It is made again.

@@ -33,8 +33,9 @@ using HourCounts = std::array<std::uint32_t, 24>;  // by the hour of the day, UT
 
 struct Record {
     std::size_t number = 0;
-    std::string plan;     // the hash of its recipe
-    std::string station;  // empty: frames
+    std::string plan;  // the hash of its recipe
+    TaskKind kind = TaskKind::grids;
+    std::string station;  // of grids
     std::string day;      // of a station's files, as 20130520
     // Raw files that were taken and left out, and what there is of them: grids, or frames.
     std::size_t files = 0;
