@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -126,7 +127,7 @@ Totals totals_of(const Json& json) {
 
 class Check {
   public:
-    Check(const Plan& plan, const CheckOptions& options) : plan_(plan), options_(options) {}
+    Check(const Plan& plan, CheckOptions options) : plan_(plan), options_(std::move(options)) {}
 
     Result<CheckReport> run() {
         if (options_.deep) {
@@ -144,9 +145,23 @@ class Check {
         return std::move(report_);
     }
 
+    // Writes the summary of a directory if all of its records are there.
+    void sum_up(std::size_t first, std::size_t end) {
+        Totals totals;
+        for (std::size_t number = first; number < end; ++number) {
+            const auto done = look_at(number, totals);
+            if (!done || !*done) return;
+        }
+        write_summary(summary_of(first), totals);
+    }
+
   private:
+    [[nodiscard]] fs::path summary_of(std::size_t number) const {
+        return record_path(plan_.directory(), number).parent_path() / summary_name;
+    }
+
     Status directory(std::size_t first, std::size_t end) {
-        const fs::path path = record_path(plan_.directory(), first).parent_path() / summary_name;
+        const fs::path path = summary_of(first);
         if (!options_.deep) {
             if (const auto known = read_summary(path, end - first)) {
                 add(*known, report_.done);
@@ -221,12 +236,32 @@ class Check {
     }
 
     const Plan& plan_;
-    const CheckOptions& options_;
+    const CheckOptions options_;
     std::optional<cache::StoreReader> store_;
     CheckReport report_;
 };
 
+std::size_t records_in(const fs::path& directory) {
+    std::size_t records = 0;
+    std::error_code error;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().native();
+        if (!name.starts_with('.') && name != summary_name) ++records;
+    }
+    return records;
+}
+
 }  // namespace
+
+Status keep_record(const Plan& plan, const Record& record) {
+    if (Status written = write_record(plan.directory(), record); !written) return written;
+    const std::size_t first = record.number / records_a_directory * records_a_directory;
+    const std::size_t end = std::min(first + records_a_directory, plan.facts().tasks());
+    if (records_in(record_path(plan.directory(), first).parent_path()) >= end - first)
+        Check(plan, {}).sum_up(first, end);
+    return {};
+}
 
 Result<CheckReport> check(const Plan& plan, const CheckOptions& options) {
     return Check(plan, options).run();

@@ -1,6 +1,6 @@
 // batch/check.h -- how far a plan is done, by the records of its tasks.
 //
-// The records of a thousand tasks that are all done are summed up once, in
+// The records of a thousand tasks are summed up by the last of these tasks, in
 // PLAN/tasks/00012/summary.json, which appears by rename: the sum of the same records is the same
 // whoever writes it. So checking a plan of millions of tasks reads thousands of files.
 //
@@ -53,6 +53,9 @@ struct CheckOptions {
 };
 
 [[nodiscard]] Result<CheckReport> check(const Plan& plan, const CheckOptions& options);
+
+// Writes the record of a task, and the summary of its directory if it was the last one there.
+[[nodiscard]] Status keep_record(const Plan& plan, const Record& record);
 
 // Returns what tasks left out, with reasons, from their records.
 struct LeftOutFile {

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "batch/check.h"
 #include "batch/leftovers.h"
 #include "batch/standing.h"
 #include "batch/usage.h"
@@ -65,7 +66,7 @@ Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const Tas
     if (auto old = read_record(plan, task); made == 0 && old && old->digest == record.digest) {
         return TaskOutcome{true, std::move(*old)};
     }
-    if (Status written = write_record(plan.directory(), record); !written) return pass_on(written);
+    if (Status written = keep_record(plan, record); !written) return pass_on(written);
     return TaskOutcome{false, std::move(record)};
 }
 

@@ -8,6 +8,7 @@
 
 #include <sys/stat.h>
 
+#include "batch/check.h"
 #include "batch/leftovers.h"
 #include "batch/source.h"
 #include "batch/standing.h"
@@ -163,7 +164,7 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
     }
     auto record = GridRun(plan, task, options, *store).run();
     if (!record) return pass_on(record);
-    if (Status written = write_record(plan.directory(), *record); !written) return pass_on(written);
+    if (Status written = keep_record(plan, *record); !written) return pass_on(written);
     return TaskOutcome{false, std::move(*record)};
 }
 

@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include "base/checksum.h"
+#include "batch/check.h"
 #include "batch/frame_task.h"
 #include "batch/standing.h"
 #include "batch/usage.h"
@@ -181,7 +182,7 @@ Result<TaskOutcome> run_statistics_task(const Plan& plan, const Task& task,
     for (const StandingGrid& one : *standing)
         record.bytes_written += one.bytes;
     usage.end(record);
-    if (Status written = write_record(plan.directory(), record); !written) return pass_on(written);
+    if (Status written = keep_record(plan, record); !written) return pass_on(written);
     return TaskOutcome{false, std::move(record)};
 }
 
