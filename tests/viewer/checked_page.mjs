@@ -23,9 +23,13 @@ export class CheckedPage {
     await this.page.goto(`${this.address}/view/#${view}`);
     await this.page.until(drawn);
   }
-  // Changes the view, and waits for its fine picture.
+  // Changes the view, and waits for its fine picture: what is drawn before the page has taken the address does not count.
   async show(view) {
-    await this.settled(() => this.page.evaluate(`location.hash = ${JSON.stringify(view)}; undefined`));
+    await this.page.evaluate(`new Promise((done) => {
+      addEventListener('hashchange', () => { delete ${drawn}; done(); }, { once: true });
+      location.hash = ${JSON.stringify(view)};
+    })`);
+    await this.page.until(drawn);
   }
   // Waits for the fine picture after an act.
   async settled(act) {
@@ -49,14 +53,14 @@ export class CheckedPage {
     const after = await this.number(name);
     check(`${what}: ${name} ${before} to ${after}`, holds(before, after));
   }
-  // The pixels of the picture as bytes of a portable pixmap.
-  async pixels() {
+  // The pixels of the picture as bytes of a portable pixmap, in its own size or as large as the page shows it.
+  async pixels(width = 0, height = 0) {
     const text = await this.page.evaluate(`(() => {
     const picture = document.getElementById('picture');
     const copy = document.createElement('canvas');
-    [copy.width, copy.height] = [picture.width, picture.height];
+    [copy.width, copy.height] = [${width} || picture.width, ${height} || picture.height];
     const pen = copy.getContext('2d');
-    pen.drawImage(picture, 0, 0);
+    pen.drawImage(picture, 0, 0, copy.width, copy.height);
     const { data } = pen.getImageData(0, 0, copy.width, copy.height);
     let text = '';
     for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
@@ -86,7 +90,7 @@ export async function gridsOf(address, stations) {
 export class Slicer {
   // `difference` is the program of that name beside this file; files go to `directory`.
   constructor(address, grids, difference, directory) {
-    Object.assign(this, { address, grids, difference, directory, files: new Map() });
+    Object.assign(this, { address, grids, difference, directory, files: new Map(), before: [] });
   }
   async fileOf(domain, moment) {
     const grid = this.grids.find((one) => one.domain === domain && one.moment === moment);
@@ -99,11 +103,11 @@ export class Slicer {
     }
     return this.files.get(grid.path);
   }
-  // CIEDE2000 of a picture: 99th percentile, mean, greatest; and over how many pixels.
+  // `before` has words for the program. CIEDE2000 of a picture: 99th percentile, mean, greatest; and over how many pixels.
   compare(file, picture, scene, more = []) {
     const { azimuth, tilt, zoom, field, exaggeration, opacity, at } = scene;
     const words = [azimuth, tilt, zoom, field, exaggeration, opacity, ...at.map((km) => km * 1000)].map(String);
-    const [p99, mean, most, count] = execFileSync(this.difference, [file, picture, ...words, ...more], { encoding: 'utf8' }).trim().split(' ').map(Number);
+    const [p99, mean, most, count] = execFileSync(this.difference, [...this.before, file, picture, ...words, ...more], { encoding: 'utf8' }).trim().split(' ').map(Number);
     return { p99, mean, most, count };
   }
 }

@@ -9,7 +9,7 @@ const [address, station, difference, directory] = process.argv.slice(2);
 const browser = await Firefox.start(400, 266);
 try {
   const viewer = new CheckedPage(browser, address);
-  await viewer.open();
+  await viewer.open(`domain=${station}`);
   check('the first picture in Firefox has many colors', shadesOf(await viewer.pixels()).size > 200);
   check('the title names the station', (await browser.evaluate('document.title')).includes(station));
   const slicer = new Slicer(address, await gridsOf(address, [station]), difference, directory);

@@ -16,7 +16,7 @@ const viewer = new CheckedPage(page, address);
 
 // ---- The first picture
 const began = performance.now();
-await viewer.open();
+await viewer.open(`domain=${station}`);
 console.log(`first picture after ${Math.round(performance.now() - began)} ms, ${page.bytes} bytes on the wire`);
 check('the first picture has many colors', shadesOf(await viewer.pixels()).size > 200);
 check('the title names the station', (await page.evaluate('document.title')).includes(station));

@@ -1,11 +1,13 @@
 // Compares the volume that the page of the viewer drew with what the slicer draws of the same grid
 // with the same camera.
-//   viewer_difference GRID.scg PICTURE.ppm AZIMUTH TILT ZOOM FIELD_OF_VIEW EXAGGERATION OPACITY
-//     LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [--colors TABLE] [SLICER.png]
-// The picture has the volume over black. Distances are in meters. It prints the differences by
-// CIEDE2000, and how many pixels show anything in either picture; those that are black in both do
-// not count. TABLE is a name or a file, as `stormcellar frame --colors` takes it; without it the
-// moment has its usual colors. With another name it leaves the slicer's picture there.
+//   viewer_difference [--sun AZIMUTH,ELEVATION] GRID.scg PICTURE.ppm AZIMUTH TILT ZOOM
+//     FIELD_OF_VIEW EXAGGERATION OPACITY LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [--colors TABLE]
+//     [--slices N] [SLICER.png]
+// The picture has the volume over black, lit by its gradient if there is a sun. Distances are in
+// meters. It prints the differences by CIEDE2000, and how many pixels show anything in either
+// picture; those that are black in both do not count. TABLE is a name or a file, as `stormcellar
+// frame --colors` takes it; without it the moment has its usual colors. N slices are drawn, without
+// it the usual number. With another name it leaves the slicer's picture there.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -53,7 +55,8 @@ Shown shown_of(const Image& one, const Image& other) {
 }
 
 Image drawn(const grid::BrickView& view, const ColourTable& colours,
-            const std::array<double, number_count>& numbers, int width, int height) {
+            const std::array<double, number_count>& numbers, const Light& light, int slices,
+            int width, int height) {
     const auto [azimuth, tilt, zoom, field_of_view, exaggeration, opacity, x, y, z] = numbers;
     Camera camera;
     camera.azimuth_deg = azimuth;
@@ -62,7 +65,8 @@ Image drawn(const grid::BrickView& view, const ColourTable& colours,
     camera.field_of_view_deg = field_of_view;
     camera.look_at = Eye{x, y, z};
     const ViewGeometry geometry(*view.spec, camera, exaggeration, width, height);
-    const VolumeSlicer slicer(colours, view.quantization, geometry, {.opacity = opacity}, nullptr,
+    const VolumeSlicer slicer(colours, view.quantization, geometry,
+                              {.slices = slices, .opacity = opacity, .light = light}, nullptr,
                               threads);
     Image image(width, height, black);
     composite_over(slicer.draw(view, threads), image, 0, 0, threads);
@@ -102,7 +106,21 @@ int complain(std::string_view text) {
     return 2;
 }
 
+// Takes "--sun AZIMUTH,ELEVATION" from the front of the arguments.
+Light light_of(int& argc, char**& argv) {
+    Light light;
+    if (argc < 3 || std::string_view(argv[1]) != "--sun") return light;
+    const std::string sun = argv[2];
+    light.gradient = true;
+    light.sun_azimuth_deg = std::stod(sun);
+    light.sun_elevation_deg = std::stod(sun.substr(sun.find(',') + 1));
+    argc -= 2;
+    argv += 2;
+    return light;
+}
+
 int run(int argc, char** argv) {
+    const Light light = light_of(argc, argv);
     if (argc < first_number + number_count) return complain("arguments are missing");
     const auto file = cache::GridFile::open(argv[1]);
     if (!file) return complain(file.error().message);
@@ -118,7 +136,13 @@ int run(int argc, char** argv) {
         last += 2;
     }
     if (!colours) return complain(colours.error().message);
-    const Image ours = drawn(file->view(), *colours, numbers, page->width, page->height);
+    int slices = VolumeOptions{}.slices;
+    if (argc > last + 1 && std::string_view(argv[last]) == "--slices") {
+        slices = std::stoi(argv[last + 1]);
+        last += 2;
+    }
+    const Image ours =
+        drawn(file->view(), *colours, numbers, light, slices, page->width, page->height);
     if (argc > last && !write_png(ours, argv[last])) return complain("cannot write the picture");
     const Shown shown = shown_of(*page, ours);
     if (shown.one.width == 0) return complain("both pictures are black");

@@ -59,5 +59,8 @@ test('looks are the colors of values, clear below the table and the threshold', 
     assert.deepEqual(lookOver(looks, 9.98, [0, 0, 0]), [255, 0, 0]);
     assert.deepEqual(lookOver(looks, 10, [0, 0, 0]), [0, 0, 51]);
     assert.deepEqual(lookOver(looks, 99, [100, 0, 0]), [80, 0, 51]);
-    assert.equal(lookOver(looksOf(table, 8), 7, [0, 0, 0]), null);
+    for (const least of [8, 8.5, 7.3]) {
+        assert.equal(lookOver(looksOf(table, least), least - 0.01, [0, 0, 0]), null);
+        assert.deepEqual(lookOver(looksOf(table, least), least, [0, 0, 0]), [255, 0, 0]);
+    }
 });

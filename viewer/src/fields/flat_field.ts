@@ -5,7 +5,8 @@
 // 0 where the state is none.
 
 import { heightRange } from '../camera/geometry';
-import { BrickKind, CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
+import { levelCodes } from './level_codes';
 import { Mixer, mixingOf } from './status_rule';
 
 export interface FlatField {
@@ -45,60 +46,34 @@ export function planeField(grid: PackedGrid, moment: string, heightM: number): F
     const levels = levelsAbout(grid.levelsM, heightM);
     if (!levels) return null;
     const field = emptyField(grid.nx, grid.ny);
+    const lowers = levelCodes(grid, levels.lower);
+    const uppers = levels.upperShare > 0 ? levelCodes(grid, levels.upper) : lowers;
     const mixer = new Mixer(mixingOf(moment));
-    for (let y = 0, at = 0; y < grid.ny; ++y) {
-        for (let x = 0; x < grid.nx; ++x, ++at) {
-            const lower = codeAt(grid, x, y, levels.lower);
-            const upper = levels.upperShare > 0 ? codeAt(grid, x, y, levels.upper) : lower;
-            if (lower === upper) {
-                field.states[at] = stateOfCode(lower);
-                if (lower >= firstValueCode) field.values[at] = valueOf(grid, lower);
-                continue;
-            }
-            mixer.clear();
-            mixer.add(stateOfCode(lower), valueOf(grid, lower), 1 - levels.upperShare);
-            mixer.add(stateOfCode(upper), valueOf(grid, upper), levels.upperShare);
-            mixer.result();
-            field.states[at] = mixer.state;
-            field.values[at] = mixer.value;
+    for (let at = 0; at < lowers.length; ++at) {
+        const [lower, upper] = [lowers[at]!, uppers[at]!];
+        if (lower === upper) {
+            field.states[at] = stateOfCode(lower);
+            if (lower >= firstValueCode) field.values[at] = valueOf(grid, lower);
+            continue;
         }
+        mixer.clear();
+        mixer.add(stateOfCode(lower), valueOf(grid, lower), 1 - levels.upperShare);
+        mixer.add(stateOfCode(upper), valueOf(grid, upper), levels.upperShare);
+        mixer.result();
+        field.states[at] = mixer.state;
+        field.values[at] = mixer.value;
     }
     return field;
 }
 
-// Raises the greatest codes of columns by the cells of one brick. States rank as the product has it: a
-// value before range folded, that before no echo, that before not seen.
-function raiseByBrick(grid: PackedGrid, bx: number, by: number, bz: number, greatest: Uint16Array): void {
-    const edge = grid.brickEdge;
-    const brick = (bx * grid.bricks[1] + by) * grid.bricks[2] + bz;
-    const kind = grid.kind[brick];
-    const depth = Math.min(edge, grid.nz - bz * edge);
-    for (let x = bx * edge; x < Math.min(grid.nx, (bx + 1) * edge); ++x) {
-        for (let y = by * edge; y < Math.min(grid.ny, (by + 1) * edge); ++y) {
-            const column = y * grid.nx + x;
-            if (kind === BrickKind.uniform) {
-                greatest[column] = Math.max(greatest[column]!, grid.state[brick]!);
-                continue;
-            }
-            let most = greatest[column]!;
-            if (kind === BrickKind.codes) {
-                const from = grid.block[brick]! * edge ** 3 + ((x - bx * edge) * edge + (y - by * edge)) * edge;
-                for (let z = 0; z < depth; ++z) most = Math.max(most, grid.codes[from + z]!);
-            } else {
-                for (let z = 0; z < depth; ++z) most = Math.max(most, codeAt(grid, x, y, bz * edge + z));
-            }
-            greatest[column] = most;
-        }
-    }
-}
-
 // The greatest value of each column.
 export function maximumField(grid: PackedGrid): FlatField {
+    // Codes rank as the product has it: a value before range folded, that before no echo, that before not seen.
     const greatest = new Uint16Array(grid.nx * grid.ny);
-    for (let x = 0; x < grid.bricks[0]; ++x) {
-        for (let y = 0; y < grid.bricks[1]; ++y) {
-            for (let z = 0; z < grid.bricks[2]; ++z) raiseByBrick(grid, x, y, z, greatest);
-        }
+    const codes = new Uint16Array(greatest.length);
+    for (let z = 0; z < grid.nz; ++z) {
+        levelCodes(grid, z, codes);
+        for (let i = 0; i < codes.length; ++i) if (codes[i]! > greatest[i]!) greatest[i] = codes[i]!;
     }
     const field = emptyField(grid.nx, grid.ny);
     greatest.forEach((code, at) => {

@@ -17,11 +17,13 @@ import { texts } from './texts';
 
 const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
-const loadedAhead = 3;
+const loadedAhead = 12; // of a loop
+const betweenAhead = 3; // of what is made on request
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
-// where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored';
+// where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
+// 'map': the map of all stations is opened or left.
+export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map';
 
 export interface Shown {
     key: string;
@@ -43,6 +45,7 @@ export class App {
     book: TableBook | null = null; // once the server has told its tables
     player: PlayerState = { ...stopped, follows: this.state.time === 'latest' };
     shown: Shown | null = null;
+    isOnMap = false; // of all stations, where a domain is chosen
     framesASecond = 4; // of playback
     private stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
@@ -100,7 +103,8 @@ export class App {
     // The address was changed by hand, or by going back.
     takeAddress(): void {
         const next = stateOfAddress();
-        if (addressOf(next) === addressOf(this.state)) return;
+        if (next.domain === '' && this.domains.length > 1) return this.openMap();
+        if (!this.isOnMap && addressOf(next) === addressOf(this.state)) return;
         this.state = next;
         this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
@@ -113,11 +117,29 @@ export class App {
         const [, known] = await Promise.all([this.findDomains(), tables()]);
         this.book = new TableBook(known);
         if (this.domains.length === 0) return this.say(texts.noGrids);
+        if (this.state.domain === '' && this.domains.length > 1) return this.openMap();
         await this.choose(this.state.domain, this.state.moment);
     }
 
     async findDomains(): Promise<void> {
         this.domains = (await domains()).filter(domain => domain.part_of === null && domain.moments.length > 0);
+    }
+
+    private openMap(): void {
+        this.player = { ...this.player, isPlaying: false };
+        this.isOnMap = true;
+        this.tell('map');
+    }
+    // Going back in the browser leads here again.
+    goToMap(): void {
+        history.pushState(null, '', '#');
+        this.openMap();
+    }
+    // From the map into a domain.
+    async enter(domain: string): Promise<void> {
+        history.pushState(null, '', '#');
+        if (domain === this.shown?.domain && domain === this.state.domain) await this.choose(domain, this.state.moment);
+        else await this.chooseDomain(domain);
     }
 
     get domain(): Domain | undefined {
@@ -133,6 +155,10 @@ export class App {
 
     // Shows a domain and a moment of it, the first of each if there is none of the name.
     async choose(domain: string, moment: string): Promise<void> {
+        if (this.isOnMap) {
+            this.isOnMap = false;
+            this.tell('map');
+        }
         this.state.domain = this.domains.some(one => one.domain === domain) ? domain : (this.domains[0]?.domain ?? '');
         const moments = (this.domain?.moments ?? []).map(one => one.moment);
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
@@ -226,14 +252,14 @@ export class App {
 
     // -- time
 
-    // The neighbors in time, so that a step shows at once.
+    // The neighbors in time, so that a step shows at once; of a loop more.
     private loadAhead(): void {
         const { times: all, at: now, isPlaying } = this.player;
         const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(this.player, i + 1)) : [now + 1, now - 1];
-        for (const index of next) {
+        for (const [i, index] of next.entries()) {
             const time = all[index ?? -1];
             // What is made on request is not made in vain.
-            if (time === undefined || (this.isBetween(time) && !isPlaying)) continue;
+            if (time === undefined || (this.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             this.load(time).catch(error => this.leaveOut(time, error));
         }
     }
@@ -284,6 +310,10 @@ export class App {
             await this.findDomains();
             if (this.domains.length > 0) await this.choose(this.state.domain, this.state.moment);
             return;
+        }
+        if (domain !== undefined && !domain.includes('.') && !this.domains.some(one => one.domain === domain)) {
+            await this.findDomains();
+            this.tell('choices');
         }
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         if (changedTime) this.loader.forget(Loader.key(domain, moment, changedTime));

@@ -5,14 +5,14 @@ import { shades } from '../renderer/shades';
 import { Mark } from '../scene/ground_lines';
 import { fontOf } from './dom';
 
-interface Rect {
+export interface Rect {
     left: number;
     top: number;
     right: number;
     bottom: number;
 }
 
-const overlaps = (a: Rect, b: Rect): boolean => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+export const overlaps = (a: Rect, b: Rect): boolean => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 export function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y: number, color: string): void {
     pen.lineJoin = 'round';

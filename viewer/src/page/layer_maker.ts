@@ -10,9 +10,10 @@ import { nearestSweep } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
-import { Layers, usualLayers } from '../scene/layers';
+import { Layers, isBelow, usualLayers } from '../scene/layers';
 import { Place, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
+import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
 import { SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
@@ -72,7 +73,14 @@ class Asked<T> {
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
 
+// Layers are cut from a grid that is there as a whole: one in parts has the box alone.
+function nothing(table: ColorTable): Omit<DrawnLayers, 'crop' | 'looks'> {
+    const none = { plane: null, section: null, surface: null, maximum: null, sweep: null, falls: null, air: null };
+    return { ...none, hasHaze: false, hasFolded: false, mixes: false, folded: table.range_folded };
+}
+
 export class LayerMaker {
+    isLeftOut = false; // what is asked for cannot be made of this grid
     private kept = new Kept();
     private other: Asked<LoadedGrid>;
     private rows: Asked<{ time: string; rows: SweepRow[] }>;
@@ -99,11 +107,14 @@ export class LayerMaker {
 
     // Null if nothing is to be drawn but the volume as it always was.
     make(): DrawnLayers | null {
+        this.isLeftOut = false;
         const { shown, table, state } = this.app;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
         if (!shown || !table || isUsual) return null;
-        const { grid } = shown.loaded;
+        const { grid, stream } = shown.loaded;
+        this.isLeftOut = stream !== null;
+        if (stream) return { ...nothing(table), crop: layers.crop, looks: this.looksOf(table, state.least) };
         return {
             plane: this.planeOf(grid, shown.moment, layers.planeM),
             section: layers.section && this.sectionOf(grid, shown.moment, layers.section),
@@ -142,23 +153,40 @@ export class LayerMaker {
     private surfaceOf(shown: Shown, { surface }: Layers): DrawnSurface | null {
         if (!surface) return null;
         const moment = surface.moment || shown.moment;
-        // Of velocities a negative value encloses what is faster toward the radar.
-        const isBelow = moment === 'VEL' && surface.value < 0;
-        if (moment === shown.moment) return { value: surface.value, isBelow, of: null };
+        const drawn = { value: surface.value, isBelow: isBelow(moment, surface.value) };
+        if (moment === shown.moment) return { ...drawn, of: null };
         const key = `${shown.domain} ${moment} ${shown.time}`;
-        const of = this.other.take(key, () => this.app.loader.load(shown.domain, moment, shown.time));
+        const of = this.other.take(key, () => this.app.loader.load(shown.domain, moment, shown.time, this.app.isBetween(shown.time)));
         if (!of) return null;
         if (!hasSameCells(of.grid, shown.loaded.grid)) {
             this.app.say(texts.layers.otherCells(moment));
             return null;
         }
-        return { value: surface.value, isBelow, of };
+        return { ...drawn, of };
     }
 
     // The sweeps of the volume that is shown; null until they are known.
     sweepRows(): SweepRow[] | null {
         const { shown } = this.app;
         return shown && (this.rowsOf(shown)?.rows ?? null);
+    }
+    // What is drawn beside the volume, in words.
+    told(): string[] {
+        const { shown, state } = this.app;
+        const { layers, units } = state;
+        if (!shown) return [];
+        const said: string[] = [];
+        if (layers.planeM !== null) said.push(texts.layers.planeTold(heightText(layers.planeM, units)));
+        if (layers.surface) {
+            const moment = layers.surface.moment || shown.moment;
+            const unit = this.app.domain?.moments.find(one => one.moment === moment)?.units ?? '';
+            const value = valueText(layers.surface.value, unit, units);
+            said.push(isBelow(moment, layers.surface.value) ? texts.layers.surfaceBelow(moment, value) : texts.layers.surfaceFrom(moment, value));
+        }
+        if (layers.hasMaximum) said.push(texts.layers.maximumTold);
+        const row = layers.sweepDeg === null ? null : nearestSweep(this.rowsOf(shown)?.rows ?? [], shown.moment, layers.sweepDeg);
+        if (row) said.push(texts.layers.sweepAt(row.elevation_deg.toFixed(1), row.start?.slice(11, 19) ?? ''));
+        return said;
     }
     private rowsOf({ loaded, time }: Shown): { time: string; rows: SweepRow[] } | null {
         const station = loaded.grid.sites[0]?.icao ?? '';

@@ -4,6 +4,7 @@ import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
 import { Crop } from '../scene/layers';
 import { Place, Plane, planeOf } from '../scene/projection';
+import { heightText } from '../tables/units';
 import { App } from './app';
 import { fontOf, textScale } from './dom';
 import { Drawing } from './drawing';
@@ -133,12 +134,20 @@ function letter(pen: CanvasRenderingContext2D, text: string, [x, y]: [number, nu
     pen.fillText(text, x, y);
 }
 
+// The height of a plane, beside its corner that is farthest to the left in the picture.
+function putHeight(pen: CanvasRenderingContext2D, { box, width, height }: ViewGeometry, toPixel: (corner: Plane) => [number, number] | null, text: string, ratio: number): void {
+    const corners = [-1, 1].flatMap(x => [-1, 1].map(y => toPixel([x * box.halfXM, y * box.halfYM])));
+    const seen = corners.filter((one): one is [number, number] => one !== null && one[0] > 0 && one[1] > 0 && one[0] < width / ratio && one[1] < height / ratio);
+    const leftmost = seen.sort((a, b) => a[0] - b[0])[0];
+    if (leftmost) letter(pen, text, [Math.max(30, leftmost[0]), leftmost[1] + 16]);
+}
+
 // The line of the section on the ground, with its ends A and B, and the box of the crop.
 export function addMarks(app: App, drawing: Drawing): void {
     drawing.addOverlay((pen, geometry) => {
         const { shown } = app;
-        const { section, crop } = app.state.layers;
-        if (!shown || (!section && !crop)) return;
+        const { section, crop, planeM } = app.state.layers;
+        if (!shown || (!section && !crop && planeM === null)) return;
         const ratio = window.devicePixelRatio || 1;
         const toPixel = ([x, y]: Plane, heightM = geometry.groundM): [number, number] | null => {
             const pixel = geometry.project([x, y, heightM * geometry.exaggeration]);
@@ -151,6 +160,7 @@ export function addMarks(app: App, drawing: Drawing): void {
         };
         pen.strokeStyle = shades.quietText;
         pen.lineWidth = 1.2;
+        if (planeM !== null) putHeight(pen, geometry, corner => toPixel(corner, planeM), heightText(planeM, app.state.units), ratio);
         if (crop) {
             const corners: Plane[] = [[crop.westM, crop.southM], [crop.eastM, crop.southM], [crop.eastM, crop.northM], [crop.westM, crop.northM]];
             for (const heightM of [Math.max(crop.bottomM, geometry.groundM), crop.topM]) line([...corners, corners[0]!].map(corner => toPixel(corner, heightM)));

@@ -5,7 +5,8 @@ import { element } from './dom';
 import { Drawing } from './drawing';
 import { Keys } from './keys';
 import { hear } from './live';
-import { Loader } from './loader';
+import { stateOf } from '../scene/view_state';
+import { Budget, Loader } from './loader';
 import { addChoices } from './panels/choices';
 import { Editor } from './panels/editor';
 import { LayersPanel } from './panels/layers';
@@ -15,12 +16,14 @@ import { addShare } from './panels/share';
 import { addTimeline } from './panels/timeline';
 import { addUnits } from './panels/units';
 import { Pointers } from './pointers';
+import { StartMap } from './start/start_map';
 import { TableEditing } from './table_editing';
 import { texts } from './texts';
 
 async function begin(): Promise<void> {
     const drawing = new Drawing();
-    const app = new App(new Loader(drawing.renderer.mostTexels));
+    const { mostTexels } = drawing.renderer;
+    const app = new App(new Loader(new Budget(stateOf(location.hash).memoryMib * 2 ** 20, mostTexels), mostTexels));
     drawing.begin(app);
     const keys = new Keys(app, drawing);
     const reader = new Reader(app, drawing);
@@ -32,6 +35,8 @@ async function begin(): Promise<void> {
     addUnits(app);
     addShare(app, drawing, editing);
     reader.begin(keys);
+    new StartMap(app).begin();
+    keys.add('h', () => app.goToMap());
     new LayersPanel(app, drawing, pointers).begin(keys);
     new Editor(app, drawing, editing).begin(keys);
     keys.add('Escape', () => pointers.use(null));

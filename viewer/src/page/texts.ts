@@ -1,5 +1,12 @@
 // Every text of the page in one place, ready for other languages.
 
+function age(seconds: number): string {
+    const [minutes, hours, days] = [seconds / 60, seconds / 3600, seconds / 86400];
+    if (minutes < 90) return `${Math.max(0, Math.round(minutes))} min ago`;
+    if (hours < 48) return `${Math.round(hours)} h ago`;
+    return days < 730 ? `${Math.round(days)} days ago` : `${Math.round(days / 365.25)} years ago`;
+}
+
 export const texts = {
     title: 'stormcellar',
     loading: 'Loading',
@@ -76,6 +83,7 @@ export const texts = {
     commandCopied: 'The command is in the clipboard.',
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     netcdf: 'Grid (netCDF)',
+    close: 'Close',
     help: 'Keys',
     helpText: [
         'Drag to turn, with Shift or the right button to move, wheel or pinch to zoom.',
@@ -86,6 +94,7 @@ export const texts = {
         'V volume, C plane with [ and ] for its height, X section, A looks at it, I surface, M column maximum, W sweep, B box.',
         'G light, N haze where no beam saw.',
         'Click a place to read the column above it.',
+        'H goes home, to the map of all stations.',
     ],
     notSeen: 'not seen',
     noEcho: 'no echo',
@@ -94,6 +103,17 @@ export const texts = {
     seenBetween: (from: string, to: string) => `seen ${from} – ${to} above sea level`,
     units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
     partial: 'Partial volume',
+    quality: 'Exactness',
+    asTimeAllows: 'as time allows',
+    rung: (name: string, dE: number) => `${name}: dE ${dE}`,
+    held: (bytes: number, most: number) => `Grids take ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
+    layersLeftOut: 'this grid is too large for layers',
+    detail: (halvings: number, missing: number) => {
+        const cells = halvings > 0 ? `greatest of ${2 ** halvings} x ${2 ** halvings} cells` : '';
+        return missing > 0 ? `coarse: ${cells}, finer ones are loading` : cells;
+    },
+    drawn: (ms: number, how: { name: string; dE: number }, fetches: number | null) =>
+        `${ms} ms, dE ${how.dE} (${how.name}${fetches === null ? '' : `, ${fetches.toFixed(1)} texels a pixel`})`,
     layers: {
         title: 'Layers',
         volume: 'Volume',
@@ -101,6 +121,7 @@ export const texts = {
         section: 'Vertical section',
         surface: 'Surface of a value',
         maximum: 'Column maximum on the ground',
+        maximumTold: 'column maximum',
         sweep: 'Sweep in its place',
         crop: 'Box',
         light: 'Light',
@@ -122,9 +143,38 @@ export const texts = {
         greatest: (told: string) => `Greatest ${told}`,
         nothing: 'There is no echo in it.',
         planeAt: (height: string) => `${height} above sea level`,
+        planeTold: (height: string) => `plane at ${height}`,
+        surfaceFrom: (moment: string, value: string) => `surface of ${moment} from ${value}`,
+        surfaceBelow: (moment: string, value: string) => `surface of ${moment} to ${value}`,
+        sweepAt: (elevation: string, time: string) => `sweep at ${elevation}° of ${time} UTC`,
         beyond: 'beyond the grid',
         otherCells: (moment: string) => `${moment} has other cells, so its surface cannot be colored.`,
         noVolume: (station: string) => `There is no raw volume of ${station} for this time.`,
     },
-    steps: (slices: number, ms: number) => `${slices} slices, ${ms} ms a frame`,
+    start: {
+        title: 'Where do you want to look?',
+        help: 'Click a radar. Drag to move; with Shift, or after Box, drag a box over several.',
+        toMap: 'Map',
+        mapLabel: 'Map of all stations. Arrow keys go from one to the next, Enter opens it, B begins a box.',
+        box: 'Box',
+        all: 'Whole map',
+        back: 'Back to the view',
+        search: 'Station or city',
+        mosaic: 'several sites',
+        nothing: 'no data',
+        noneFound: 'No station is called so, and no city.',
+        noGridsOf: (domain: string) => `There are no grids of ${domain}.`,
+        age,
+        from: (km: number, city: string) => `${km} km from ${city}`,
+        boxed: (sites: string[]) => (sites.length === 0 ? 'No site with grids is in the box.' : `${sites.length === 1 ? '1 site' : `${sites.length} sites`}: ${sites.join(', ')}`),
+        card: (domain: string, name: string, ageS: number | null, moments: string[], strongest: number | null) =>
+            [
+                name ? `${domain}, ${name}` : domain,
+                ageS === null ? 'no data' : age(ageS),
+                moments.length === 0 ? 'no grids' : moments.join(' '),
+                strongest === null ? '' : `strongest echo ${Math.round(strongest)} dBZ`,
+            ]
+                .filter(Boolean)
+                .join(' · '),
+    },
 } as const;

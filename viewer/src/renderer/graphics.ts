@@ -12,13 +12,16 @@ export interface Graphics {
     texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView, filter: number): WebGLTexture;
 }
 
-// Textures of what is drawn now. What is drawn again is not uploaded again.
+// Textures of what is drawn now. What is drawn again is not uploaded again; what the last picture did not
+// need is given back.
 export class TextureShelf {
     private held = new Map<string, { of: object; texture: WebGLTexture }>();
+    private used = new Set<string>(); // for the last picture
 
     constructor(private gl: WebGL2RenderingContext) {}
 
     take(name: string, of: object, make: () => WebGLTexture): WebGLTexture {
+        this.used.add(name);
         const known = this.held.get(name);
         if (known?.of === of) return known.texture;
         if (known) this.gl.deleteTexture(known.texture);
@@ -26,9 +29,14 @@ export class TextureShelf {
         this.held.set(name, { of, texture });
         return texture;
     }
-    drop(name: string): void {
-        const known = this.held.get(name);
-        if (known) this.gl.deleteTexture(known.texture);
-        this.held.delete(name);
+
+    // Another picture begins.
+    clear(): void {
+        for (const [name, { texture }] of this.held) {
+            if (this.used.has(name)) continue;
+            this.gl.deleteTexture(texture);
+            this.held.delete(name);
+        }
+        this.used.clear();
     }
 }

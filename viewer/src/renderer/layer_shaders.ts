@@ -2,6 +2,7 @@
 
 import { airCellsAcross, airCellsUp } from '../fields/air';
 import { azimuthSteps, noRadial } from '../fields/sweep_cone';
+import { lookColumns, lookCount } from '../tables/looks';
 import { facingText, litColorText } from './light_shader';
 import { VolumeVariant, camera, volumeHead } from './shaders';
 
@@ -24,13 +25,21 @@ void main() {
     gl_Position = ${isPerspective ? 'vec4(aside * scale, 0.0, away)' : 'vec4(aside / scale, 0.0, 1.0)'};
 }`;
 
+// Colors by value, or by code of a value.
+const looksText = `
+uniform sampler2D looks;
+uniform vec2 lookLine; // entry = x + y * value
+vec4 lookOf(float value) {
+    int entry = int(clamp(floor(lookLine.x + lookLine.y * value), 0.0, ${(lookCount - 1).toFixed(1)}));
+    return texelFetch(looks, ivec2(entry % ${lookColumns}, entry / ${lookColumns}), 0);
+}`;
+
 const solidHead = (isPerspective: boolean): string => `#version 300 es
 precision highp float;
 precision highp int;
 precision highp usampler2D;
 ${camera(isPerspective)}
-uniform sampler2D looks; // colors by value
-uniform vec2 lookLine; // texel = x + y * value
+${looksText}
 uniform vec3 seenColor, foldedColor, hatchColor, borderColor;
 uniform vec2 depthRange;
 in vec2 at;
@@ -46,7 +55,7 @@ vec3 solidColor(int state, float value) {
         return hatchColor;
     }
     if (state != 3) discard;
-    vec4 look = texelFetch(looks, ivec2(clamp(floor(lookLine.x + lookLine.y * value), 0.0, float(textureSize(looks, 0).x - 1)), 0), 0);
+    vec4 look = lookOf(value);
     if (look.a == 0.0) discard;
     return mix(seenColor, look.rgb, look.a);
 }
@@ -123,9 +132,8 @@ void main() {
 export const drapeFragment = (isPerspective: boolean): string => `#version 300 es
 precision highp float;
 ${camera(isPerspective)}
-uniform sampler2D looks;
-uniform vec2 lookLine;
-uniform vec3 foldedColor;
+${looksText}
+uniform vec3 seenColor, foldedColor;
 uniform vec2 halfSize;
 uniform float ground;
 ${fieldText}
@@ -140,8 +148,9 @@ void main() {
     int state = int(found.y + 0.5);
     if (state == 2) color = vec4(foldedColor, 1.0);
     else if (state == 3) {
-        vec4 look = texelFetch(looks, ivec2(clamp(floor(lookLine.x + lookLine.y * found.x), 0.0, float(textureSize(looks, 0).x - 1)), 0), 0);
-        color = vec4(look.rgb * look.a, look.a);
+        vec4 look = lookOf(found.x);
+        if (look.a == 0.0) discard;
+        color = vec4(mix(seenColor, look.rgb, look.a), 1.0);
     } else discard;
 }`;
 
@@ -208,6 +217,9 @@ export const surfaceName = (variant: SurfaceVariant): string =>
         .filter(part => part !== '')
         .join(', ');
 
+// By it the lightness of a surface is about that of its color.
+const surfaceExposure = 0.86;
+
 const otherText = `
 uniform sampler3D otherAtlas;
 uniform usampler3D otherIndirection;
@@ -217,8 +229,8 @@ uniform vec3 otherAtlasSize;
 float otherCode(vec3 cell) {
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(otherIndirection, brick, 0).r;
-    if (entry == 0u) return -1.0;
-    int slot = int(entry & 0xFFFFFFu) - 1;
+    if (isEmpty(entry)) return -1.0;
+    int slot = int(entry & 0x1FFFFFu) - 1;
     ivec3 place = ivec3(slot % otherSlots.x, (slot / otherSlots.x) % otherSlots.y, slot / (otherSlots.x * otherSlots.y));
     vec2 found = texture(otherAtlas, (vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5) / otherAtlasSize).rg;
     return found.g < 0.1 ? -1.0 : 255.0 * found.r / found.g;
@@ -230,8 +242,7 @@ export function surfaceFragment(variant: SurfaceVariant): string {
     const isInside = variant.isBelow ? 'code <= chosen' : 'code >= chosen';
     return `${volumeHead(variant)}
 uniform float chosen; // shown code
-uniform sampler2D looks;
-uniform vec2 lookLine; // texel = x + y * shown code
+${looksText}
 uniform vec2 depthRange;
 uniform vec3 cellM; // of drawn space
 ${litColorText}
@@ -241,7 +252,7 @@ vec2 codeAt(vec3 p) {
     vec3 cell = cellOf(p);
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(indirection, brick, 0).r;
-    if (entry == 0u) return vec2(0.0);
+    if (isEmpty(entry)) return vec2(0.0);
     vec2 found = fetchAt(cell, brick, entry);
     return found.g < 0.002 ? vec2(0.0) : vec2(255.0 * found.r / found.g, found.g);
 }
@@ -278,9 +289,9 @@ void main() {
         vec3 p = start + depth * along;
         ivec3 brick = ivec3(cellOf(p) / edge);
         uint entry = texelFetch(indirection, brick, 0).r;
-        if (entry == 0u || (entry >> 24) < leastShown) {
+        if (isEmpty(entry) || (entry >> 24) < leastShown) {
             outside = depth;
-            k = max(k + 1.0, floor((min(leaves(start, along, brick), leave) - near) / stepM));
+            k = max(k + 1.0, floor((min(leaves(start, along, brick, entry), leave) - near) / stepM));
             continue;
         }
         if (insideAt(p)) hit = depth;
@@ -297,9 +308,9 @@ void main() {
     }
     vec3 p = start + hit * along;
     float code = ${variant.hasOther ? 'otherCode(cellOf(p))' : 'codeAt(p).x'};
-    vec4 look = texelFetch(looks, ivec2(clamp(floor(lookLine.x + lookLine.y * code), 0.0, float(textureSize(looks, 0).x - 1)), 0), 0);
+    vec4 look = lookOf(code);
     vec3 rgb = code < 0.0 || look.a == 0.0 ? vec3(0.62) : look.rgb;
-    float factor = isCut ? 1.0 : facing(outwardAt(p), 1.0, normalize(along));
+    float factor = isCut ? 1.0 : ${surfaceExposure} * facing(outwardAt(p), 1.0, normalize(along));
     color = vec4(litColor(rgb, factor), 1.0);
     gl_FragDepth = clamp((hit - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 0.999999);
 }`;

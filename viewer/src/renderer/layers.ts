@@ -8,7 +8,7 @@ import { FlatField } from '../fields/flat_field';
 import { Section } from '../fields/section';
 import { Cone } from '../fields/sweep_cone';
 import { Crop, sunAsideDeg, sunElevationDeg } from '../scene/layers';
-import { Looks } from '../tables/looks';
+import { Looks, lookColumns, lookCount } from '../tables/looks';
 import { PackedSweep } from '../wire/packed_sweep';
 import { Graphics, TextureShelf } from './graphics';
 import { drapeFragment, fieldFragment, showSolidsFragment, solidVertex, sweepFragment } from './layer_shaders';
@@ -76,6 +76,14 @@ export class LayerPasses {
         this.target = null;
     }
 
+    // A picture begins: what the last one did not need is given back.
+    begin(hasSolids: boolean): void {
+        this.shelf.clear();
+        if (hasSolids) return;
+        this.target?.dispose();
+        this.target = null;
+    }
+
     // -- what several layers need
 
     private fieldTexture(name: string, field: FlatField, inGrid: Uint8Array | null): WebGLTexture {
@@ -92,7 +100,7 @@ export class LayerPasses {
 
     bindLooks(unit: number, { looks }: DrawnLayers, at: (name: string) => WebGLUniformLocation | null, codeLine?: [number, number]): void {
         const { gl } = this.graphics;
-        const texture = this.shelf.take('looks', looks, () => this.graphics.texture2d(gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, looks.rgba.length / 4, 1, looks.rgba));
+        const texture = this.shelf.take('looks', looks, () => this.graphics.texture2d(gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, lookColumns, lookCount / lookColumns, looks.rgba));
         this.graphics.bind(unit, gl.TEXTURE_2D, texture, at('looks'));
         const [zero, step] = codeLine ?? [0, 1];
         gl.uniform2f(at('lookLine'), looks.offset + looks.slope * zero, looks.slope * step);
@@ -225,6 +233,7 @@ export class LayerPasses {
         const at = this.graphics.use(this.graphics.program(name, fullScreenVertex, drapeFragment(geometry.isPerspective)), geometry);
         this.bindLooks(0, layers, at);
         this.bindField(at, this.fieldTexture('maximum', field, null), layers);
+        this.color(at('seenColor'), shades.seen);
         this.color(at('foldedColor'), layers.folded);
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);

@@ -32,7 +32,7 @@ function segmentsOf(lines: (Plane | null)[][], halfM: number): Float32Array {
 }
 
 // Areas are cut along meridians and parallels; these cuts are no coasts.
-function withoutCuts(line: MapLine): [number, number][][] {
+export function withoutCuts(line: MapLine): [number, number][][] {
     if (!line.is_area) return [line.points];
     const pieces: [number, number][][] = [];
     let piece: [number, number][] = [];

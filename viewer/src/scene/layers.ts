@@ -13,7 +13,7 @@ export interface Crop {
 }
 
 export interface Surface {
-    value: number; // it encloses what is at least this
+    value: number; // it encloses what is at least this, or at most (isBelow)
     moment: string; // empty: the one that is shown; of another one, the shown one colors it
 }
 
@@ -29,6 +29,9 @@ export interface Layers {
     hasHaze: boolean; // where no beam saw
     hasFolded: boolean; // range folded air
 }
+
+// Of velocities a negative value encloses what is faster toward the radar.
+export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
 
 export const usualLayers: Layers = {
     hasVolume: true,

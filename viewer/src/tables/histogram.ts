@@ -1,10 +1,17 @@
-// How often each value occurs in a grid, from its exact codes.
+// How often each value occurs in a grid, from its exact codes. Of a grid whose codes are not all here, it is how
+// often it occurs in what is shown of it from far away, through eight bits.
 
+import { Atlas } from '../atlas/atlas';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
 // Of each code of a value how many cells have it. Cells of a brick beyond the grid have no values.
-export function countCodes(grid: PackedGrid): Uint32Array {
+export function countCodes(grid: PackedGrid, atlas: Pick<Atlas, 'histogram' | 'codeOffset' | 'codeScale'>): Uint32Array {
     const counts = new Uint32Array(grid.codeBytes === 1 ? 256 : 65536);
+    if (grid.codes.length === 0) {
+        atlas.histogram.forEach((count, shown) => (counts[Math.round(atlas.codeOffset + atlas.codeScale * shown)]! += count));
+        counts.fill(0, 0, firstValueCode);
+        return counts;
+    }
     const cells = grid.brickEdge ** 3;
     for (let brick = 0; brick < grid.kind.length; ++brick) {
         if (grid.kind[brick] !== BrickKind.codes || grid.valueCount[brick] === 0) continue;
@@ -17,8 +24,7 @@ export function countCodes(grid: PackedGrid): Uint32Array {
 
 // Counts in at most `most` columns of equal width from `low` to `high`, each with as many codes as the others;
 // values beyond are left out.
-export function histogramOf(grid: PackedGrid, low: number, high: number, most: number): Uint32Array {
-    const counts = countCodes(grid);
+export function histogramOf(grid: PackedGrid, counts: Uint32Array, low: number, high: number, most: number): Uint32Array {
     const codes = Math.max(1, (high - low) / grid.step);
     const columns = Math.ceil(codes / Math.ceil(codes / most) - 1e-6);
     const histogram = new Uint32Array(columns);

@@ -2,7 +2,9 @@
 
 import { ColorTable, colorOf } from './color_table';
 
-export const lookCount = 2048;
+// In rows of a texture.
+export const lookColumns = 2048;
+export const lookCount = 4 * lookColumns;
 
 export interface Looks {
     // Red, green, blue and opacity on maps, 0 to 255. The first one is clear, for values below the table.
@@ -21,8 +23,9 @@ export function looksOf(table: ColorTable, least: number): Looks {
     const width = (high - low) / (lookCount - 1);
     const rgba = new Uint8Array(4 * lookCount);
     for (let i = 1; i < lookCount; ++i) {
-        const value = low + (i - 0.5) * width;
-        const color = value < least ? null : colorOf(table, value);
+        // The threshold itself is shown.
+        const isHidden = low + (i - slack) * width <= least;
+        const color = isHidden ? null : colorOf(table, low + (i - 0.5) * width);
         if (color) rgba.set(color.map(Math.round), 4 * i);
     }
     return { rgba, offset: 1 + slack - low / width, slope: 1 / width };

@@ -18,6 +18,7 @@ export interface MomentOfDomain {
     units: string;
     grids: number;
     newest: string;
+    age_s: number; // of the newest
 }
 export interface Domain {
     domain: string;
@@ -118,8 +119,9 @@ export async function times(domain: string, moment: string, limit: number, to?: 
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
     `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
-export async function packed(domain: string, moment: string, time: string, signal?: AbortSignal): Promise<ArrayBuffer> {
-    return (await ask(`${gridPath(domain, moment, time)}/packed`, signal)).arrayBuffer();
+// `query`: the parameters of docs/web/packed-grid.md.
+export async function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
+    return (await ask(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, signal)).arrayBuffer();
 }
 // A grid for an instant between volumes.
 export async function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
@@ -132,8 +134,8 @@ export interface Tables {
 export async function tables(): Promise<Tables> {
     return (await ask('api/v1/tables')).json() as Promise<Tables>;
 }
-export async function map(west: number, south: number, east: number, north: number, detail: number): Promise<MapAnswer> {
-    const kinds = detail === 0 ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
+export async function map(west: number, south: number, east: number, north: number, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
+    const kinds = withCounties ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
     return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(east)}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
 }
@@ -143,6 +145,7 @@ export async function map(west: number, south: number, east: number, north: numb
 export interface SweepRow {
     sweep: number; // from 0
     elevation_deg: number;
+    start?: string;
     moments: { moment: string }[];
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;

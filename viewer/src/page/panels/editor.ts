@@ -3,7 +3,7 @@
 
 import { OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
 import { withColor, withColorAdded, withColorMoved, withColorRemoved, withOpacityAdded, withOpacityMoved, withOpacityRemoved } from '../../tables/draft_edits';
-import { histogramOf } from '../../tables/histogram';
+import { countCodes, histogramOf } from '../../tables/histogram';
 import { TableError, colorOfHex, hexOf, mostFileBytes } from '../../tables/table_file';
 import { shownUnit } from '../../tables/units';
 import { App, Shown } from '../app';
@@ -31,7 +31,7 @@ export class Editor {
         rest: () => this.editing.rest(),
     });
     private selected: Selection = { kind: 'color', at: 0 };
-    private counted: { shown: Shown; key: string; histogram: Uint32Array } | null = null;
+    private counted: { shown: Shown; key: string; counts: Uint32Array; histogram: Uint32Array } | null = null;
     private says = document.createElement('p');
     private opener: HTMLElement | null = null;
 
@@ -288,7 +288,9 @@ export class Editor {
         const range = this.plot.range();
         const key = `${range.join()} ${this.plot.columns}`;
         if (this.counted?.shown !== shown || this.counted.key !== key) {
-            this.counted = { shown, key, histogram: histogramOf(shown.loaded.grid, ...range, this.plot.columns) };
+            const { grid, atlas } = shown.loaded;
+            const counts = this.counted?.shown === shown ? this.counted.counts : countCodes(grid, atlas);
+            this.counted = { shown, key, counts, histogram: histogramOf(grid, counts, ...range, this.plot.columns) };
         }
         return this.counted.histogram;
     }

@@ -1,7 +1,7 @@
 // The panel of layers: what is drawn beside the map, and its keys.
 
 import { elevationsOf } from '../../fields/sweep_choice';
-import { Crop, Layers, sectionOf, sectionText } from '../../scene/layers';
+import { Crop, Layers, isBelow, sectionOf, sectionText } from '../../scene/layers';
 import { planeOf } from '../../scene/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
@@ -37,6 +37,7 @@ function input(id: string, type: string): HTMLInputElement {
 
 export class LayersPanel {
     private box = document.createElement('section');
+    private told = document.createElement('p'); // which layers are shown, under the title
     private parts = new Map<string, HTMLElement>(); // what is shown only while its layer is on
 
     constructor(
@@ -56,6 +57,8 @@ export class LayersPanel {
         open.setAttribute('aria-expanded', 'false');
         element('open').after(open);
         element('open').addEventListener('click', () => this.open(false));
+        this.told.id = 'layers-told';
+        element('title').after(this.told);
         this.addLayers();
         this.addKeys(keys);
         addMarks(this.app, this.drawing);
@@ -102,7 +105,7 @@ export class LayersPanel {
 
     private planeParts(): HTMLElement[] {
         const height = input('plane-height', 'range');
-        height.step = String(planeStepM / 5);
+        height.step = String(planeStepM / 5); // and both ends are whole steps
         height.addEventListener('input', () => this.slide({ planeM: Number(height.value) }));
         height.setAttribute('aria-label', words.plane);
         const told = document.createElement('output');
@@ -279,6 +282,9 @@ export class LayersPanel {
             const more = this.parts.get(name);
             if (more) more.hidden = !on;
         }
+        const told = this.drawing.layers!.told();
+        this.told.textContent = told.join(' · ');
+        this.told.hidden = told.length === 0;
         const box = wholeBox(this.app);
         if (!box) return;
         if (layers.planeM !== null) this.putPlane(box, layers.planeM);
@@ -290,8 +296,9 @@ export class LayersPanel {
 
     private putPlane(box: Crop, heightM: number): void {
         const slider = element<HTMLInputElement>('plane-height');
-        slider.min = String(box.bottomM);
-        slider.max = String(box.topM);
+        const step = Number(slider.step);
+        slider.min = String(Math.ceil(box.bottomM / step) * step);
+        slider.max = String(Math.floor(box.topM / step) * step);
         slider.value = String(heightM);
         const text = words.planeAt(heightText(heightM, this.app.state.units));
         slider.setAttribute('aria-valuetext', text);
@@ -310,8 +317,7 @@ export class LayersPanel {
         slider.max = String(table?.end ?? value);
         slider.step = String(((table?.end ?? 1) - (table?.bar_begin ?? 0)) / 200);
         slider.value = String(value);
-        const isBelow = moment === 'VEL' && value < 0;
-        slider.previousElementSibling!.textContent = isBelow ? words.enclosesBelow : words.encloses;
+        slider.previousElementSibling!.textContent = isBelow(moment, value) ? words.enclosesBelow : words.encloses;
         const text = valueText(value, table?.unit ?? '', this.app.state.units);
         slider.setAttribute('aria-valuetext', text);
         element('surface-told').textContent = text;

@@ -3,8 +3,9 @@
 import { Plane, planeOf } from '../../scene/projection';
 import { Units, heightNumber, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
-import { button, element, paragraph } from '../dom';
+import { button, element, labeledButton, leaveByEscape, paragraph } from '../dom';
 import { Drawing } from '../drawing';
+import { gridForColumn } from '../exact_column';
 import { Keys } from '../keys';
 import { Tool } from '../pointers';
 import { ColumnReading, columnAt, readColumn } from '../reading';
@@ -37,6 +38,7 @@ function putColumn(body: HTMLElement, reading: ColumnReading, unit: string, unit
 export class Reader implements Tool {
     private at: Plane | null = null; // the place that was clicked, meters from the middle
     private domain = '';
+    private close = labeledButton('reading-close', '×', texts.close, () => this.leave());
 
     constructor(
         private app: App,
@@ -51,6 +53,7 @@ export class Reader implements Tool {
         this.app.on('units', () => {
             if (this.at) this.put();
         });
+        leaveByEscape(element('reading'), 'picture', () => this.clear());
         keys.add('Escape', () => this.clear());
         keys.add('?', () => this.showHelp());
         element('actions').append(button('help', texts.help, () => this.showHelp()));
@@ -67,6 +70,10 @@ export class Reader implements Tool {
         this.domain = this.app.state.domain;
     }
 
+    private leave(): void {
+        this.clear();
+        element('picture').focus();
+    }
     private clear(): void {
         this.at = null;
         element('reading').hidden = true;
@@ -78,20 +85,29 @@ export class Reader implements Tool {
         box.hidden = !this.at || !shown;
         if (!this.at || !shown) return;
         const { grid } = shown.loaded;
-        const column = columnAt(grid, ...this.at);
+        const { at } = this;
+        const column = columnAt(grid, ...at);
         const place = planeOf(grid).toPlace(this.at);
         const title = document.createElement('h2');
         title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
         const body = document.createElement('div');
-        if (column) putColumn(body, readColumn(grid, ...column), this.app.unit, this.app.state.units);
-        box.replaceChildren(title, body);
+        if (column) {
+            gridForColumn(shown.loaded, column)
+                .then(exact => {
+                    if (this.at !== at || this.app.shown !== shown) return;
+                    putColumn(body, readColumn(exact, ...column), this.app.unit, this.app.state.units);
+                    this.drawing.draw();
+                })
+                .catch(error => this.app.fail(error));
+        }
+        box.replaceChildren(this.close, title, body);
         this.drawing.draw();
     }
 
     private showHelp(): void {
         this.clear();
         const box = element('reading');
-        box.replaceChildren(...texts.helpText.map(paragraph));
+        box.replaceChildren(this.close, ...texts.helpText.map(paragraph));
         box.hidden = false;
     }
 }

@@ -1,0 +1,56 @@
+// The border of a grid on the earth.
+
+import { Place, Plane, ProjectionNumber, cellSizeM, destination, planeOf } from '../scene/projection';
+import { GridFacts } from '../wire/api';
+
+const pointsOfASide = 16;
+const pointsOfACircle = 72;
+
+const projections: Record<string, ProjectionNumber> = {
+    azimuthal_equidistant: ProjectionNumber.azimuthalEquidistant,
+    latitude_longitude: ProjectionNumber.latitudeLongitude,
+    lambert_conformal: ProjectionNumber.lambertConformal,
+};
+
+function geometryOf(facts: GridFacts): Parameters<typeof planeOf>[0] {
+    return {
+        projection: projections[facts.projection] ?? ProjectionNumber.azimuthalEquidistant,
+        centerDeg: facts.center,
+        parallelsDeg: facts.parallels_deg ?? [0, 0],
+        offsetCells: facts.offset_cells,
+        spacing: facts.spacing_m ?? facts.spacing_deg ?? 1,
+        nx: facts.nx,
+        ny: facts.ny,
+    };
+}
+
+function halvesM(facts: GridFacts): [number, number] {
+    const [width, height] = cellSizeM(geometryOf(facts));
+    return [(facts.nx * width) / 2, (facts.ny * height) / 2];
+}
+
+// The corners, and points between them, since a side is no straight line on another map.
+export function outlineOf(facts: GridFacts): Place[] {
+    const plane = planeOf(geometryOf(facts));
+    const [x, y] = halvesM(facts);
+    const corners: Plane[] = [
+        [-x, -y],
+        [x, -y],
+        [x, y],
+        [-x, y],
+    ];
+    return corners.flatMap((from, i) => {
+        const to = corners[(i + 1) % 4]!;
+        return Array.from({ length: pointsOfASide }, (_, k) => {
+            const share = k / pointsOfASide;
+            return plane.toPlace([from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]);
+        });
+    });
+}
+
+// What a radar's own grid holds all around it.
+export function circleOf(facts: GridFacts): Place[] {
+    const center: Place = { latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] };
+    const radiusM = Math.min(...halvesM(facts));
+    return Array.from({ length: pointsOfACircle }, (_, i) => destination(center, (2 * Math.PI * i) / pointsOfACircle, radiusM));
+}

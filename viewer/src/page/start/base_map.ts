@@ -1,0 +1,64 @@
+// The lines below the start map: coarse ones of all that it shows, finer ones of where it is looked at.
+
+import { MapBox, MapView, boxBetween } from '../../map/mercator';
+import { City, map } from '../../wire/api';
+import { MapPaths, mapPaths } from './painter';
+
+const fineFromScale = 8000; // pixels of the earth, from which finer lines are worth their bytes
+const finestFromScale = 24000;
+const settledAfterMs = 250;
+
+interface Area {
+    box: MapBox;
+    detail: number;
+    paths: MapPaths;
+}
+
+const holds = (outer: MapBox, inner: MapBox): boolean =>
+    outer.west <= inner.west && outer.east >= inner.east && outer.south <= inner.south && outer.north >= inner.north;
+
+function grown({ west, south, east, north }: MapBox, share: number): MapBox {
+    const [dx, dy] = [share * (east - west), share * (north - south)];
+    return { west: Math.max(-180, west - dx), south: Math.max(-85, south - dy), east: Math.min(180, east + dx), north: Math.min(85, north + dy) };
+}
+
+export class BaseMap {
+    private coarse: Area | null = null;
+    private fine: Area | null = null;
+    private timer = 0;
+
+    constructor(private loaded: () => void) {}
+
+    // The greatest cities of all that is shown.
+    get cities(): City[] {
+        return this.coarse?.paths.cities ?? [];
+    }
+
+    async begin(box: MapBox): Promise<void> {
+        if (this.coarse && holds(this.coarse.box, box)) return;
+        this.coarse = await this.load(grown(box, 0.5), 1);
+        this.loaded();
+    }
+
+    // The lines for a view; finer ones are loaded once it rests.
+    for(view: MapView): MapPaths | null {
+        const box = boxBetween(view, [0, 0], [view.width, view.height]);
+        const detail = view.scale >= fineFromScale ? 0 : 1;
+        window.clearTimeout(this.timer);
+        if (detail === 0 && !(this.fine && holds(this.fine.box, box))) {
+            this.timer = window.setTimeout(() => void this.refine(grown(box, 0.3), view.scale >= finestFromScale), settledAfterMs);
+        }
+        return (detail === 0 && this.fine && holds(this.fine.box, box) ? this.fine : this.coarse)?.paths ?? null;
+    }
+
+    private async refine(box: MapBox, withCounties: boolean): Promise<void> {
+        // Where too many lines are, the coarse ones stay.
+        const area = await this.load(box, 0, withCounties).catch(() => null);
+        if (area) this.fine = area;
+        if (area) this.loaded();
+    }
+
+    private async load(box: MapBox, detail: number, withCounties = false): Promise<Area> {
+        return { box, detail, paths: mapPaths(await map(box.west, box.south, box.east, box.north, detail, withCounties)) };
+    }
+}

@@ -1,0 +1,84 @@
+// The list beside the start map: domains, and stations that a word finds.
+
+import { Found } from '../../map/places';
+import { element } from '../dom';
+import { texts } from '../texts';
+
+export interface ListedPlace {
+    domain: string;
+    name: string;
+    note: string;
+    isThere: boolean; // it has grids
+}
+
+export function listedStation({ station, near, distanceM }: Found): ListedPlace {
+    const age = station.ageS === null ? texts.start.nothing : texts.start.age(station.ageS);
+    return {
+        domain: station.icao,
+        name: station.name,
+        note: near === null ? age : `${texts.start.from(Math.round(distanceM / 1000), near)} · ${age}`,
+        isThere: station.hasGrids,
+    };
+}
+
+export interface ListActions {
+    point(domain: string | null): void;
+    open(domain: string): void;
+    search(text: string): void;
+}
+
+export class PlaceList {
+    private readonly list = element<HTMLUListElement>('found');
+    readonly field = element<HTMLInputElement>('search');
+
+    constructor(private actions: ListActions) {
+        this.field.placeholder = texts.start.search;
+        this.field.setAttribute('aria-label', texts.start.search);
+        this.field.addEventListener('input', () => actions.search(this.field.value));
+        element('places').addEventListener('keydown', event => this.press(event));
+    }
+
+    put(places: ListedPlace[]): void {
+        const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset['domain'] : undefined;
+        this.list.replaceChildren(...places.map(place => this.row(place)));
+        if (places.length === 0) this.list.append(Object.assign(document.createElement('li'), { textContent: texts.start.noneFound }));
+        this.buttons.find(one => one.dataset['domain'] === focused)?.focus();
+    }
+
+    mark(domain: string | null): void {
+        for (const one of this.buttons) one.classList.toggle('marked', one.dataset['domain'] === domain);
+    }
+
+    private row(place: ListedPlace): HTMLLIElement {
+        const row = document.createElement('li');
+        const button = document.createElement('button');
+        button.dataset['domain'] = place.domain;
+        button.disabled = !place.isThere;
+        for (const [kind, text] of [
+            ['b', place.domain],
+            ['span', place.name],
+            ['small', place.note],
+        ] as const)
+            button.append(Object.assign(document.createElement(kind), { textContent: text }));
+        button.addEventListener('click', () => this.actions.open(place.domain));
+        button.addEventListener('focus', () => this.actions.point(place.domain));
+        button.addEventListener('pointerenter', () => this.actions.point(place.domain));
+        row.append(button);
+        return row;
+    }
+
+    private get buttons(): HTMLButtonElement[] {
+        return [...this.list.querySelectorAll('button')];
+    }
+
+    // Arrows go through the list; Enter in the field opens the first place.
+    private press(event: KeyboardEvent): void {
+        const usable = this.buttons.filter(one => !one.disabled);
+        const at = usable.indexOf(document.activeElement as HTMLButtonElement);
+        if (event.key === 'ArrowDown') (usable[at + 1] ?? usable[at])?.focus();
+        else if (event.key === 'ArrowUp') (at > 0 ? usable[at - 1]! : this.field).focus();
+        else if (event.key === 'Enter' && at < 0 && usable[0]) this.actions.open(usable[0].dataset['domain']!);
+        else return;
+        event.preventDefault();
+    }
+}

@@ -1,0 +1,367 @@
+// The map of all stations, from which a user enters: by a click, a touch, the keys or the list.
+
+import { MapBox, MapView, boxBetween, draggedMap, fittedMap, isInBox, mapPoint, pixelOf, scaledMap } from '../../map/mercator';
+import { Pixel, StationPlace, isInside, nearestPixel, pixelToward, search } from '../../map/places';
+import { App } from '../app';
+import { button, element } from '../dom';
+import { Rect } from '../labels';
+import { texts } from '../texts';
+import { BaseMap } from './base_map';
+import { MapPointers } from './map_pointers';
+import { StartScene, paint, pixelsOf } from './painter';
+import { PlaceList, ListedPlace, listedStation } from './place_list';
+import { StartData } from './start_data';
+import { Tiles } from './tiles';
+
+const reach = 28; // pixels about a station that mean it
+const lookAgainAfterMs = 30_000;
+const mostScaleAtFirst = 12_000; // a lone station has its surroundings
+const edge = 60; // pixels left free about what is shown
+
+export class StartMap {
+    private readonly canvas = element<HTMLCanvasElement>('map');
+    private readonly page = element('start');
+    private readonly tiles = new Tiles(() => this.draw());
+    private readonly base = new BaseMap(() => this.draw());
+    private readonly data = new StartData(() => this.takeData());
+    private readonly list: PlaceList;
+    private view: MapView | null = null;
+    private chosen: string | null = null;
+    private box: [Pixel, Pixel] | null = null;
+    private anchor: string | null = null; // a station at which keys began a box
+    private isDrawing = false;
+    private timer = 0;
+    boxes = false; // a drag makes a box instead of moving the map
+
+    constructor(private app: App) {
+        this.list = new PlaceList({
+            point: domain => this.choose(domain, false),
+            open: domain => void this.open(domain),
+            search: () => this.putList(),
+        });
+    }
+
+    begin(): void {
+        element('start-title').textContent = texts.start.title;
+        element('start-help').textContent = texts.start.help;
+        element('start-actions').append(
+            button('start-box', texts.start.box, () => this.toggleBoxes()),
+            button('start-all', texts.start.all, () => this.fit()),
+            button('start-back', texts.start.back, () => this.goBack()),
+        );
+        element('head').prepend(button('to-map', texts.start.toMap, () => this.app.goToMap()));
+        this.canvas.setAttribute('aria-label', texts.start.mapLabel);
+        this.canvas.addEventListener('keydown', event => this.press(event));
+        new MapPointers(this.canvas, this).begin();
+        window.addEventListener('resize', () => this.resize());
+        this.app.on('map', () => this.show(this.app.isOnMap));
+    }
+
+    // -- what is shown
+
+    private show(isShown: boolean): void {
+        const was = !this.page.hidden;
+        this.page.hidden = !isShown;
+        document.querySelector('main')!.inert = isShown;
+        window.clearInterval(this.timer);
+        if (!isShown) return;
+        element('start-back').hidden = this.app.shown === null;
+        document.title = `${texts.start.title} · ${texts.title}`;
+        this.timer = window.setInterval(() => void this.look(), lookAgainAfterMs);
+        if (!was) {
+            this.canvas.focus();
+            void this.look();
+        }
+        this.draw();
+    }
+
+    private async look(): Promise<void> {
+        if (document.hidden) return;
+        try {
+            await this.app.findDomains();
+            await this.data.load(this.app.domains);
+        } catch (error) {
+            this.say(texts.failed(error instanceof Error ? error.message : String(error)));
+        }
+    }
+
+    private takeData(): void {
+        if (this.page.hidden) return;
+        if (!this.view && this.fit()) {
+            const { width, height } = this.view!;
+            this.base.begin(boxBetween(this.view!, [0, 0], [width, height])).then(
+                () => this.putList(),
+                error => this.say(texts.failed(String(error))),
+            );
+        }
+        this.putList();
+        this.tellChosen();
+        this.draw();
+    }
+
+    // All that there is, or the most of it: a few stations on other continents do not shrink the rest.
+    private fit(): boolean {
+        const { stations, mosaics } = this.data;
+        const middle = [...stations].sort((a, b) => a.longitudeDeg - b.longitudeDeg)[Math.floor(stations.length / 2)];
+        const near = stations.filter(one => Math.abs(one.longitudeDeg - middle!.longitudeDeg) < 65);
+        const main = near.length >= 0.8 * stations.length ? near : stations;
+        const points = [...main, ...mosaics.flatMap(({ outline }) => outline?.places ?? [])].map(mapPoint);
+        const { clientWidth: width, clientHeight: height } = this.canvas;
+        if (width === 0 || points.length === 0) return false;
+        const list = element('places').getBoundingClientRect();
+        const isBeside = list.height > height / 2;
+        const clear: [number, number, number, number] = [
+            edge + (isBeside ? list.right : 0),
+            edge + element('start-head').getBoundingClientRect().bottom,
+            edge,
+            edge + (isBeside ? 0 : height - list.top),
+        ];
+        this.view = fittedMap(points, width, height, clear, mostScaleAtFirst);
+        this.draw();
+        return true;
+    }
+
+    private resize(): void {
+        if (!this.view || this.page.hidden) return;
+        this.view = { ...this.view, width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+        this.draw();
+    }
+
+    draw(): void {
+        if (this.isDrawing || this.page.hidden) return;
+        this.isDrawing = true;
+        requestAnimationFrame(() => {
+            this.isDrawing = false;
+            this.drawNow();
+        });
+    }
+
+    private drawNow(): void {
+        const { view, canvas } = this;
+        if (!view) return;
+        const ratio = window.devicePixelRatio || 1;
+        const [width, height] = [Math.round(view.width * ratio), Math.round(view.height * ratio)];
+        if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+        paint(canvas.getContext('2d')!, this.scene(view), this.tiles, ratio);
+        // Where the stations are, for whoever looks at the page from outside.
+        const places = this.data.stations.map(one => [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '));
+        document.documentElement.dataset['map'] = places.join();
+    }
+
+    private scene(view: MapView): StartScene {
+        const { data, app } = this;
+        const mosaics = data.mosaics.map(({ outline }) => outline).filter((one): one is NonNullable<typeof one> => one !== null);
+        const polygons = mosaics.map(one => pixelsOf(view, one));
+        const middle: Pixel = [view.width / 2, view.height / 2];
+        const away = (one: StationPlace): number => {
+            const [x, y] = pixelOf(view, mapPoint(one));
+            return Math.hypot(x - middle[0], y - middle[1]);
+        };
+        const visible = data.stations.filter(one => away(one) < view.width).sort((a, b) => away(a) - away(b));
+        const isCovered = (one: StationPlace) => polygons.some(polygon => isInside(polygon, ...pixelOf(view, mapPoint(one))));
+        return {
+            view,
+            map: this.base.for(view),
+            pictures: data.pictures(app.domains, visible, isCovered).map(({ domain, outline }) => {
+                const within = outline ? boundsOf(pixelsOf(view, outline)) : null;
+                return { domain: domain.domain, time: StartData.pictureTime(domain)!, outline, within };
+            }),
+            outlines: mosaics,
+            stations: data.stations,
+            chosen: this.chosen,
+            box: this.box,
+            boxed: new Set(this.stationsInBox().map(one => one.icao)),
+            covered: ['start-head', 'places'].map(id => element(id).getBoundingClientRect()),
+        };
+    }
+
+    // -- what a pointer or a key means
+
+    move(dx: number, dy: number): void {
+        if (this.view) this.view = draggedMap(this.view, dx, dy);
+        this.draw();
+    }
+    zoom(factor: number, x?: number, y?: number): void {
+        if (this.view) this.view = scaledMap(this.view, factor, x, y);
+        this.draw();
+    }
+
+    // The station near a pixel, else the smallest domain that holds it.
+    at(x: number, y: number): string | null {
+        const { view, data } = this;
+        if (!view) return null;
+        const nearest = nearestPixel(
+            data.stations.map(one => pixelOf(view, mapPoint(one))),
+            x,
+            y,
+            reach,
+        );
+        if (nearest >= 0) return data.stations[nearest]!.icao;
+        const around = data.mosaics
+            .filter(({ outline }) => outline && isInside(pixelsOf(view, outline), x, y))
+            .sort((a, b) => sideOf(a.facts) - sideOf(b.facts));
+        return around[0]?.domain.domain ?? null;
+    }
+
+    point(x: number, y: number): void {
+        const domain = this.at(x, y);
+        this.canvas.style.cursor = this.boxes ? 'crosshair' : domain ? 'pointer' : 'grab';
+        this.choose(domain);
+    }
+
+    private choose(domain: string | null, follows = true): void {
+        if (domain === this.chosen) return;
+        this.chosen = domain;
+        if (follows) this.list.mark(domain);
+        this.tellChosen();
+        this.draw();
+    }
+
+    private tellChosen(): void {
+        const station = this.data.stations.find(one => one.icao === this.chosen);
+        const domain = this.app.domains.find(one => one.domain === this.chosen);
+        if (!station && !domain) return this.say('');
+        const seen = domain && (this.data.mosaics.find(one => one.domain === domain) ?? this.data.find(domain));
+        const age = station ? station.ageS : (domain?.moments[0]?.age_s ?? null);
+        const moments = domain?.moments.map(one => one.moment) ?? [];
+        const strongest = moments.includes('REF') ? (seen?.facts?.greatest ?? null) : null;
+        this.say(texts.start.card(this.chosen!, station?.name ?? '', age, moments, strongest));
+    }
+    private say(text: string): void {
+        element('start-card').textContent = text;
+    }
+
+    async open(domain: string | null): Promise<void> {
+        if (domain === null) return;
+        if (!this.app.domains.some(one => one.domain === domain)) return this.say(texts.start.noGridsOf(domain));
+        await this.app.enter(domain);
+    }
+
+    private goBack(): void {
+        if (this.app.shown) void this.app.enter(this.app.state.domain);
+    }
+
+    // -- a box over several sites
+
+    private toggleBoxes(): void {
+        this.boxes = !this.boxes;
+        element('start-box').setAttribute('aria-pressed', String(this.boxes));
+        this.canvas.focus();
+    }
+    drawBox(from: Pixel, to: Pixel): void {
+        this.box = [from, to];
+        this.tellBox();
+        this.draw();
+    }
+    dropBox(): void {
+        this.box = null;
+        this.anchor = null;
+        this.draw();
+    }
+    private boxDegrees(): MapBox | null {
+        return this.view && this.box && boxBetween(this.view, ...this.box);
+    }
+    private stationsInBox(): StationPlace[] {
+        const box = this.boxDegrees();
+        return box ? this.data.stations.filter(one => one.hasGrids && isInBox(one, box)) : [];
+    }
+    private tellBox(): void {
+        this.say(texts.start.boxed(this.stationsInBox().map(one => one.icao)));
+    }
+    // The box is what shall be seen; of one station, the station is opened.
+    async openBox(): Promise<void> {
+        const box = this.boxDegrees();
+        const inside = this.stationsInBox();
+        this.dropBox();
+        if (!box || inside.length === 0) return this.say(texts.start.boxed([]));
+        this.say('');
+        if (inside.length === 1) return this.open(inside[0]!.icao);
+        this.view = fittedMap(inside.map(mapPoint), this.view!.width, this.view!.height, [300, 100, 60, 60]);
+    }
+
+    // -- keys
+
+    private press(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const ways: Record<string, Pixel> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+        const way = ways[event.key];
+        const actions: Record<string, () => void> = {
+            '+': () => this.zoom(1.5),
+            '=': () => this.zoom(1.5),
+            '-': () => this.zoom(1 / 1.5),
+            '0': () => void this.fit(),
+            '/': () => this.list.field.focus(),
+            b: () => this.boxByKeys(),
+            Enter: () => void (this.anchor ? this.openBox() : this.open(this.chosen)),
+            Escape: () => (this.box ? this.dropBox() : this.goBack()),
+        };
+        const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+        if (way && event.shiftKey) this.move(-80 * way[0], -80 * way[1]);
+        else if (way) this.step(way);
+        else if (action) action();
+        else return;
+        event.preventDefault();
+    }
+
+    // From the station that is chosen, else from the middle, to the next one.
+    private step(way: Pixel): void {
+        const { view, data } = this;
+        if (!view || data.stations.length === 0) return;
+        const pixels = data.stations.map(one => pixelOf(view, mapPoint(one)));
+        const now = data.stations.findIndex(one => one.icao === this.chosen);
+        const next = now < 0 ? nearestPixel(pixels, view.width / 2, view.height / 2, Infinity) : pixelToward(pixels, pixels[now]!, way);
+        if (next < 0) return;
+        this.choose(data.stations[next]!.icao);
+        this.bringIn(pixels[next]!);
+        if (this.anchor) this.boxToChosen();
+    }
+    private bringIn([x, y]: Pixel): void {
+        const { width, height } = this.view!;
+        const left = element('places').getBoundingClientRect().right < width / 2 ? element('places').getBoundingClientRect().right : 0;
+        const [dx, dy] = [Math.max(0, left + edge - x) - Math.max(0, x - width + edge), Math.max(0, edge + 60 - y) - Math.max(0, y - height + edge)];
+        if (dx !== 0 || dy !== 0) this.move(dx, dy);
+    }
+
+    // The key begins a box at the station that is chosen; arrows then widen it.
+    private boxByKeys(): void {
+        if (this.anchor) return this.dropBox();
+        this.anchor = this.chosen;
+        if (this.anchor) this.boxToChosen();
+        else this.toggleBoxes();
+    }
+    private boxToChosen(): void {
+        const pixels = [this.anchor, this.chosen].map(icao => {
+            const station = this.data.stations.find(one => one.icao === icao);
+            return station && pixelOf(this.view!, mapPoint(station));
+        });
+        const [a, b] = pixels;
+        if (!a || !b) return;
+        const grow = 12;
+        this.drawBox([Math.min(a[0], b[0]) - grow, Math.min(a[1], b[1]) - grow], [Math.max(a[0], b[0]) + grow, Math.max(a[1], b[1]) + grow]);
+    }
+
+    // -- the list
+
+    private putList(): void {
+        const word = this.list.field.value;
+        const domains: ListedPlace[] = this.data.mosaics
+            .filter(({ domain }) => domain.domain.toLowerCase().includes(word.trim().toLowerCase()))
+            .map(({ domain }) => ({
+                domain: domain.domain,
+                name: texts.start.mosaic,
+                note: domain.moments[0] ? texts.start.age(domain.moments[0].age_s) : '',
+                isThere: true,
+            }));
+        this.list.put([...domains, ...search(this.data.stations, this.base.cities, word).map(listedStation)]);
+        this.list.mark(this.chosen);
+    }
+}
+
+function boundsOf(pixels: Pixel[]): Rect {
+    const [xs, ys] = [pixels.map(([x]) => x), pixels.map(([, y]) => y)];
+    return { left: Math.min(...xs), top: Math.min(...ys), right: Math.max(...xs), bottom: Math.max(...ys) };
+}
+
+function sideOf(facts: { nx: number; ny: number; spacing_m?: number; spacing_deg?: number } | null): number {
+    return facts ? facts.nx * facts.ny * (facts.spacing_m ?? (facts.spacing_deg ?? 1) * 111_000) ** 2 : Infinity;
+}
