@@ -53,14 +53,14 @@ export class CheckedPage {
     const after = await this.number(name);
     check(`${what}: ${name} ${before} to ${after}`, holds(before, after));
   }
-  // The pixels of the picture as bytes of a portable pixmap.
-  async pixels() {
+  // The pixels of the picture as bytes of a portable pixmap, in its own size or as large as the page shows it.
+  async pixels(width = 0, height = 0) {
     const text = await this.page.evaluate(`(() => {
     const picture = document.getElementById('picture');
     const copy = document.createElement('canvas');
-    [copy.width, copy.height] = [picture.width, picture.height];
+    [copy.width, copy.height] = [${width} || picture.width, ${height} || picture.height];
     const pen = copy.getContext('2d');
-    pen.drawImage(picture, 0, 0);
+    pen.drawImage(picture, 0, 0, copy.width, copy.height);
     const { data } = pen.getImageData(0, 0, copy.width, copy.height);
     let text = '';
     for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);

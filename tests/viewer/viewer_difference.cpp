@@ -2,12 +2,12 @@
 // with the same camera.
 //   viewer_difference [--sun AZIMUTH,ELEVATION] GRID.scg PICTURE.ppm AZIMUTH TILT ZOOM
 //     FIELD_OF_VIEW EXAGGERATION OPACITY LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [--colors TABLE]
-//     [SLICER.png]
+//     [--slices N] [SLICER.png]
 // The picture has the volume over black, lit by its gradient if there is a sun. Distances are in
 // meters. It prints the differences by CIEDE2000, and how many pixels show anything in either
 // picture; those that are black in both do not count. TABLE is a name or a file, as `stormcellar
-// frame --colors` takes it; without it the moment has its usual colors. With another name it leaves
-// the slicer's picture there.
+// frame --colors` takes it; without it the moment has its usual colors. N slices are drawn, without
+// it the usual number. With another name it leaves the slicer's picture there.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -55,8 +55,8 @@ Shown shown_of(const Image& one, const Image& other) {
 }
 
 Image drawn(const grid::BrickView& view, const ColourTable& colours,
-            const std::array<double, number_count>& numbers, const Light& light, int width,
-            int height) {
+            const std::array<double, number_count>& numbers, const Light& light, int slices,
+            int width, int height) {
     const auto [azimuth, tilt, zoom, field_of_view, exaggeration, opacity, x, y, z] = numbers;
     Camera camera;
     camera.azimuth_deg = azimuth;
@@ -66,7 +66,8 @@ Image drawn(const grid::BrickView& view, const ColourTable& colours,
     camera.look_at = Eye{x, y, z};
     const ViewGeometry geometry(*view.spec, camera, exaggeration, width, height);
     const VolumeSlicer slicer(colours, view.quantization, geometry,
-                              {.opacity = opacity, .light = light}, nullptr, threads);
+                              {.slices = slices, .opacity = opacity, .light = light}, nullptr,
+                              threads);
     Image image(width, height, black);
     composite_over(slicer.draw(view, threads), image, 0, 0, threads);
     return image;
@@ -135,7 +136,13 @@ int run(int argc, char** argv) {
         last += 2;
     }
     if (!colours) return complain(colours.error().message);
-    const Image ours = drawn(file->view(), *colours, numbers, light, page->width, page->height);
+    int slices = VolumeOptions{}.slices;
+    if (argc > last + 1 && std::string_view(argv[last]) == "--slices") {
+        slices = std::stoi(argv[last + 1]);
+        last += 2;
+    }
+    const Image ours =
+        drawn(file->view(), *colours, numbers, light, slices, page->width, page->height);
     if (argc > last && !write_png(ours, argv[last])) return complain("cannot write the picture");
     const Shown shown = shown_of(*page, ours);
     if (shown.one.width == 0) return complain("both pictures are black");

@@ -57,16 +57,28 @@ TEST_F(Api, DescribesAGridWithAllOfItsProvenance) {
 
 TEST_F(Api, RefusesWhatMakesNoSense) {
     const std::string grid = ServedGrids::small_path;
-    for (const std::string& target :
-         {std::string{"/api/v1/grids?limit=0"},
-          std::string{"/api/v1/grids?limit=99999999999999999999"},
-          std::string{"/api/v1/grids?limit=x"}, std::string{"/api/v1/grids?from=soon"},
-          std::string{"/api/v1/grids?moment=XYZ"}, std::string{"/api/v1/grids?colour=red"},
-          grid + "/probe", grid + "/probe?at=nan,0", grid + "/probe?at=91,0",
-          grid + "/probe?at=1e999,0", grid + "/probe?at=42", grid + "/profile?from=42,-76",
-          grid + "/packed?part=x", grid + "/packed?bricks=5-4",
-          grid + "/packed?bricks=0-99999999999", grid + "/packed?half=1",
-          grid + "/packed?half=99&by=mean", grid + "/packed?part=table&bricks=0-1"}) {
+    for (const std::string& target : {std::string{"/api/v1/grids?limit=0"},
+                                      std::string{"/api/v1/grids?limit=99999999999999999999"},
+                                      std::string{"/api/v1/grids?limit=x"},
+                                      std::string{"/api/v1/grids?from=soon"},
+                                      std::string{"/api/v1/grids?moment=XYZ"},
+                                      std::string{"/api/v1/grids?colour=red"},
+                                      grid + "/probe",
+                                      grid + "/probe?at=nan,0",
+                                      grid + "/probe?at=91,0",
+                                      grid + "/probe?at=1e999,0",
+                                      grid + "/probe?at=42",
+                                      grid + "/profile?from=42,-76",
+                                      grid + "/packed?part=x",
+                                      grid + "/packed?bricks=5-4",
+                                      grid + "/packed?bricks=0-99999999999",
+                                      grid + "/packed?half=1",
+                                      grid + "/packed?half=99&by=mean",
+                                      grid + "/packed?part=table&bricks=0-1",
+                                      grid + "/packed?most=0",
+                                      grid + "/packed?most=9&bricks=0-1",
+                                      grid + "/packed?codes=x",
+                                      grid + "/packed?codes=values&part=table"}) {
         const Answer answer = served_.get(target);
         EXPECT_EQ(answer.status, 400u) << target;
         EXPECT_FALSE(nlohmann::json::parse(body_of(answer))["error"].get<std::string>().empty());
@@ -194,6 +206,46 @@ class Unpacked {
   private:
     std::string bytes_;
 };
+
+TEST_F(Api, AGridThatIsLargerThanAskedForComesAsItsTable) {
+    const std::string path = std::string(ServedGrids::small_path) + "/packed";
+    const std::string whole = body_of(served_.get(path));
+    EXPECT_EQ(body_of(served_.get(path + fmt::format("?most={}", whole.size() + 100))), whole);
+    EXPECT_EQ(body_of(served_.get(path + "?most=1000")),
+              body_of(served_.get(path + "?part=table")));
+}
+
+// Puts the codes of values alone back into the cells that have them.
+TEST_F(Api, CodesOfValuesAloneAreThoseOfAllCells) {
+    const std::string path = std::string(ServedGrids::small_path) + "/packed";
+    const Unpacked whole(body_of(served_.get(path)));
+    const Unpacked alone(body_of(served_.get(path + "?codes=values")));
+    EXPECT_EQ(alone.u32(172) & 4U, 4U);
+    std::uint64_t block = 0, value = 0, checked = 0;
+    std::uint8_t before = 0;
+    for (std::uint64_t brick = 0; brick < whole.u32(204); ++brick) {
+        const std::uint64_t row = whole.number<std::uint64_t>(224) + 12 * brick;
+        const auto kind = whole.number<std::uint8_t>(row);
+        if (kind == 0) continue;
+        const std::uint64_t states = alone.number<std::uint64_t>(232) + 1024 * block++;
+        if (kind == 1) continue;
+        const std::uint64_t codes =
+            whole.number<std::uint64_t>(240) + std::uint64_t{4096} * whole.u32(row + 8);
+        for (std::uint64_t cell = 0; cell < 4096; ++cell) {
+            unsigned code = alone.number<std::uint8_t>(states + cell / 4) >> (2 * (cell % 4)) & 3;
+            if (code == 3) {
+                before += alone.number<std::uint8_t>(alone.number<std::uint64_t>(240) + value++);
+                code = before;
+            }
+            ASSERT_EQ(code, whole.number<std::uint8_t>(codes + cell));
+            ++checked;
+        }
+    }
+    EXPECT_EQ(alone.u32(188), block);
+    EXPECT_EQ(alone.u32(196), value);
+    EXPECT_GT(checked, 0U);
+    EXPECT_GT(value, 0U);
+}
 
 TEST_F(Api, ThePackedFormHoldsEachCell) {
     const Unpacked packed(body_of(served_.get(std::string(ServedGrids::small_path) + "/packed")));

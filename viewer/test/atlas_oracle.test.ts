@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { Atlas, coverageOf, makeAtlas, paddedEdge } from '../src/atlas/atlas';
+import { Atlas, coverageOf, makeAtlas, paddedEdge, putReaches, slotOf } from '../src/atlas/atlas';
 import { PackedGrid, codeAt, readPackedGrid } from '../src/wire/packed_grid';
 import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 
@@ -23,7 +23,7 @@ function texel(atlas: Atlas, x: number, y: number, z: number): [number, number] 
 function fetched(grid: PackedGrid, atlas: Atlas, place: [number, number, number]): { share: number; mean: number } | null {
     const brick = place.map(p => Math.floor(p / 16)) as [number, number, number];
     const entry = atlas.indirection[(brick[2] * atlas.bricks[1] + brick[1]) * atlas.bricks[0] + brick[0]]!;
-    const slot = (entry & 0xffffff) - 1;
+    const slot = slotOf(entry);
     if (slot < 0) return null;
     const corner = [slot % atlas.slots[0], Math.floor(slot / atlas.slots[0]) % atlas.slots[1], Math.floor(slot / (atlas.slots[0] * atlas.slots[1]))];
     const at = place.map((p, i) => corner[i]! * paddedEdge + (p - 16 * brick[i]!) + 1);
@@ -87,7 +87,7 @@ test('a grid without values has an atlas without bricks', () => {
     const grid = readPackedGrid(packedGrid({ ...made, codeOf: () => 1 }));
     const atlas = makeAtlas(grid, mostTexels);
     assert.equal(atlas.brickCount, 0);
-    assert(atlas.indirection.every(entry => entry === 0));
+    assert(atlas.indirection.every(entry => slotOf(entry) < 0));
 });
 
 test('the highest byte of an entry is the greatest code that a sample in the brick can find', () => {
@@ -121,4 +121,20 @@ test('the ground knows which columns were seen, and from how low', () => {
     const grid = readPackedGrid(packedGrid({ ...made, codeOf: (x, _y, z) => (x < 10 ? 1 : x < 20 ? (z > 10 ? 1 : 0) : x < 30 ? (z > 10 ? 50 : 0) : 0) }));
     const coverage = coverageOf(grid);
     assert.deepEqual([0, 10, 20, 30, 49].map(x => coverage[5 * 50 + x]), [2, 1, 1, 0, 0]);
+});
+
+test('columns without bricks know how far the next one with a brick is', () => {
+    const size = [20, 15, 3] as const;
+    const indirection = new Uint32Array(20 * 15 * 3);
+    const places = [[3, 4, 1], [17, 12, 0], [4, 4, 2]] as const;
+    for (const [x, y, z] of places) indirection[(z * 15 + y) * 20 + x] = 5;
+    putReaches(indirection, size);
+    for (let x = 0; x < 20; ++x)
+        for (let y = 0; y < 15; ++y)
+            for (let z = 0; z < 3; ++z) {
+                const entry = indirection[(z * 15 + y) * 20 + x]!;
+                const away = Math.min(...places.map(([px, py]) => Math.max(Math.abs(px - x), Math.abs(py - y))));
+                const has = places.some(place => place.join() === [x, y, z].join());
+                assert.equal(entry, has ? 5 : Math.min(7, away) << 21, `${x} ${y} ${z}`);
+            }
 });

@@ -76,3 +76,25 @@ test('cells end half a level beyond the first and the last', () => {
     assert.deepEqual(heightRange([500, 1000, 2000]), { bottomM: 250, topM: 2500 });
     assert.deepEqual(heightRange([3000]), { bottomM: 2500, topM: 3500 });
 });
+
+test('the depths that the picture shows hold every place of the box in it, and not much more', () => {
+    const box: Box = { halfXM: 2e6, halfYM: 1e6, bottomM: 500, topM: 19000 };
+    for (const camera of [
+        { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40, zoom: 16, lookAtM: [3e5, 1e5, 5000] as [number, number, number] },
+        { ...usualCamera, tiltDeg: 20, fieldOfViewDeg: 0, zoom: 8, lookAtM: [0, 0, 5000] as [number, number, number] },
+        { ...usualCamera, tiltDeg: 88, fieldOfViewDeg: 40, zoom: 2, lookAtM: null },
+    ]) {
+        const geometry = new ViewGeometry(box, camera, 5, 300, 200);
+        const [near, far] = geometry.shownDepths;
+        for (let x = -2e6; x <= 2e6; x += 1e5)
+            for (let y = -1e6; y <= 1e6; y += 1e5)
+                for (const z of [box.bottomM, box.topM]) {
+                    const place: Vec3 = [x, y, z * 5];
+                    const pixel = geometry.project(place);
+                    if (!pixel || pixel[0] < 0 || pixel[1] < 0 || pixel[0] > 300 || pixel[1] > 200) continue;
+                    const depth = geometry.depthOf(place);
+                    assert(depth < geometry.nearM || (depth >= near - 1 && depth <= far + 1), `${depth} in ${near} to ${far}`);
+                }
+        if (camera.zoom === 16) assert(far - near < 0.4 * (geometry.farM - geometry.nearM));
+    }
+});

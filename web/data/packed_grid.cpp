@@ -1,6 +1,7 @@
 #include "web/data/packed_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -11,6 +12,7 @@ static_assert(std::endian::native == std::endian::little, "the packed form is li
 
 constexpr std::size_t states_block_bytes = 1024;
 constexpr std::uint64_t section_alignment = 16;
+constexpr std::uint32_t values_alone_flag = 4;
 
 std::int64_t packed_time(UtcTime time) {
     return time.time_since_epoch().count();
@@ -161,6 +163,70 @@ void append_blocks(PackedWriter& writer, const PackedSource& source, std::size_t
     }
 }
 
+// The states of a brick with codes, four cells a byte, and behind `values` its codes of values.
+template <class Code>
+std::array<std::uint8_t, states_block_bytes> split_brick(const std::byte* bytes,
+                                                         std::string& values) {
+    std::array<Code, grid::brick_cells> codes;
+    std::memcpy(codes.data(), bytes, sizeof codes);
+    std::array<std::uint8_t, states_block_bytes> states{};
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const auto state = std::min<Code>(codes[i], grid::first_value_code);
+        states[i / 4] = static_cast<std::uint8_t>(states[i / 4] | state << (2 * (i % 4)));
+        if (state == grid::first_value_code)
+            values.append(reinterpret_cast<const char*>(&codes[i]), sizeof(Code));
+    }
+    return states;
+}
+
+// Makes of each code its difference from the one before it, which compresses better: neighbors are
+// alike.
+template <class Code>
+void subtract_neighbors(std::string& codes) {
+    Code before = 0;
+    for (std::size_t at = 0; at < codes.size(); at += sizeof(Code)) {
+        Code code{};
+        std::memcpy(&code, &codes[at], sizeof code);
+        const auto difference = static_cast<Code>(code - before);
+        std::memcpy(&codes[at], &difference, sizeof difference);
+        before = code;
+    }
+}
+
+// The states of all bricks that are not uniform, in the order of the table, and the codes of
+// values.
+void append_values(PackedWriter& writer, const PackedSource& source) {
+    const grid::BrickView& view = source.view;
+    const auto code_bytes = static_cast<std::size_t>(view.quantization.code_bytes);
+    PackedHeader& header = writer.header();
+    header.flags |= values_alone_flag;
+    header.end_brick = static_cast<std::uint32_t>(view.bricks.size());
+    header.states_offset = writer.begin_section();
+    std::string values;
+    for (std::size_t i = 0; i < view.bricks.size(); ++i) {
+        const grid::BrickEntry& brick = view.bricks[i];
+        if (brick.kind == grid::BrickKind::uniform) continue;
+        ++header.states_count;
+        if (brick.kind == grid::BrickKind::status_only) {
+            writer.append(view.states.data() + std::size_t{brick.status_index} * states_block_bytes,
+                          states_block_bytes);
+            continue;
+        }
+        const std::byte* codes = view.codes.data() + i * grid::brick_cells * code_bytes;
+        const auto states = code_bytes == 1 ? split_brick<std::uint8_t>(codes, values)
+                                            : split_brick<std::uint16_t>(codes, values);
+        writer.append(states.data(), states.size());
+    }
+    if (code_bytes == 1) {
+        subtract_neighbors<std::uint8_t>(values);
+    } else {
+        subtract_neighbors<std::uint16_t>(values);
+    }
+    header.codes_count = static_cast<std::uint32_t>(values.size() / code_bytes);
+    header.codes_offset = writer.begin_section();
+    writer.append(values.data(), values.size());
+}
+
 std::uint64_t bytes_of_blocks(const grid::BrickView& view, std::size_t first, std::size_t end) {
     const BlockCounts counts = count_blocks(view.bricks.subspan(first, end - first));
     return std::uint64_t{counts.states} * states_block_bytes +
@@ -175,11 +241,15 @@ std::uint64_t bytes_of_places(const PackedSource& source) {
            source.view.bricks.size() * sizeof(PackedBrick);
 }
 
+std::uint64_t bytes_of_whole(const PackedSource& source) {
+    return bytes_of_places(source) + bytes_of_blocks(source.view, 0, source.view.bricks.size());
+}
+
 }  // namespace
 
 Result<std::string> pack_whole(const PackedSource& source) {
     const std::size_t bricks = source.view.bricks.size();
-    const std::uint64_t size = bytes_of_places(source) + bytes_of_blocks(source.view, 0, bricks);
+    const std::uint64_t size = bytes_of_whole(source);
     if (size > most_packed_bytes) {
         return fail(ErrorCode::bad_argument,
                     "the grid takes {} bytes, at most {} are sent at once: ask for part=table, and "
@@ -190,7 +260,11 @@ Result<std::string> pack_whole(const PackedSource& source) {
     writer.reserve(size);
     append_places(writer, source);
     append_table(writer, source);
-    append_blocks(writer, source, 0, bricks);
+    if (source.values_alone) {
+        append_values(writer, source);
+    } else {
+        append_blocks(writer, source, 0, bricks);
+    }
     return writer.finish();
 }
 
@@ -201,6 +275,10 @@ Result<std::string> pack_table(const PackedSource& source) {
     append_places(writer, source);
     append_table(writer, source);
     return writer.finish();
+}
+
+Result<std::string> pack_whole_or_table(const PackedSource& source, std::uint64_t most_bytes) {
+    return bytes_of_whole(source) > most_bytes ? pack_table(source) : pack_whole(source);
 }
 
 Result<std::string> pack_bricks(const PackedSource& source, std::size_t first, std::size_t end) {

@@ -56,7 +56,9 @@ struct PackedHeader {
     std::uint32_t part = 0;       // PackedPart
     std::uint32_t halved = 0;     // how often columns and rows were halved
     std::uint32_t halved_by = 0;  // 0 not halved, 1 maximum, 2 mean
-    std::uint32_t flags = 0;      // bit 0: the volume is partial; bit 1: the grid is provisional
+    // Bit 0: the volume is partial; bit 1: the grid is provisional; bit 2: the codes are those of
+    // values alone.
+    std::uint32_t flags = 0;
     std::uint32_t first_brick = 0, end_brick = 0;      // the bricks whose states and codes follow
     std::uint32_t first_states = 0, states_count = 0;  // numbers as in the table
     std::uint32_t first_codes = 0, codes_count = 0;
@@ -140,6 +142,8 @@ struct PackedSource {
     grid::BrickView view;
     std::uint64_t id = 0;
     std::uint32_t halved = 0, halved_by = 0;
+    // The whole grid then has states of all bricks that are not uniform, and codes of values alone.
+    bool values_alone = false;
 };
 
 // What one answer may hold, before it is compressed.
@@ -151,6 +155,9 @@ inline constexpr std::size_t most_bricks_of_a_range = 16384;
 // or more than the limits above; the message says what to ask instead.
 [[nodiscard]] Result<std::string> pack_whole(const PackedSource& source);
 [[nodiscard]] Result<std::string> pack_table(const PackedSource& source);
+// Returns the whole grid if that is at most so many bytes, else its table.
+[[nodiscard]] Result<std::string> pack_whole_or_table(const PackedSource& source,
+                                                      std::uint64_t most_bytes);
 [[nodiscard]] Result<std::string> pack_bricks(const PackedSource& source, std::size_t first,
                                               std::size_t end);
 

@@ -23,6 +23,10 @@ constexpr std::array grids_parameters{
 constexpr std::array packed_parameters{
     ApiParameter{"id", "the grid's id: the answer never changes, and is 410 if the grid did"},
     ApiParameter{"part", "whole (default) or table"},
+    ApiParameter{"most",
+                 "bytes: the whole if it has no more before it is compressed, else the table",
+                 ApiKind::whole},
+    ApiParameter{"codes", "all (default), or values: those of values alone, which are fewer bytes"},
     ApiParameter{"bricks", "FIRST-LAST: the codes of these bricks of the table alone"},
     ApiParameter{"half", "how often columns and rows are halved, 0 to 6", ApiKind::whole},
     ApiParameter{"by", "how cells are halved: maximum or mean; required with half"}};

@@ -18,7 +18,9 @@ constexpr int threads_of_a_computation = 1;
 // What of a grid is asked for.
 struct PackedRequest {
     PackedPart part = PackedPart::whole;
-    std::size_t first = 0, end = 0;  // of `bricks`
+    std::size_t first = 0, end = 0;     // of `bricks`
+    std::optional<std::uint64_t> most;  // bytes of a whole one; its table if it has more
+    bool values_alone = false;          // codes of values alone, of a whole one
     int half = 0;
     std::optional<HalvedBy> by;
     std::optional<std::string> id;
@@ -26,7 +28,8 @@ struct PackedRequest {
 
     // Names the answer among those of the same grid.
     [[nodiscard]] std::string text() const {
-        return fmt::format("{}-{}-{}-{}{}{}{}", static_cast<unsigned>(part), first, end, half,
+        return fmt::format("{}-{}-{}-{}{}-{}{}{}{}", static_cast<unsigned>(part), first, end,
+                           most.value_or(0), values_alone ? "v" : "", half,
                            by ? halved_by_name(*by) : "", coding == Coding::identity ? "" : "-",
                            coding_name(coding));
     }
@@ -42,6 +45,15 @@ Status read_part(const ApiCall& call, PackedRequest& wanted) {
         wanted.part = PackedPart::table;
     } else if (part && *part != "whole") {
         return fail(ErrorCode::bad_argument, "part: whole or table");
+    }
+    if (call.request.parameter("most")) {
+        if (part || bricks) {
+            return fail(ErrorCode::bad_argument,
+                        "most is of a whole grid: not of a part or bricks");
+        }
+        const auto most = whole_parameter(call, "most", 1, most_packed_bytes, 1);
+        if (!most) return pass_on(most);
+        wanted.most = static_cast<std::uint64_t>(*most);
     }
     if (!bricks) return {};
     const auto range = range_of_text("bricks", *bricks);
@@ -66,6 +78,15 @@ Result<PackedRequest> read_request(const ApiCall& call) {
         return fail(ErrorCode::bad_argument,
                     "half and by go together: cells are halved by maximum or mean");
     }
+    if (const auto codes = call.request.parameter("codes")) {
+        if (*codes != "all" && *codes != "values") {
+            return fail(ErrorCode::bad_argument, "codes: all or values");
+        }
+        wanted.values_alone = *codes == "values";
+    }
+    if (wanted.values_alone && wanted.part != PackedPart::whole) {
+        return fail(ErrorCode::bad_argument, "codes=values is of a whole grid");
+    }
     if (const auto id = call.request.parameter("id")) wanted.id = std::string(*id);
     wanted.coding = coding_for(call.request);
     return wanted;
@@ -85,7 +106,7 @@ Result<std::string> pack(const PackedSource& source, const PackedRequest& wanted
         case PackedPart::whole:
             break;
     }
-    return pack_whole(source);
+    return wanted.most ? pack_whole_or_table(source, *wanted.most) : pack_whole(source);
 }
 
 Result<Kept> compress_packed(const Result<std::string>& bytes, Coding coding, std::string etag) {
@@ -95,11 +116,14 @@ Result<Kept> compress_packed(const Result<std::string>& bytes, Coding coding, st
     return Kept{piece_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
 }
 
+std::string halved_key(const OpenGrid& grid, int half, HalvedBy by) {
+    return fmt::format("{}/{}/{}/{}/{}/{}", grid.domain, level2::moment_name(grid.moment),
+                       format_utc(grid.time), grid.id, half, halved_by_name(by));
+}
+
 Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,
                                        const PackedRequest& wanted) {
-    const std::string key =
-        fmt::format("{}/{}/{}/{}/{}/{}", grid.domain, level2::moment_name(grid.moment),
-                    format_utc(grid.time), grid.id, wanted.half, halved_by_name(*wanted.by));
+    const std::string key = halved_key(grid, wanted.half, *wanted.by);
     if (auto kept = state.find_halved(key)) return kept;
     auto made = halved(grid.file.view(), grid.moment, wanted.half, *wanted.by);
     if (made) state.keep_halved(key, *made);
@@ -108,6 +132,7 @@ Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,
 
 Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequest& wanted) {
     PackedSource source{&grid.file.description(), grid.file.view(), grid.file.checksum()};
+    source.values_alone = wanted.values_alone;
     ApiState::Halved half;
     if (wanted.half > 0) {
         auto made = find_or_halve(state, grid, wanted);
@@ -191,7 +216,9 @@ Answer api_packed(const ApiCall& call) {
     auto kept = answers.find(key);
     if (!kept) {
         std::optional<ApiState::Slot> slot;
-        if (wanted->half > 0 && !(slot = call.state.take_slot())) return come_back_later();
+        const bool halves = wanted->half > 0 &&
+                            !call.state.find_halved(halved_key(**grid, wanted->half, *wanted->by));
+        if (halves && !(slot = call.state.take_slot())) return come_back_later();
         auto made =
             answers.find_or_make(key, [&] { return make_packed(call.state, **grid, *wanted); });
         if (!made) return json_error(made.error());

@@ -9,13 +9,56 @@ import { BrickKind, PackedGrid, firstValueCode } from '../wire/packed_grid';
 
 export const paddedEdge = 18;
 
+// A word of the indirection. `greatest`: shown code of the cells that a sample in the brick can use.
+export function pageEntry(slot: number, greatest: number, halvings: number): number {
+    return ((greatest << 24) | (halvings << 21) | (slot + 1)) >>> 0;
+}
+
+const slotBits = 0x1fffff;
+const mostReach = 7;
+
+// The slot of a word of the indirection; -1 of a brick that shows nothing.
+export function slotOf(entry: number): number {
+    return (entry & slotBits) - 1;
+}
+
+// Tells each brick of columns above which there is nothing how many columns away the next one is that
+// has a brick: 1 for the next but none, and at most 7. Rays leave so much at once.
+export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [number, number, number]): void {
+    const reach = new Uint8Array(bx * by).fill(mostReach);
+    for (let i = 0; i < indirection.length; ++i) if (slotOf(indirection[i]!) >= 0) reach[i % (bx * by)] = 0;
+    const take = (x: number, y: number, ways: readonly [number, number][]) => {
+        for (const [dx, dy] of ways) {
+            const [nx, ny] = [x + dx, y + dy];
+            if (nx >= 0 && ny >= 0 && nx < bx && ny < by) reach[y * bx + x] = Math.min(reach[y * bx + x]!, reach[ny * bx + nx]! + 1);
+        }
+    };
+    // What is nearest lies before or behind, in the order of rows.
+    const before = [[-1, 0], [-1, -1], [0, -1], [1, -1]] as [number, number][];
+    const behind = before.map(([dx, dy]) => [-dx, -dy] as [number, number]);
+    for (let y = 0; y < by; ++y) for (let x = 0; x < bx; ++x) take(x, y, before);
+    for (let y = by - 1; y >= 0; --y) for (let x = bx - 1; x >= 0; --x) take(x, y, behind);
+    for (let z = 0; z < bz; ++z) {
+        for (let column = 0; column < bx * by; ++column) {
+            if (reach[column]! > 0) indirection[z * bx * by + column] = (reach[column]! << 21) >>> 0;
+        }
+    }
+}
+
+// The first texel of a slot.
+export function placeOfSlot(slot: number, slots: readonly [number, number, number]): [number, number, number] {
+    const [sx, sy] = slots;
+    return [(slot % sx) * paddedEdge, (Math.floor(slot / sx) % sy) * paddedEdge, Math.floor(slot / (sx * sy)) * paddedEdge];
+}
+
 export interface Atlas {
     size: [number, number, number]; // texels
     slots: [number, number, number]; // bricks along each axis
     brickCount: number; // in the atlas
     texels: Uint8Array; // RG, x fastest
-    // Of each brick of the grid, x fastest: 0 for none, else 1 + its slot, and in the highest byte the
-    // greatest shown code of the cells that a sample in it can use.
+    // Of each brick of the grid, x fastest, in the low 21 bits: 0 for none, else 1 + its slot. In the bits
+    // 21 to 23 how often the grid was halved of which the slot has a brick; without one, 0 or what
+    // putReaches() says. In the highest byte the greatest shown code of the cells that a sample in it can use.
     indirection: Uint32Array;
     bricks: [number, number, number];
     // code = codeOffset + codeScale * shown code
@@ -27,7 +70,7 @@ export interface Atlas {
     histogram: Uint32Array;
 }
 
-function brickIndex(grid: PackedGrid, x: number, y: number, z: number): number {
+export function brickIndex(grid: PackedGrid, x: number, y: number, z: number): number {
     return (x * grid.bricks[1] + y) * grid.bricks[2] + z;
 }
 
@@ -48,7 +91,7 @@ function greatestAbout(grid: PackedGrid, x: number, y: number, z: number): numbe
     return greatest;
 }
 
-function rangeOfCodes(grid: PackedGrid): [number, number] {
+export function rangeOfCodes(grid: PackedGrid): [number, number] {
     let least = 65535;
     let greatest = 0;
     for (let i = 0; i < grid.kind.length; ++i) {
@@ -68,10 +111,17 @@ function slotsFor(count: number, mostTexels: number): [number, number, number] {
     return [most, most, Math.ceil(count / (most * most))];
 }
 
-interface Filling {
-    grid: PackedGrid;
-    atlas: Atlas;
+// Cells of one brick; null where it has no values, or they are not there.
+export type CellsOf = (brick: number) => { codes: Uint8Array | Uint16Array; from: number } | null;
+
+// Where bricks of a grid are copied from, and the texels that they are copied to.
+export interface Filling {
+    grid: PackedGrid; // its table alone is read
+    cellsOf: CellsOf;
     shownOf: Uint8Array; // shown code of each code of a value
+    texels: Uint8Array;
+    width: number; // of the texture
+    height: number;
 }
 
 // A run of cells along an axis that a slot takes from one brick of the grid.
@@ -96,49 +146,56 @@ function runsAlong(b: number, edge: number, cells: number): Run[] {
     return runs;
 }
 
-// Copies what a slot takes from one brick with values.
-function copyRuns(filling: Filling, block: number, first: number, rows: [Run, Run, Run]): void {
-    const { grid, atlas, shownOf } = filling;
+// Copies what a slot takes from one brick with values. `corner` is the slot's first texel. Returns
+// whether there was any value in it.
+function copyRuns(filling: Filling, cells: { codes: Uint8Array | Uint16Array; from: number }, corner: number, rows: [Run, Run, Run]): boolean {
+    const { grid, shownOf, texels, width, height } = filling;
     const [xs, ys, zs] = rows;
     const edge = grid.brickEdge;
-    const { codes } = grid;
-    const { texels, size } = atlas;
+    const { codes } = cells;
+    let hasValues = false;
     // Texels are written in the order in which they lie; a brick is small enough to be read in any.
     for (let z = 0; z < zs.count; ++z) {
         for (let y = 0; y < ys.count; ++y) {
-            let from = block * edge ** 3 + (xs.from * edge + ys.from + y) * edge + zs.from + z;
-            let to = first + 2 * (((zs.to + z) * size[1] + ys.to + y) * size[0] + xs.to);
+            let from = cells.from + (xs.from * edge + ys.from + y) * edge + zs.from + z;
+            let to = corner + 2 * (((zs.to + z) * height + ys.to + y) * width + xs.to);
             for (let x = 0; x < xs.count; ++x, from += edge * edge, to += 2) {
                 const code = codes[from]!;
                 if (code < firstValueCode) continue;
                 texels[to] = shownOf[code]!;
                 texels[to + 1] = 255;
+                hasValues = true;
             }
         }
     }
+    return hasValues;
 }
 
-// Copies a brick and one cell of its neighbors on each side into a slot; where they have no values, the
-// slot stays 0.
-function fillSlot(filling: Filling, bx: number, by: number, bz: number, slot: number): void {
-    const { grid, atlas } = filling;
+// Copies a brick and one cell of its neighbors on each side into the slot whose first texel is `corner`;
+// where they have no values, the slot stays 0. Returns whether it has any.
+export function fillSlot(filling: Filling, bx: number, by: number, bz: number, corner: number): boolean {
+    const { grid } = filling;
     const edge = grid.brickEdge;
-    const [sx, sy] = atlas.slots;
-    const [width, height] = atlas.size;
-    const corner = [slot % sx, Math.floor(slot / sx) % sy, Math.floor(slot / (sx * sy))].map(n => n * paddedEdge) as [number, number, number];
-    const first = 2 * ((corner[2] * height + corner[1]) * width + corner[0]);
+    let hasValues = false;
     const [xs, ys, zs] = [runsAlong(bx, edge, grid.nx), runsAlong(by, edge, grid.ny), runsAlong(bz, edge, grid.nz)];
     for (const x of xs) {
         for (const y of ys) {
             for (const z of zs) {
-                const brick = brickIndex(grid, x.brick, y.brick, z.brick);
-                if (grid.kind[brick] === BrickKind.codes) copyRuns(filling, grid.block[brick]!, first, [x, y, z]);
+                const cells = filling.cellsOf(brickIndex(grid, x.brick, y.brick, z.brick));
+                if (cells && copyRuns(filling, cells, corner, [x, y, z])) hasValues = true;
             }
         }
     }
+    return hasValues;
 }
 
-function shownCodes(grid: PackedGrid, least: number, greatest: number): { table: Uint8Array; scale: number; offset: number } {
+export interface ShownCodes {
+    table: Uint8Array; // of each code
+    scale: number; // code = offset + scale * shown code
+    offset: number;
+}
+
+export function shownCodes(grid: PackedGrid, least: number, greatest: number): ShownCodes {
     const table = new Uint8Array(65536);
     const isExact = grid.codeBytes === 1;
     const scale = isExact ? 1 : Math.max(1, (greatest - least) / 252);
@@ -149,7 +206,9 @@ function shownCodes(grid: PackedGrid, least: number, greatest: number): { table:
     return { table, scale, offset };
 }
 
-function countValues(grid: PackedGrid, shownOf: Uint8Array, histogram: Uint32Array): void {
+// How many values have each shown code.
+export function histogramOf(grid: PackedGrid, shownOf: Uint8Array): Uint32Array {
+    const histogram = new Uint32Array(256);
     const cells = grid.brickEdge ** 3;
     for (let brick = 0; brick < grid.kind.length; ++brick) {
         if (grid.kind[brick] !== BrickKind.codes) continue;
@@ -159,6 +218,7 @@ function countValues(grid: PackedGrid, shownOf: Uint8Array, histogram: Uint32Arr
             if (code >= firstValueCode) ++histogram[shownOf[code]!]!;
         }
     }
+    return histogram;
 }
 
 // `mostTexels` is the greatest side of a 3D texture here. Errors: a RangeError if the grid needs more.
@@ -189,13 +249,17 @@ export function makeAtlas(grid: PackedGrid, mostTexels: number): Atlas {
         codeOffset: shown.offset,
         least,
         greatest,
-        histogram: new Uint32Array(256),
+        histogram: histogramOf(grid, shown.table),
     };
+    const cellCount = grid.brickEdge ** 3;
+    const cellsOf: CellsOf = brick => (grid.kind[brick] === BrickKind.codes ? { codes: grid.codes, from: grid.block[brick]! * cellCount } : null);
+    const filling: Filling = { grid, cellsOf, shownOf: shown.table, texels: atlas.texels, width: size[0], height: size[1] };
     wanted.forEach(([x, y, z, most], slot) => {
-        atlas.indirection[(z * by + y) * bx + x] = (((most << 24) >>> 0) | (slot + 1)) >>> 0;
-        fillSlot({ grid, atlas, shownOf: shown.table }, x, y, z, slot);
+        atlas.indirection[(z * by + y) * bx + x] = pageEntry(slot, most, 0);
+        const [px, py, pz] = placeOfSlot(slot, slots);
+        fillSlot(filling, x, y, z, 2 * ((pz * size[1] + py) * size[0] + px));
     });
-    countValues(grid, shown.table, atlas.histogram);
+    putReaches(atlas.indirection, atlas.bricks);
     return atlas;
 }
 

@@ -1,34 +1,101 @@
-// Decodes a grid and makes its atlas, away from the page's thread.
+// Decodes grids and makes their atlas, away from the page's thread.
 
-import { Atlas, coverageOf, makeAtlas } from './atlas';
-import { PackedGrid, readPackedGrid } from '../wire/packed_grid';
+import { BrickStore, MadeColumn } from './brick_store';
+import { Atlas, ShownCodes, coverageOf, histogramOf, makeAtlas, rangeOfCodes, shownCodes } from './atlas';
+import { Pyramid, pyramidOf } from './pyramid';
+import { PackedGrid, readGridOrTable, readPackedBricks } from '../wire/packed_grid';
 
-export interface AtlasRequest {
-    number: number;
-    bytes: ArrayBuffer;
-    mostTexels: number;
+interface Column {
+    level: number;
+    x: number;
+    y: number;
 }
-export interface AtlasAnswer {
-    number: number;
-    error?: string;
+
+// 'grid': a grid, or the table of one that is too large, of which `key` then names the store; 'level': a
+// halved grid of it or the table of one; 'bricks': some of a level's; 'make': columns of texels; 'drop':
+// columns whose codes are not needed; 'forget': the whole store.
+export type WorkerRequest =
+    | { kind: 'grid'; key: string; bytes: ArrayBuffer; mostTexels: number }
+    | { kind: 'level'; key: string; bytes: ArrayBuffer }
+    | { kind: 'bricks'; key: string; bytes: ArrayBuffer }
+    | { kind: 'make'; key: string; columns: Column[] }
+    | { kind: 'drop'; key: string; columns: Column[] }
+    | { kind: 'forget'; key: string };
+
+export interface WorkerAnswer {
     grid?: PackedGrid;
-    atlas?: Atlas;
-    coverage?: Uint8Array;
+    atlas?: Atlas; // of a whole grid
+    coverage?: Uint8Array; // of a whole grid
+    pyramid?: Pyramid; // of a table
+    shown?: ShownCodes; // of a table
+    columns?: MadeColumn[];
+    histogram?: Uint32Array; // of a whole level
+}
+export type Numbered<T> = T & { number: number };
+
+const stores = new Map<string, BrickStore>();
+
+function takeGrid(key: string, bytes: ArrayBuffer, mostTexels: number): WorkerAnswer {
+    const { grid, isWhole } = readGridOrTable(new Uint8Array(bytes));
+    if (isWhole) return { grid, atlas: makeAtlas(grid, mostTexels), coverage: coverageOf(grid) };
+    const [least, greatest] = rangeOfCodes(grid);
+    const shown = shownCodes(grid, least, greatest);
+    const store = new BrickStore(shown);
+    store.addLevel(grid);
+    stores.set(key, store);
+    return { grid, pyramid: pyramidOf(grid), shown };
 }
 
-self.onmessage = (event: MessageEvent<AtlasRequest>) => {
-    const { number, bytes, mostTexels } = event.data;
-    const answer: AtlasAnswer = { number };
-    try {
-        answer.grid = readPackedGrid(new Uint8Array(bytes));
-        answer.atlas = makeAtlas(answer.grid, mostTexels);
-        answer.coverage = coverageOf(answer.grid);
-    } catch (error) {
-        answer.error = error instanceof Error ? error.message : String(error);
-        (self as unknown as Worker).postMessage({ number, error: answer.error });
-        return;
+// All columns of a level that came as a whole.
+function takeLevel(store: BrickStore, bytes: ArrayBuffer): WorkerAnswer {
+    const { grid, isWhole } = readGridOrTable(new Uint8Array(bytes));
+    store.addLevel(grid);
+    if (!isWhole) return {};
+    const columns: MadeColumn[] = [];
+    for (let x = 0; x < grid.bricks[0]; ++x) {
+        for (let y = 0; y < grid.bricks[1]; ++y) {
+            const column = store.make(grid.halvings, x, y);
+            if (column.texels.length > 0) columns.push(column);
+        }
     }
-    // The same buffer may hold codes and states.
-    const buffers = [answer.atlas.texels, answer.coverage, answer.grid.codes, answer.grid.states].map(array => array.buffer);
-    (self as unknown as Worker).postMessage(answer, [...new Set(buffers)]);
+    return { columns, coverage: coverageOf(grid), histogram: histogramOf(grid, store.shown.table) };
+}
+
+function answerTo(request: WorkerRequest): WorkerAnswer {
+    if (request.kind === 'grid') return takeGrid(request.key, request.bytes, request.mostTexels);
+    const store = stores.get(request.key);
+    if (!store) throw new Error('the grid is not there any more');
+    switch (request.kind) {
+        case 'level':
+            return takeLevel(store, request.bytes);
+        case 'bricks':
+            store.addBricks(readPackedBricks(new Uint8Array(request.bytes)));
+            return {};
+        case 'make':
+            return { columns: request.columns.map(({ level, x, y }) => store.make(level, x, y)) };
+        case 'drop':
+            for (const { level, x, y } of request.columns) store.drop(level, x, y);
+            return {};
+        case 'forget':
+            stores.delete(request.key);
+            return {};
+    }
+}
+
+// What the page gets without a copy. The same buffer may hold codes and states.
+function buffersOf(answer: WorkerAnswer): ArrayBufferLike[] {
+    const arrays: Uint8Array[] = (answer.columns ?? []).map(column => column.texels);
+    if (answer.atlas) arrays.push(answer.atlas.texels, answer.grid!.states, answer.grid!.codes as Uint8Array);
+    if (answer.coverage) arrays.push(answer.coverage);
+    return [...new Set(arrays.map(array => array.buffer))];
+}
+
+self.onmessage = (event: MessageEvent<Numbered<WorkerRequest>>) => {
+    const { number } = event.data;
+    try {
+        const answer = answerTo(event.data);
+        (self as unknown as Worker).postMessage({ number, ...answer }, buffersOf(answer) as ArrayBuffer[]);
+    } catch (error) {
+        (self as unknown as Worker).postMessage({ number, error: error instanceof Error ? error.message : String(error) });
+    }
 };

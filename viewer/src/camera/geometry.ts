@@ -148,6 +148,26 @@ export class ViewGeometry {
         return [near, Math.max(far, near + nearest)];
     }
 
+    // The depths between which the picture shows the box: less than all of it where it shows a part. Depths
+    // at which rays meet a plane are least and greatest in corners of the picture.
+    get shownDepths(): [number, number] {
+        const corners: [number, number][] = [[0, 0], [this.width, 0], [0, this.height], [this.width, this.height]];
+        const depthsAt = (heightM: number, beyond: number) =>
+            corners.map(([x, y]) => {
+                const step = this.along(x, y)[2];
+                const depth = (heightM * this.exaggeration - this.point(x, y, 0)[2]) / step;
+                return step < -flattest && (depth > 0 || !this.isPerspective) ? depth : beyond;
+            });
+        const near = Math.max(this.nearM, Math.min(...depthsAt(this.box.topM, this.nearM)));
+        const far = Math.min(this.farM, Math.max(...depthsAt(this.box.bottomM, this.farM)));
+        return near < far ? [near, far] : [this.nearM, this.farM];
+    }
+
+    // How far a point of drawn space is ahead of the camera.
+    depthOf(drawn: Vec3): number {
+        return dot(minus(drawn, this.eye), this.forward);
+    }
+
     // The pixel of a point of drawn space; null behind a perspective camera.
     project(drawn: Vec3): [number, number] | null {
         const p = minus(drawn, this.eye);

@@ -17,7 +17,8 @@ import { texts } from './texts';
 
 const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
-const loadedAhead = 3;
+const loadedAhead = 12; // of a loop
+const betweenAhead = 3; // of what is made on request
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
 // where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
@@ -251,14 +252,14 @@ export class App {
 
     // -- time
 
-    // The neighbors in time, so that a step shows at once.
+    // The neighbors in time, so that a step shows at once; of a loop more.
     private loadAhead(): void {
         const { times: all, at: now, isPlaying } = this.player;
         const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(this.player, i + 1)) : [now + 1, now - 1];
-        for (const index of next) {
+        for (const [i, index] of next.entries()) {
             const time = all[index ?? -1];
             // What is made on request is not made in vain.
-            if (time === undefined || (this.isBetween(time) && !isPlaying)) continue;
+            if (time === undefined || (this.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             this.load(time).catch(error => this.leaveOut(time, error));
         }
     }

@@ -1,7 +1,9 @@
 // Draws the picture: the scene, and over it the names and what a tool marks. Coarser while it moves.
 
 import { ViewGeometry } from '../camera/geometry';
-import { Renderer } from '../renderer/renderer';
+import { Governor } from '../renderer/governor';
+import { Rung, rungs, usualRungs } from '../renderer/ladder';
+import { Frame, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { App } from './app';
 import { drawColorBar } from './color_bar';
@@ -10,11 +12,13 @@ import { Ground } from './ground';
 import { LayerMaker } from './layer_maker';
 import { clearLabels, drawLabels } from './labels';
 import { boxOf } from './reading';
+import { Streaming } from './streaming';
 import { texts } from './texts';
 
-const stillSlices = 256;
-const movingSlices = 128;
+const movingFrameMs = 50;
+const mostMovingDE = 20;
 const stillAfterMs = 180;
+const leastBetweenMs = 150; // of pictures as bricks come
 
 // Draws over the picture in pixels of the page.
 export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) => void;
@@ -27,17 +31,32 @@ export class Drawing {
     layers: LayerMaker | null = null;
     private ground: Ground | null = null;
     private app: App | null = null;
+    private streaming: Streaming | null = null;
+    private lookedAt = ''; // the view whose bricks were asked for
+    private governor = new Governor(usualRungs, movingFrameMs, mostMovingDE);
     private movedAt = 0;
     private isDrawing = false;
+    private isWaiting = false; // for more bricks
+    private lastMs = 0; // of the last frame
+    private frames = 0;
     private isFinal = false;
 
     begin(app: App): void {
         this.app = app;
         this.renderer.prepare();
         this.ground = new Ground(app, this.renderer, () => this.draw());
+        this.streaming = new Streaming(
+            this.renderer,
+            app.loader.decoder,
+            app.loader.budget.mostCells,
+            () => this.drawLater(),
+            error => app.fail(error),
+        );
         this.layers = new LayerMaker(app, () => this.draw());
         app.on('shown', () => {
             this.renderer.show(app.shown!.loaded);
+            this.streaming!.show(app.shown!.loaded);
+            this.lookedAt = '';
             void this.ground!.show(app.shown!);
         });
         app.on('units', () => {
@@ -57,12 +76,13 @@ export class Drawing {
         this.overlays.push(overlay);
     }
 
-    geometry(): ViewGeometry | null {
+    // `grain`: how many pixels of the page a pixel of the picture is wide.
+    geometry(grain = 1): ViewGeometry | null {
         const shown = this.app?.shown;
         if (!shown) return null;
         const ratio = window.devicePixelRatio || 1;
-        const width = Math.max(16, Math.round(this.picture.clientWidth * ratio));
-        const height = Math.max(16, Math.round(this.picture.clientHeight * ratio));
+        const width = Math.max(16, Math.round((this.picture.clientWidth * ratio) / grain));
+        const height = Math.max(16, Math.round((this.picture.clientHeight * ratio) / grain));
         const { camera, exaggeration } = this.app!.state;
         return new ViewGeometry(boxOf(shown.loaded.grid), camera, exaggeration, width, height);
     }
@@ -80,6 +100,29 @@ export class Drawing {
         requestAnimationFrame(() => this.drawNow());
     }
 
+    // Bricks come faster than pictures are drawn of them.
+    private drawLater(): void {
+        if (this.isWaiting) return;
+        this.isWaiting = true;
+        window.setTimeout(() => {
+            this.isWaiting = false;
+            this.draw();
+        }, Math.max(leastBetweenMs, this.lastMs));
+    }
+
+    private rung(isMoving: boolean): Rung {
+        const allowed = this.app!.shown!.loaded.stream ? rungs : usualRungs;
+        return allowed.find(({ name }) => name === this.app!.state.quality) ?? this.governor.next(isMoving);
+    }
+
+    // Bricks are asked for once for each view.
+    private stream(geometry: ViewGeometry, { halvings }: Rung): void {
+        const { camera, exaggeration } = this.app!.state;
+        const view = JSON.stringify([camera, exaggeration, geometry.width, geometry.height, halvings]);
+        if (view !== this.lookedAt) this.streaming!.look(geometry, halvings);
+        this.lookedAt = view;
+    }
+
     private drawNow(): void {
         this.isDrawing = false;
         const app = this.app!;
@@ -87,11 +130,11 @@ export class Drawing {
         const { table, shown, state } = app;
         if (!geometry || !table || !shown) return;
         const isMoving = performance.now() - this.movedAt < stillAfterMs;
-        const slices = isMoving ? movingSlices : stillSlices;
-        const begun = performance.now();
-        this.renderer.draw({
-            geometry,
-            slices,
+        const rung = this.rung(isMoving);
+        this.stream(geometry, rung);
+        const frame: Frame = {
+            geometry: rung.grain > 1 ? this.geometry(rung.grain)! : geometry,
+            ...rung,
             opacity: state.opacity,
             table,
             leastValue: state.least ?? -1e9,
@@ -99,17 +142,27 @@ export class Drawing {
             hasGround: state.hasGround,
             layers: this.layers!.make(),
             keepsExposure: isMoving,
-        });
+        };
+        const fetches = state.countsFetches && !isMoving ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
+        const begun = performance.now();
+        this.renderer.draw(frame);
         this.renderer.finish();
         const ms = Math.round(performance.now() - begun);
+        this.governor.took(rung, ms);
+        this.lastMs = ms;
         this.drawOver(geometry);
         drawColorBar(element<HTMLCanvasElement>('bar'), table, shownUnit(table.unit, state.units), state.least);
-        document.documentElement.dataset['frameMs'] = String(ms);
+        this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         if (isMoving) {
             window.setTimeout(() => this.draw(), stillAfterMs);
         } else if (!this.isFinal && !this.layers!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
             this.isFinal = true;
-            app.say(texts.steps(slices, ms), false);
+            const detail = this.streaming!.detail;
+            const said = [texts.drawn(ms, rung, fetches), detail && texts.detail(detail.coarsest, detail.missing), this.layers!.isLeftOut && texts.layersLeftOut];
+            app.say(said.filter(Boolean).join(' · '), false);
+            const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
+            element('held').textContent = held;
+            this.tell({ fetches, missing: detail?.missing ?? 0, held });
             document.documentElement.dataset['drawn'] = shown.key;
             document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
         }
@@ -139,6 +192,11 @@ export class Drawing {
             overlay(pen, geometry);
             pen.restore();
         }
+    }
+
+    // For programs that drive the page.
+    private tell(figures: Record<string, string | number | null>): void {
+        for (const [name, figure] of Object.entries(figures)) document.documentElement.dataset[name] = String(figure);
     }
 
     // The picture as it is seen, without the controls.

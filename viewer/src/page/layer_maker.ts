@@ -73,7 +73,14 @@ class Asked<T> {
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
 
+// Layers are cut from a grid that is there as a whole: one in parts has the box alone.
+function nothing(table: ColorTable): Omit<DrawnLayers, 'crop' | 'looks'> {
+    const none = { plane: null, section: null, surface: null, maximum: null, sweep: null, falls: null, air: null };
+    return { ...none, hasHaze: false, hasFolded: false, mixes: false, folded: table.range_folded };
+}
+
 export class LayerMaker {
+    isLeftOut = false; // what is asked for cannot be made of this grid
     private kept = new Kept();
     private other: Asked<LoadedGrid>;
     private rows: Asked<{ time: string; rows: SweepRow[] }>;
@@ -100,11 +107,14 @@ export class LayerMaker {
 
     // Null if nothing is to be drawn but the volume as it always was.
     make(): DrawnLayers | null {
+        this.isLeftOut = false;
         const { shown, table, state } = this.app;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
         if (!shown || !table || isUsual) return null;
-        const { grid } = shown.loaded;
+        const { grid, stream } = shown.loaded;
+        this.isLeftOut = stream !== null;
+        if (stream) return { ...nothing(table), crop: layers.crop, looks: this.looksOf(table, state.least) };
         return {
             plane: this.planeOf(grid, shown.moment, layers.planeM),
             section: layers.section && this.sectionOf(grid, shown.moment, layers.section),

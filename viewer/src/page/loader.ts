@@ -1,29 +1,84 @@
 // Loads grids, decodes them in a worker and keeps those that were used last, within a budget.
+//
+// A grid that is too large comes as its table and, as a whole, as a halved one that is small enough;
+// page/streaming.ts then fetches what the view needs of it.
 
-import { AtlasAnswer, AtlasRequest } from '../atlas/worker';
+import { Atlas, paddedEdge } from '../atlas/atlas';
+import { brickTexelBytes } from '../atlas/brick_store';
+import { Decoder } from '../atlas/decoder';
+import { Pyramid, levelWithin } from '../atlas/pyramid';
+import { WorkerAnswer } from '../atlas/worker';
 import { LoadedGrid } from '../renderer/renderer';
+import { PackedGrid } from '../wire/packed_grid';
 import { packed, packedBetween } from '../wire/api';
 
-const mostBytes = 256 * 2 ** 20;
+// How a budget of bytes is divided.
+export class Budget {
+    // A grid that has more, before it is compressed, is fetched in parts.
+    readonly mostWhole: number;
+    // Slots along each side of the texture for grids that are fetched in parts.
+    readonly poolSide: number;
+    // Codes that the worker keeps of such a grid.
+    readonly mostCells: number;
+    // Bricks of the halved grid that is fetched first.
+    readonly mostFirst: number;
 
-function bytesOf(loaded: LoadedGrid): number {
-    return loaded.atlas.texels.byteLength + loaded.coverage.byteLength + loaded.grid.codes.byteLength + loaded.grid.states.byteLength;
+    constructor(readonly bytes: number, mostTexels: number) {
+        this.mostWhole = Math.floor(0.1 * bytes);
+        const slots = (0.36 * bytes) / brickTexelBytes;
+        this.poolSide = Math.max(2, Math.min(Math.floor(Math.cbrt(slots)), Math.floor(mostTexels / paddedEdge)));
+        this.mostCells = 0.19 * bytes;
+        this.mostFirst = 0.15 * this.poolSide ** 3;
+    }
+}
+
+function arrayBytes(...arrays: ArrayBufferView[]): number {
+    return arrays.reduce((sum, array) => sum + array.byteLength, 0);
+}
+
+function bytesOf({ grid, atlas, coverage, stream }: LoadedGrid): number {
+    const table = arrayBytes(grid.kind, grid.state, grid.valueCount, grid.leastCode, grid.greatestCode, grid.block);
+    let bytes = table + arrayBytes(atlas.texels, atlas.indirection, coverage, grid.codes, grid.states);
+    if (stream) {
+        for (const level of stream.pyramid.levels) bytes += arrayBytes(level.greatest, level.about, level.shown);
+        for (const column of stream.first) bytes += column.texels.byteLength;
+    }
+    return bytes;
+}
+
+// The pool of slots that a grid in parts is drawn from.
+function poolAtlas(grid: PackedGrid, pyramid: Pyramid, table: WorkerAnswer, side: number): Atlas {
+    const { scale, offset } = table.shown!;
+    let [least, greatest] = [65535, 0];
+    grid.greatestCode.forEach((code, i) => {
+        if (grid.valueCount[i] === 0) return;
+        least = Math.min(least, grid.leastCode[i]!);
+        greatest = Math.max(greatest, code);
+    });
+    return {
+        size: [side * paddedEdge, side * paddedEdge, side * paddedEdge],
+        slots: [side, side, side],
+        brickCount: pyramid.levels[0]!.shown.some(count => count > 0) ? side ** 3 : 0,
+        texels: new Uint8Array(0),
+        indirection: new Uint32Array(grid.kind.length),
+        bricks: grid.bricks,
+        codeScale: scale,
+        codeOffset: offset,
+        least,
+        greatest,
+        histogram: new Uint32Array(256),
+    };
 }
 
 export class Loader {
-    private worker = new Worker('worker.js');
-    private waiting = new Map<number, (answer: AtlasAnswer) => void>();
+    readonly decoder = new Decoder();
     private kept = new Map<string, LoadedGrid>(); // the least recently used first
     private loading = new Map<string, Promise<LoadedGrid>>();
-    private count = 0;
 
-    constructor(private mostTexels: number) {
-        this.worker.onmessage = (event: MessageEvent<AtlasAnswer>) => {
-            const done = this.waiting.get(event.data.number);
-            this.waiting.delete(event.data.number);
-            done?.(event.data);
-        };
-    }
+    constructor(
+        readonly budget: Budget,
+        private mostTexels: number,
+    ) {}
 
     static key(domain: string, moment: string, time: string): string {
         return `${domain}/${moment}/${time}`;
@@ -42,7 +97,9 @@ export class Loader {
     }
     // A grid was made again: the next load asks for it.
     forget(key: string): void {
+        const old = this.kept.get(key);
         this.kept.delete(key);
+        if (old?.stream) void this.decoder.ask({ kind: 'forget', key });
     }
 
     load(domain: string, moment: string, time: string, isBetween = false): Promise<LoadedGrid> {
@@ -51,33 +108,48 @@ export class Loader {
         if (kept) return Promise.resolve(kept);
         let loading = this.loading.get(key);
         if (!loading) {
-            loading = this.decode(domain, moment, time, isBetween).finally(() => this.loading.delete(key));
+            loading = this.fetch(domain, moment, time, isBetween).finally(() => this.loading.delete(key));
             this.loading.set(key, loading);
         }
         return loading;
     }
 
-    private async decode(domain: string, moment: string, time: string, isBetween: boolean): Promise<LoadedGrid> {
-        const bytes = await (isBetween ? packedBetween : packed)(domain, moment, time);
-        const request: AtlasRequest = { number: ++this.count, bytes, mostTexels: this.mostTexels };
-        const answer = await new Promise<AtlasAnswer>(resolve => {
-            this.waiting.set(request.number, resolve);
-            this.worker.postMessage(request, [bytes]);
-        });
-        if (answer.error !== undefined || !answer.grid || !answer.atlas || !answer.coverage) throw new Error(answer.error ?? 'the grid was not decoded');
-        const loaded: LoadedGrid = { grid: answer.grid, atlas: answer.atlas, coverage: answer.coverage };
-        this.keep(Loader.key(domain, moment, time), loaded);
+    private async fetch(domain: string, moment: string, time: string, isBetween: boolean): Promise<LoadedGrid> {
+        const key = Loader.key(domain, moment, time);
+        const bytes = await (isBetween ? packedBetween(domain, moment, time) : packed(domain, moment, time, { most: String(this.budget.mostWhole), codes: 'values' }));
+        const answer = await this.decoder.ask({ kind: 'grid', key, bytes, mostTexels: this.mostTexels });
+        const { grid, atlas, coverage } = answer;
+        const loaded = atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : await this.fetchFirst(domain, moment, time, answer);
+        this.keep(key, loaded);
         return loaded;
+    }
+
+    // The halved grid that is shown until there is more.
+    private async fetchFirst(domain: string, moment: string, time: string, table: WorkerAnswer): Promise<LoadedGrid> {
+        const key = Loader.key(domain, moment, time);
+        const [grid, pyramid] = [table.grid!, table.pyramid!];
+        const level = Math.max(1, levelWithin(pyramid, this.budget.mostFirst));
+        const bytes = await packed(domain, moment, time, { half: String(level), by: 'maximum', id: grid.id, codes: 'values' });
+        const { columns, coverage, histogram } = await this.decoder.ask({ kind: 'level', key, bytes });
+        const atlas = { ...poolAtlas(grid, pyramid, table, this.budget.poolSide), histogram: histogram! };
+        const stream = { key, domain, moment, time, pyramid, shownOf: table.shown!.table, level, first: columns! };
+        return { grid, atlas, coverage: coverage!, stream };
+    }
+
+    // Bytes that are held, with the texture and the codes of grids in parts.
+    get bytes(): number {
+        const all = [...this.kept.values()];
+        const parts = all.find(({ stream }) => stream);
+        const pool = parts ? 2 * parts.atlas.size[0] ** 3 + this.budget.mostCells : 0;
+        return all.reduce((sum, one) => sum + bytesOf(one), pool);
     }
 
     private keep(key: string, loaded: LoadedGrid): void {
         this.kept.set(key, loaded);
-        let bytes = 0;
-        for (const one of this.kept.values()) bytes += bytesOf(one);
-        for (const [old, one] of this.kept) {
-            if (bytes <= mostBytes || old === key) break;
-            bytes -= bytesOf(one);
-            this.kept.delete(old);
+        document.documentElement.dataset['loaded'] = String(this.kept.size);
+        for (const old of [...this.kept.keys()]) {
+            if (this.bytes <= this.budget.bytes || old === key) break;
+            this.forget(old);
         }
     }
 }

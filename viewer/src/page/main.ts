@@ -5,7 +5,8 @@ import { element } from './dom';
 import { Drawing } from './drawing';
 import { Keys } from './keys';
 import { hear } from './live';
-import { Loader } from './loader';
+import { stateOf } from '../scene/view_state';
+import { Budget, Loader } from './loader';
 import { addChoices } from './panels/choices';
 import { Editor } from './panels/editor';
 import { LayersPanel } from './panels/layers';
@@ -21,7 +22,8 @@ import { texts } from './texts';
 
 async function begin(): Promise<void> {
     const drawing = new Drawing();
-    const app = new App(new Loader(drawing.renderer.mostTexels));
+    const { mostTexels } = drawing.renderer;
+    const app = new App(new Loader(new Budget(stateOf(location.hash).memoryMib * 2 ** 20, mostTexels), mostTexels));
     drawing.begin(app);
     const keys = new Keys(app, drawing);
     const reader = new Reader(app, drawing);

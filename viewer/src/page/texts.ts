@@ -103,6 +103,17 @@ export const texts = {
     seenBetween: (from: string, to: string) => `seen ${from} – ${to} above sea level`,
     units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
     partial: 'Partial volume',
+    quality: 'Exactness',
+    asTimeAllows: 'as time allows',
+    rung: (name: string, dE: number) => `${name}: dE ${dE}`,
+    held: (bytes: number, most: number) => `Grids take ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
+    layersLeftOut: 'this grid is too large for layers',
+    detail: (halvings: number, missing: number) => {
+        const cells = halvings > 0 ? `greatest of ${2 ** halvings} x ${2 ** halvings} cells` : '';
+        return missing > 0 ? `coarse: ${cells}, finer ones are loading` : cells;
+    },
+    drawn: (ms: number, how: { name: string; dE: number }, fetches: number | null) =>
+        `${ms} ms, dE ${how.dE} (${how.name}${fetches === null ? '' : `, ${fetches.toFixed(1)} texels a pixel`})`,
     layers: {
         title: 'Layers',
         volume: 'Volume',
@@ -140,7 +151,6 @@ export const texts = {
         otherCells: (moment: string) => `${moment} has other cells, so its surface cannot be colored.`,
         noVolume: (station: string) => `There is no raw volume of ${station} for this time.`,
     },
-    steps: (slices: number, ms: number) => `${slices} slices, ${ms} ms a frame`,
     start: {
         title: 'Where do you want to look?',
         help: 'Click a radar. Drag to move; with Shift, or after Box, drag a box over several.',

@@ -229,8 +229,8 @@ uniform vec3 otherAtlasSize;
 float otherCode(vec3 cell) {
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(otherIndirection, brick, 0).r;
-    if (entry == 0u) return -1.0;
-    int slot = int(entry & 0xFFFFFFu) - 1;
+    if (isEmpty(entry)) return -1.0;
+    int slot = int(entry & 0x1FFFFFu) - 1;
     ivec3 place = ivec3(slot % otherSlots.x, (slot / otherSlots.x) % otherSlots.y, slot / (otherSlots.x * otherSlots.y));
     vec2 found = texture(otherAtlas, (vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5) / otherAtlasSize).rg;
     return found.g < 0.1 ? -1.0 : 255.0 * found.r / found.g;
@@ -252,7 +252,7 @@ vec2 codeAt(vec3 p) {
     vec3 cell = cellOf(p);
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(indirection, brick, 0).r;
-    if (entry == 0u) return vec2(0.0);
+    if (isEmpty(entry)) return vec2(0.0);
     vec2 found = fetchAt(cell, brick, entry);
     return found.g < 0.002 ? vec2(0.0) : vec2(255.0 * found.r / found.g, found.g);
 }
@@ -289,9 +289,9 @@ void main() {
         vec3 p = start + depth * along;
         ivec3 brick = ivec3(cellOf(p) / edge);
         uint entry = texelFetch(indirection, brick, 0).r;
-        if (entry == 0u || (entry >> 24) < leastShown) {
+        if (isEmpty(entry) || (entry >> 24) < leastShown) {
             outside = depth;
-            k = max(k + 1.0, floor((min(leaves(start, along, brick), leave) - near) / stepM));
+            k = max(k + 1.0, floor((min(leaves(start, along, brick, entry), leave) - near) / stepM));
             continue;
         }
         if (insideAt(p)) hit = depth;

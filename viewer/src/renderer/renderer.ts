@@ -1,7 +1,9 @@
 // Draws ground, map lines and volume with WebGL2. What was uploaded is made anew when the context was
 // lost and is restored.
 
-import { Atlas } from '../atlas/atlas';
+import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
+import { MadeColumn } from '../atlas/brick_store';
+import { Pyramid } from '../atlas/pyramid';
 import { Box, ViewGeometry, heightRange } from '../camera/geometry';
 import { Air } from '../fields/air';
 import { croppedBox } from '../scene/layers';
@@ -25,12 +27,28 @@ export interface MapLines {
 export interface LoadedGrid {
     grid: PackedGrid;
     atlas: Atlas;
-    coverage: Uint8Array;
+    coverage: Uint8Array; // of a grid in parts: of its first halved grid
+    stream: GridInParts | null;
+}
+
+// A grid of which the table is there, and a halved one; the rest is fetched as the view needs it. Its
+// atlas is empty at first.
+export interface GridInParts {
+    key: string;
+    domain: string;
+    moment: string;
+    time: string;
+    pyramid: Pyramid;
+    shownOf: Uint8Array; // shown code of each code
+    level: number; // how often the first halved grid was halved
+    first: MadeColumn[]; // all columns of it that have values
 }
 
 export interface Frame {
     geometry: ViewGeometry;
     slices: number;
+    grain: number; // the picture is shown so many times as wide and high
+    isNearest: boolean; // cells are not interpolated
     opacity: number;
     table: ColorTable;
     leastValue: number; // weaker echo is not shown
@@ -51,6 +69,8 @@ interface Uploaded {
     levels: WebGLTexture | null;
     levelRange: [number, number];
 }
+
+type WantedOfVolume = Pick<VolumeVariant, 'countsFetches' | 'endsAtSolids' | 'isLit' | 'measuresLight'>;
 
 interface UploadedLines {
     lines: MapLines;
@@ -136,12 +156,10 @@ export class Renderer implements Graphics {
         return program;
     }
 
-    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView, filter: number): WebGLTexture {
+    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView | null, filter: number): WebGLTexture {
         const gl = this.gl;
         const texture = gl.createTexture()!;
-        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
-        gl.bindTexture(gl.TEXTURE_3D, texture);
-        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+        this.beginUpload(texture);
         const type = data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_BYTE;
         gl.texImage3D(gl.TEXTURE_3D, 0, internal, size[0]!, size[1]!, size[2]!, 0, format, type, data);
         for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
@@ -162,13 +180,18 @@ export class Renderer implements Graphics {
     }
 
     show(loaded: LoadedGrid): void {
-        this.release(this.uploaded);
-        this.uploaded = this.upload(loaded);
+        const old = this.uploaded;
+        // The texture for bricks is as large for all grids in parts.
+        const pool = loaded.stream && old?.loaded.stream ? old.atlas : null;
+        this.release(old, pool);
+        this.uploaded = this.upload(loaded, pool);
     }
 
-    private release(uploaded: Uploaded | null): void {
+    private release(uploaded: Uploaded | null, kept: WebGLTexture | null = null): void {
         if (!uploaded) return;
-        for (const texture of [uploaded.atlas, uploaded.indirection, uploaded.coverage, uploaded.levels]) this.gl.deleteTexture(texture);
+        for (const texture of [uploaded.atlas, uploaded.indirection, uploaded.coverage, uploaded.levels]) {
+            if (texture !== kept) this.gl.deleteTexture(texture);
+        }
     }
 
     private releaseOther(): void {
@@ -176,19 +199,50 @@ export class Renderer implements Graphics {
         this.other = null;
     }
 
-    private upload(loaded: LoadedGrid): Uploaded {
+    private upload(loaded: LoadedGrid, pool: WebGLTexture | null = null): Uploaded {
         const gl = this.gl;
-        const { atlas, grid, coverage } = loaded;
+        const { atlas, grid, coverage, stream } = loaded;
         const heights = heightRange(grid.levelsM);
         const range: [number, number] = [heights.bottomM, heights.topM];
+        const halved = (cells: number) => Math.ceil(cells / 2 ** (stream?.level ?? 0));
         return {
             loaded,
-            atlas: this.texture3d(gl.RG8, gl.RG, atlas.size, atlas.texels, gl.LINEAR),
+            atlas: pool ?? this.texture3d(gl.RG8, gl.RG, atlas.size, stream ? null : atlas.texels, gl.LINEAR),
             indirection: this.texture3d(gl.R32UI, gl.RED_INTEGER, atlas.bricks, atlas.indirection, gl.NEAREST),
-            coverage: this.texture2d(gl.R8UI, gl.RED_INTEGER, gl.UNSIGNED_BYTE, grid.nx, grid.ny, coverage),
+            coverage: this.texture2d(gl.R8UI, gl.RED_INTEGER, gl.UNSIGNED_BYTE, halved(grid.nx), halved(grid.ny), coverage),
             levels: hasUnevenLevels(grid) ? this.levelTable(grid, range) : null,
             levelRange: range,
         };
+    }
+
+    // Puts bricks into the atlas, in the order of the slots that are not -1.
+    putBricks(slots: Int32Array, texels: Uint8Array): void {
+        const gl = this.gl;
+        if (!this.uploaded) return;
+        this.beginUpload(this.uploaded.atlas);
+        let from = 0;
+        for (const slot of slots) {
+            if (slot < 0) continue;
+            const [x, y, z] = placeOfSlot(slot, this.uploaded.loaded.atlas.slots);
+            gl.texSubImage3D(gl.TEXTURE_3D, 0, x, y, z, paddedEdge, paddedEdge, paddedEdge, gl.RG, gl.UNSIGNED_BYTE, texels, from);
+            from += 2 * paddedEdge ** 3;
+        }
+    }
+
+    // After the atlas's indirection was changed.
+    putIndirection(): void {
+        const gl = this.gl;
+        if (!this.uploaded) return;
+        const { bricks, indirection } = this.uploaded.loaded.atlas;
+        this.beginUpload(this.uploaded.indirection);
+        gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, ...bricks, gl.RED_INTEGER, gl.UNSIGNED_INT, indirection);
+    }
+
+    private beginUpload(texture: WebGLTexture): void {
+        const gl = this.gl;
+        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
+        gl.bindTexture(gl.TEXTURE_3D, texture);
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     }
 
     // The level, with a fraction, of evenly spaced heights.
@@ -257,18 +311,32 @@ export class Renderer implements Graphics {
         gl.clear(gl.COLOR_BUFFER_BIT);
         if (!this.uploaded) return;
         if (frame.hasGround) {
-            this.drawGround(geometry, layers?.hasHaze ?? false);
+            this.drawGround(geometry, frame.grain, layers?.hasHaze ?? false);
         }
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (layers?.maximum) this.passes.drawMaximum(geometry, layers, layers.maximum);
-        if (frame.hasGround) this.drawLines(geometry);
+        if (frame.hasGround) this.drawLines(geometry, frame.grain);
         if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, layers, layers.air);
         if (isSolid) this.passes.showSolids(geometry);
         if (!frame.hasVolume) return;
         if (layers?.falls && !frame.keepsExposure) this.measureLight(frame);
         gl.enable(gl.BLEND);
         this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
+    }
+
+    // How many texels the volume asks for, as the mean over all pixels of the picture. It draws over the picture.
+    fetchesAPixel(frame: Frame): number {
+        const gl = this.gl;
+        this.draw({ ...frame, hasGround: false, hasVolume: false, layers: null });
+        gl.disable(gl.BLEND);
+        this.drawVolume({ ...frame, layers: null }, { countsFetches: true });
+        const { width, height } = frame.geometry;
+        const pixels = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        let fetches = 0;
+        for (let i = 0; i < pixels.length; i += 4) fetches += pixels[i]! + 256 * pixels[i + 1]!;
+        return fetches / (width * height);
     }
 
     // The exposure by which the lit echo is as light as without light, from every fifth pixel.
@@ -281,22 +349,25 @@ export class Renderer implements Graphics {
         gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
     }
 
-    private drawGround(geometry: ViewGeometry, hasHaze: boolean): void {
+    private drawGround(geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
         const gl = this.gl;
         const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
         const at = this.use(this.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)), geometry);
         const color = (uniform: string, rgb: readonly number[]) => gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
         this.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
+        const { grid, stream } = this.uploaded!.loaded;
+        gl.uniform2f(at('columns'), grid.nx, grid.ny);
+        gl.uniform1f(at('columnsATexel'), 2 ** (stream?.level ?? 0));
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
         for (const uniform of ['page', 'beyond', 'notSeen', 'seenAloft', 'seen', 'hatch'] as const) color(uniform, shades[uniform]);
         // Haze says from how low the air was seen.
         if (hasHaze) color('seenAloft', shades.seen);
-        gl.uniform1f(at('hatchScale'), 1);
+        gl.uniform1f(at('hatchScale'), 1 / grain);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    private drawLines(geometry: ViewGeometry): void {
+    private drawLines(geometry: ViewGeometry, grain: number): void {
         const gl = this.gl;
         if (this.lines.length === 0) return;
         const at = this.use(this.program('lines', lineVertex, lineFragment), geometry);
@@ -305,7 +376,7 @@ export class Renderer implements Graphics {
         for (const { lines, array, count } of this.lines) {
             const rgba = shades[lines.kind];
             gl.uniform4f(at('look'), rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255);
-            gl.uniform1f(at('width'), lineWidths[lines.kind]);
+            gl.uniform1f(at('width'), lineWidths[lines.kind] / grain);
             gl.bindVertexArray(array);
             gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
         }
@@ -333,9 +404,12 @@ export class Renderer implements Graphics {
     private bindGrid({ loaded, atlas, indirection, levels, levelRange }: Uploaded, frame: Frame, at: (name: string) => WebGLUniformLocation | null): void {
         const gl = this.gl;
         const { grid } = loaded;
-        const { box, exaggeration, nearM, farM } = frame.geometry;
+        const { box, exaggeration } = frame.geometry;
+        const [nearM, farM] = slicedDepths(loaded, frame.geometry);
         const [cellWidth, cellHeight] = cellSizeM(grid);
         this.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
+        const filter = frame.isNearest ? gl.NEAREST : gl.LINEAR;
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
         this.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
         if (levels) {
             this.bind(3, gl.TEXTURE_2D, levels, at('levels'));
@@ -358,15 +432,16 @@ export class Renderer implements Graphics {
         gl.uniform1f(at('slices'), frame.slices);
     }
 
-    private drawVolume(frame: Frame, wanted: Pick<VolumeVariant, 'endsAtSolids' | 'isLit' | 'measuresLight'>): void {
+    private drawVolume(frame: Frame, wanted: WantedOfVolume): void {
         const gl = this.gl;
         const { geometry, layers } = frame;
         const { loaded, levels } = this.uploaded!;
         const { grid } = loaded;
         if (loaded.atlas.brickCount === 0) return;
-        const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null, ...wanted };
+        const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null, hasHalved: loaded.stream !== null, ...wanted };
         const at = this.use(this.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
-        const { made, scale } = this.transferFor(frame, grid, (geometry.farM - geometry.nearM) / frame.slices);
+        const [nearM, farM] = slicedDepths(loaded, geometry);
+        const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
         this.bindGrid(this.uploaded!, frame, at);
         this.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
@@ -456,6 +531,11 @@ export class Renderer implements Graphics {
         const pixel = new Uint8Array(4);
         this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
     }
+}
+
+// Of a large grid the picture may show a small part, to which the slices then go.
+function slicedDepths(loaded: LoadedGrid, geometry: ViewGeometry): [number, number] {
+    return loaded.stream ? geometry.shownDepths : [geometry.nearM, geometry.farM];
 }
 
 // Between levels, in the mean.

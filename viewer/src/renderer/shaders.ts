@@ -5,6 +5,8 @@ import { facingText, lightAtText, litColorText } from './light_shader';
 export interface VolumeVariant {
     isPerspective: boolean;
     hasUnevenLevels: boolean;
+    hasHalved?: boolean; // some bricks are those of halved grids
+    countsFetches?: boolean; // the picture is how many texels each pixel asked for
     endsAtSolids?: boolean; // rays end at what is solid
     isLit?: boolean;
     measuresLight?: boolean; // the picture is lightness, factor of the light, and opacity
@@ -13,6 +15,8 @@ export interface VolumeVariant {
 export function variantName(variant: VolumeVariant): string {
     const parts = [variant.isPerspective ? 'perspective' : 'parallel'];
     if (variant.hasUnevenLevels) parts.push('uneven levels');
+    if (variant.hasHalved) parts.push('halved bricks');
+    if (variant.countsFetches) parts.push('fetches counted');
     if (variant.endsAtSolids) parts.push('ends at solids');
     if (variant.isLit) parts.push('lit');
     if (variant.measuresLight) parts.push('light measured');
@@ -40,8 +44,16 @@ vec3 rayStep() { vec2 a = aside() / scale; return forward + a.x * right + a.y * 
 vec3 rayStep() { return forward; }`
 }`;
 
-// Where a ray meets the cells of a grid.
-export function volumeHead(variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels'>): string {
+// Where a cell of the grid is in the brick of a halved grid. Cell j of a grid that was halved n times
+// stands for the cells from j 2^n on, whose middle is at (j + 1/2) 2^n - 1/2.
+const halvedCell = `
+    int halvings = int((entry >> 21) & 7u);
+    cell.xy = (cell.xy + 0.5) * exp2(-float(halvings)) - 0.5;
+    corner = ivec3(brick.xy >> halvings, brick.z);`;
+
+// Where a ray meets the cells of a grid. A ray asks for a brick's entry once.
+export function volumeHead(variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels' | 'hasHalved' | 'countsFetches'>): string {
+    const counted = variant.countsFetches ? ' ++fetches;' : '';
     return `#version 300 es
 precision highp float;
 precision highp int;
@@ -64,7 +76,11 @@ out vec4 color;
 ${camera(variant.isPerspective)}
 const float edge = 16.0, padded = 18.0, enough = 0.001;
 
-float levelOf(float height) {
+${variant.countsFetches ? 'int fetches = 0;' : ''}
+ivec3 held = ivec3(-1); // the brick whose entry the ray has
+uint heldEntry = 0u;
+
+float levelOf(float height) {${variant.hasUnevenLevels ? counted : ''}
 ${
     variant.hasUnevenLevels
         ? `    float place = (height - levelRange.x) / (levelRange.y - levelRange.x);
@@ -76,35 +92,43 @@ vec3 cellOf(vec3 p) {
     vec2 across = p.xy / cellSize + 0.5 * (cells.xy - 1.0);
     return clamp(vec3(across, levelOf(p.z)), vec3(0.0), cells - 1.0);
 }
+bool isEmpty(uint entry) { return (entry & 0x1FFFFFu) == 0u; }
 // Eight cells of the atlas: code times share, and share.
 vec2 fetchAt(vec3 cell, ivec3 brick, uint entry) {
-    int slot = int(entry & 0xFFFFFFu) - 1;
+    int slot = int(entry & 0x1FFFFFu) - 1;
     ivec3 place = ivec3(slot % slots.x, (slot / slots.x) % slots.y, slot / (slots.x * slots.y));
-    vec3 at = vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5;
+    ivec3 corner = brick;${variant.hasHalved ? halvedCell : ''}
+    vec3 at = vec3(place) * padded + (cell - vec3(corner) * edge) + 1.5;${counted}
     return texture(atlas, at / atlasSize).rg;
 }
 // The bin and the share of cells with values; 'skip' is set in a brick that shows nothing.
 vec2 sampleAt(vec3 p, out ivec3 brick, out bool skip) {
     vec3 cell = cellOf(p);
     brick = ivec3(cell / edge);
-    uint entry = texelFetch(indirection, brick, 0).r;
-    skip = entry == 0u || (entry >> 24) < leastShown;
+    if (brick != held) {
+        heldEntry = texelFetch(indirection, brick, 0).r;${counted}
+        held = brick;
+    }
+    skip = isEmpty(heldEntry) || (heldEntry >> 24) < leastShown;
     if (skip) return vec2(0.0);
-    vec2 found = fetchAt(cell, brick, entry);
+    vec2 found = fetchAt(cell, brick, heldEntry);
     if (found.g < 0.002) return vec2(0.0);
     float code = 255.0 * found.r / found.g;
     return vec2(clamp(floor(binLine.x + binLine.y * code), 0.0, 255.0), found.g);
 }
-// The depth at which the ray leaves a brick.
-float leaves(vec3 start, vec3 along, ivec3 brick) {
-    vec2 low = (vec2(brick.xy) * edge - 0.5 * (cells.xy - 1.0)) * cellSize;
-    vec2 high = low + edge * cellSize;
+// The depth at which the ray leaves a brick. From a brick above which there is nothing it leaves all
+// columns of bricks about it that are as empty.
+float leaves(vec3 start, vec3 along, ivec3 brick, uint entry) {
+    float reach = isEmpty(entry) ? float((entry >> 21) & 7u) : 0.0;
+    float beside = max(reach - 1.0, 0.0);
+    vec2 low = ((vec2(brick.xy) - beside) * edge - 0.5 * (cells.xy - 1.0)) * cellSize;
+    vec2 high = low + (2.0 * beside + 1.0) * edge * cellSize;
     vec2 ahead = mix(low, high, step(0.0, along.xy));
     vec2 depth = (ahead - start.xy) / along.xy;
     float first = 1e30;
     if (abs(along.x) > 1e-9) first = min(first, depth.x);
     if (abs(along.y) > 1e-9) first = min(first, depth.y);
-    if (abs(along.z) > 1e-9) first = min(first, (brickHeights[along.z > 0.0 ? brick.z + 1 : brick.z] - start.z) / along.z);
+    if (reach == 0.0 && abs(along.z) > 1e-9) first = min(first, (brickHeights[along.z > 0.0 ? brick.z + 1 : brick.z] - start.z) / along.z);
     return first;
 }`;
 }
@@ -136,11 +160,14 @@ const putLit = `
 const putMeasured = `
     float alpha = 1.0 - through;
     color = alpha < 1.0 / 512.0 ? vec4(0.0) : vec4(lightnessOf(min(light / alpha, 1.0)), 0.5 * lit / alpha, alpha, 1.0);`;
+const putFetches = `
+    color = vec4(float(fetches & 255), float(fetches >> 8), 0.0, 255.0) / 255.0;`;
 
 // Slices as render/volume/slicer.h has them. A brick without visible values is left at once: the next
 // slice that is looked at is the last one in it.
 export function volumeFragment(variant: VolumeVariant): string {
     const { isLit, endsAtSolids } = variant;
+    const counted = variant.countsFetches ? ' ++fetches;' : '';
     return `${volumeHead(variant)}
 ${endsAtSolids ? solidsText : ''}
 ${isLit ? litText : ''}
@@ -166,7 +193,7 @@ ${isLit ? '    float lit = 0.0, frontLight = -1.0;\n    vec3 looks = normalize(a
     for (int guard = 0; guard < 8192; ++guard) {
         if (k >= last || through < enough) break;
         if (skip) {
-            float exit = min(leaves(start, along, brick), leave);
+            float exit = min(leaves(start, along, brick, heldEntry), leave);
             float ahead = floor((exit - near) / stepM);
             if (ahead > k) { k = min(ahead, last); front = vec2(0.0);${isLit ? ' frontLight = -1.0;' : ''} if (k >= last) break; }
         }
@@ -177,7 +204,7 @@ ${isLit ? '    float lit = 0.0, frontLight = -1.0;\n    vec3 looks = normalize(a
         if (share > 0.0 && front.x + back.x > 0.0) {
             float one = front.y > 0.0 ? front.x : back.x;
             float other = back.y > 0.0 ? back.x : front.x;
-            vec4 look = texelFetch(transfer, ivec2(int(other), int(one)), 0);
+            vec4 look = texelFetch(transfer, ivec2(int(other), int(one)), 0);${counted}
             float inside = (min(depth, leave) - max(depth - stepM, enter)) / stepM;
             float seen = through * (1.0 - exp(-look.a * lengthOfStep * share * max(inside, 0.0)));
             light += seen * look.rgb;
@@ -187,7 +214,7 @@ ${isLit ? stepLit : ''}
         front = back;
         k += 1.0;
     }
-${variant.measuresLight ? putMeasured : isLit ? putLit : '    color = vec4(light, 1.0 - through);'}
+${variant.countsFetches ? putFetches : variant.measuresLight ? putMeasured : isLit ? putLit : '    color = vec4(light, 1.0 - through);'}
 }`;
 }
 
@@ -197,6 +224,8 @@ export function groundFragment(isPerspective: boolean): string {
 precision highp float;
 precision highp usampler2D;
 uniform usampler2D coverage;
+uniform vec2 columns; // of the grid
+uniform float columnsATexel; // along each side
 uniform vec2 halfSize; // of the grid, in meters
 uniform float ground; // drawn height
 uniform vec3 page, beyond, notSeen, seenAloft, seen, hatch;
@@ -217,7 +246,7 @@ void main() {
         color = vec4(mix(beyond, page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
         return;
     }
-    uint state = texelFetch(coverage, ivec2(place * vec2(textureSize(coverage, 0))), 0).r;
+    uint state = texelFetch(coverage, ivec2(place * columns / columnsATexel), 0).r;
     vec3 shade = state == 2u ? seen : state == 1u ? seenAloft : notSeen;
     if (state == 0u) {
         vec2 p = floor(pixel());

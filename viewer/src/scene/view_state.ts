@@ -17,6 +17,9 @@ export interface ViewState {
     opacity: number;
     least: number | null; // weaker echo is not shown
     colors: string; // a table; empty: the moment's own
+    quality: string; // a rung of the ladder; empty: as time allows
+    memoryMib: number; // what the page may hold of grids; read when it is opened
+    countsFetches: boolean; // the page tells how many texels a pixel asks for
     drafts: Draft[]; // tables that the user made, at most one of a moment; they go before `colors`
     layers: Layers;
     units: Units;
@@ -33,6 +36,9 @@ export const usualState: ViewState = {
     opacity: 1,
     least: null,
     colors: '',
+    quality: '',
+    memoryMib: 256,
+    countsFetches: false,
     drafts: [],
     layers: usualLayers,
     units: usualUnits,
@@ -62,6 +68,9 @@ export function addressOf(state: ViewState): string {
     if (!state.hasGround) parts.push(['ground', '0']);
     if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
     if (state.colors) parts.push(['colors', state.colors]);
+    if (state.quality) parts.push(['quality', state.quality]);
+    if (state.memoryMib !== usualState.memoryMib) parts.push(['memory', String(state.memoryMib)]);
+    if (state.countsFetches) parts.push(['count-fetches', '1']);
     for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
     parts.push(...layersAddress(state.layers));
     if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
@@ -106,6 +115,9 @@ export function stateOf(text: string): ViewState {
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
         least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
         colors: (query.get('colors') ?? '').slice(0, 100),
+        quality: (query.get('quality') ?? '').slice(0, 100),
+        memoryMib: number(query.get('memory'), 4, 4096, usual.memoryMib),
+        countsFetches: query.get('count-fetches') === '1',
         drafts: draftsOf(query.getAll('table')),
         layers: layersOf(query),
         units: unitsOf(query.get('units') ?? ''),

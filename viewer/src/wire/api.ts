@@ -119,8 +119,9 @@ export async function times(domain: string, moment: string, limit: number, to?: 
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
     `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
-export async function packed(domain: string, moment: string, time: string, signal?: AbortSignal): Promise<ArrayBuffer> {
-    return (await ask(`${gridPath(domain, moment, time)}/packed`, signal)).arrayBuffer();
+// `query`: the parameters of docs/web/packed-grid.md.
+export async function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
+    return (await ask(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, signal)).arrayBuffer();
 }
 // A grid for an instant between volumes.
 export async function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {

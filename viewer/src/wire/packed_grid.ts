@@ -28,6 +28,7 @@ export interface Site {
 
 export interface PackedGrid {
     id: string;
+    halvings: number; // how often columns and rows were halved
     projection: number;
     nx: number;
     ny: number;
@@ -92,36 +93,114 @@ function readSites(view: DataView, at: number, count: number): Site[] {
     return sites;
 }
 
-// The whole of a grid: its table, states and codes.
-export function readPackedGrid(bytes: Uint8Array): PackedGrid {
-    need(isMagic(bytes), 'this is no packed grid');
-    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-    const u32 = (at: number) => view.getUint32(at, true);
-    const f64 = (at: number) => view.getFloat64(at, true);
-    const big = (at: number) => Number(view.getBigUint64(at, true));
-    const ms = (at: number) => Number(view.getBigInt64(at, true));
-    need(u32(8) === 1 && u32(12) === headerBytes, 'the packed grid has another version');
-    need(big(16) === bytes.byteLength, 'the packed grid is cut');
-    need(u32(160) === 0, 'a part of a packed grid is no grid');
+// The bricks [first, end) of a grid's table.
+export interface PackedBricks {
+    id: string;
+    halvings: number;
+    first: number;
+    end: number;
+    firstStates: number; // number of the first block of states among all of the grid
+    states: Uint8Array;
+    firstBlock: number; // the same of codes
+    codes: Uint8Array | Uint16Array;
+}
+
+export const enum Part {
+    whole = 0,
+    table = 1,
+    bricks = 2,
+}
+
+// The numbers of the header, by their offsets.
+class Header {
+    private view: DataView;
+    readonly part: Part;
+    readonly codeBytes: number;
+    readonly cells: number; // of a brick
+
+    constructor(private bytes: Uint8Array) {
+        need(isMagic(bytes), 'this is no packed grid');
+        this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+        need(this.u32(8) === 1 && this.u32(12) === headerBytes, 'the packed grid has another version');
+        need(this.big(16) === bytes.byteLength, 'the packed grid is cut');
+        this.part = this.u32(160);
+        this.codeBytes = this.u32(108);
+        need(this.codeBytes === 1 || this.codeBytes === 2, 'codes have one byte or two');
+        this.cells = this.u32(120) ** 3;
+    }
+    u32(at: number): number {
+        return this.view.getUint32(at, true);
+    }
+    f32(at: number): number {
+        return this.view.getFloat32(at, true);
+    }
+    f64(at: number): number {
+        return this.view.getFloat64(at, true);
+    }
+    big(at: number): number {
+        return Number(this.view.getBigUint64(at, true));
+    }
+    ms(at: number): number {
+        return Number(this.view.getBigInt64(at, true));
+    }
+    get id(): string {
+        return this.view.getBigUint64(24, true).toString(16).padStart(16, '0');
+    }
+    get data(): DataView {
+        return this.view;
+    }
+    // The section of the blocks of states or of codes; its offset stands at `offsetAt`.
+    section(offsetAt: number, size: number): Uint8Array {
+        if (size === 0) return new Uint8Array(0);
+        const from = this.big(offsetAt);
+        need(from + size <= this.bytes.byteLength, 'the packed grid is cut');
+        return this.bytes.subarray(from, from + size);
+    }
+    codes(count = this.u32(196) * this.cells): Uint8Array | Uint16Array {
+        const section = this.section(240, count * this.codeBytes);
+        // A copy is aligned, and does not hold the rest of the answer in memory.
+        const own = section.slice();
+        return this.codeBytes === 1 ? own : new Uint16Array(own.buffer);
+    }
+}
+
+function readTable(header: Header, grid: PackedGrid): void {
+    const tableAt = header.big(224);
+    const view = header.data;
+    const rows = grid.kind.length;
+    need(tableAt + rows * rowBytes <= view.byteLength, 'the packed grid is cut');
+    for (let i = 0; i < rows; ++i) {
+        const at = tableAt + i * rowBytes;
+        grid.kind[i] = view.getUint8(at);
+        grid.state[i] = view.getUint8(at + 1);
+        grid.valueCount[i] = view.getUint16(at + 2, true);
+        grid.leastCode[i] = view.getUint16(at + 4, true);
+        grid.greatestCode[i] = view.getUint16(at + 6, true);
+        grid.block[i] = view.getUint32(at + 8, true);
+    }
+}
+
+// A whole grid, or the table of one, which has no states and codes.
+export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole: boolean } {
+    const header = new Header(bytes);
+    need(header.part !== Part.bricks, 'a part of a packed grid is no grid');
+    const u32 = (at: number) => header.u32(at);
+    const f64 = (at: number) => header.f64(at);
     const nz = u32(44);
-    const brickEdge = u32(120);
     const bricks: [number, number, number] = [u32(124), u32(128), u32(132)];
     const rows = u32(204);
     need(rows === bricks[0] * bricks[1] * bricks[2], 'the table does not fit the bricks');
-    const cells = brickEdge ** 3;
-    const codeBytes = u32(108);
-    need(codeBytes === 1 || codeBytes === 2, 'codes have one byte or two');
-    const offsets = [208, 216, 224, 232, 240].map(big);
-    const [levelsAt, sitesAt, tableAt, statesAt, codesAt] = offsets as [number, number, number, number, number];
-    const stateBlocks = u32(188);
-    const codeBlocks = u32(196);
-    need(levelsAt + nz * 8 <= bytes.byteLength && tableAt + rows * rowBytes <= bytes.byteLength, 'the packed grid is cut');
-    need(statesAt + (stateBlocks * cells) / 4 <= bytes.byteLength, 'the packed grid is cut');
-    need(codesAt + codeBlocks * cells * codeBytes <= bytes.byteLength, 'the packed grid is cut');
+    const [stateBlocks, codeBlocks] = [u32(188), u32(196)];
+    const levelsAt = header.big(208);
+    need(levelsAt + nz * 8 <= bytes.byteLength, 'the packed grid is cut');
     const levelsM = new Float64Array(nz);
     for (let z = 0; z < nz; ++z) levelsM[z] = f64(levelsAt + 8 * z);
+    const isWhole = header.part === Part.whole;
+    const hasValuesAlone = isWhole && (u32(172) & 4) !== 0;
+    const hasCells = isWhole && !hasValuesAlone;
     const grid: PackedGrid = {
-        id: view.getBigUint64(24, true).toString(16).padStart(16, '0'),
+        id: header.id,
+        halvings: u32(164),
         projection: u32(32),
         nx: u32(36),
         ny: u32(40),
@@ -131,43 +210,102 @@ export function readPackedGrid(bytes: Uint8Array): PackedGrid {
         parallelsDeg: [f64(72), f64(80)],
         offsetCells: [f64(88), f64(96)],
         momentNumber: u32(104),
-        codeBytes,
-        firstValue: view.getFloat32(112, true),
-        step: view.getFloat32(116, true),
-        brickEdge,
+        codeBytes: header.codeBytes,
+        firstValue: header.f32(112),
+        step: header.f32(116),
+        brickEdge: u32(120),
         bricks,
-        timeMs: ms(136),
-        startMs: ms(144),
-        endMs: ms(152),
+        timeMs: header.ms(136),
+        startMs: header.ms(144),
+        endMs: header.ms(152),
         isPartial: (u32(172) & 1) !== 0,
         isProvisional: (u32(172) & 2) !== 0,
         levelsM,
-        sites: readSites(view, sitesAt, u32(200)),
+        sites: readSites(header.data, header.big(216), u32(200)),
         kind: new Uint8Array(rows),
         state: new Uint8Array(rows),
         valueCount: new Uint16Array(rows),
         leastCode: new Uint16Array(rows),
         greatestCode: new Uint16Array(rows),
         block: new Uint32Array(rows),
-        states: stateBlocks === 0 ? new Uint8Array(0) : bytes.subarray(statesAt, statesAt + (stateBlocks * cells) / 4),
-        codes: new Uint8Array(0),
+        states: hasCells ? header.section(232, (stateBlocks * header.cells) / 4) : new Uint8Array(0),
+        codes: hasCells ? header.codes() : new Uint8Array(0),
     };
-    for (let i = 0; i < rows; ++i) {
-        const at = tableAt + i * rowBytes;
-        grid.kind[i] = view.getUint8(at);
-        grid.state[i] = view.getUint8(at + 1);
-        grid.valueCount[i] = view.getUint16(at + 2, true);
-        grid.leastCode[i] = view.getUint16(at + 4, true);
-        grid.greatestCode[i] = view.getUint16(at + 6, true);
-        grid.block[i] = u32(at + 8);
+    readTable(header, grid);
+    if (hasValuesAlone) spreadValues(header, grid);
+    else if (isWhole) needBlocks(grid, stateBlocks, codeBlocks);
+    return { grid, isWhole };
+}
+
+// Puts the codes of values alone into the cells that have them, whose states stand beside. Each code is
+// told by its difference from the one before it.
+function spreadValues(header: Header, grid: PackedGrid): void {
+    const { cells } = header;
+    const states = header.section(232, (header.u32(188) * cells) / 4);
+    const values = header.codes(header.u32(196));
+    const count = (kind: BrickKind) => grid.kind.reduce((sum, one) => sum + (one === kind ? 1 : 0), 0);
+    const codeBricks = count(BrickKind.codes);
+    need(count(BrickKind.states) + codeBricks === header.u32(188), 'a block of states is missing');
+    const codes = grid.codeBytes === 1 ? new Uint8Array(codeBricks * cells) : new Uint16Array(codeBricks * cells);
+    grid.states = new Uint8Array((count(BrickKind.states) * cells) / 4);
+    let [block, value, toStates, toCodes] = [0, 0, 0, 0];
+    for (let i = 1; i < values.length; ++i) values[i]! += values[i - 1]!;
+    for (const kind of grid.kind) {
+        if (kind === BrickKind.uniform) continue;
+        const four = states.subarray((block * cells) / 4, (++block * cells) / 4);
+        if (kind === BrickKind.states) {
+            grid.states.set(four, toStates);
+            toStates += four.length;
+            continue;
+        }
+        for (let i = 0; i < four.length; ++i, toCodes += 4) {
+            const bits = four[i]!;
+            if (bits === 0) continue;
+            for (let cell = 0; cell < 4; ++cell) {
+                const state = (bits >> (2 * cell)) & 3;
+                codes[toCodes + cell] = state === CellState.value ? values[value++]! : state;
+            }
+        }
+    }
+    need(value === values.length, 'there are not as many codes as values');
+    grid.codes = codes;
+}
+
+function needBlocks(grid: PackedGrid, stateBlocks: number, codeBlocks: number): void {
+    for (let i = 0; i < grid.kind.length; ++i) {
         need(grid.kind[i] !== BrickKind.states || grid.block[i]! < stateBlocks, 'a block of states is missing');
         need(grid.kind[i] !== BrickKind.codes || grid.block[i]! < codeBlocks, 'a block of codes is missing');
     }
-    if (codeBlocks > 0) {
-        const section = bytes.slice(codesAt, codesAt + codeBlocks * cells * codeBytes);
-        grid.codes = codeBytes === 1 ? section : new Uint16Array(section.buffer);
-    }
+}
+
+// The whole of a grid: its table, states and codes.
+export function readPackedGrid(bytes: Uint8Array): PackedGrid {
+    const { grid, isWhole } = readGridOrTable(bytes);
+    need(isWhole, 'a part of a packed grid is no grid');
     return grid;
+}
+
+export function readPackedBricks(bytes: Uint8Array): PackedBricks {
+    const header = new Header(bytes);
+    need(header.part === Part.bricks, 'these are no bricks of a packed grid');
+    const [first, end] = [header.u32(176), header.u32(180)];
+    return {
+        id: header.id,
+        halvings: header.u32(164),
+        first,
+        end,
+        firstStates: header.u32(184),
+        states: header.section(232, (header.u32(188) * header.cells) / 4),
+        firstBlock: header.u32(192),
+        codes: header.codes(),
+    };
+}
+
+// A grid of which the table was there, with the cells of some bricks; its other bricks must not be read.
+export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
+    const block = grid.block.slice();
+    for (let i = bricks.first; i < bricks.end; ++i) block[i]! -= grid.kind[i] === BrickKind.codes ? bricks.firstBlock : bricks.firstStates;
+    return { ...grid, block, states: bricks.states, codes: bricks.codes };
 }
 
 // The code of a cell: 0 not seen, 1 no echo, 2 range folded, from 3 on a value.

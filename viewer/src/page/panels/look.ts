@@ -1,6 +1,7 @@
 // How the volume is shown: colors, threshold, opacity, heights, and from where.
 
 import { valueText } from '../../tables/units';
+import { usualRungs } from '../../renderer/ladder';
 import { App } from '../app';
 import { button, element, leaveByEscape, press, putOptions } from '../dom';
 import { Drawing } from '../drawing';
@@ -48,6 +49,23 @@ function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     slider('exaggeration', value => (app.state.exaggeration = value));
 }
 
+// Which way of drawing is taken: as time allows, or one of the ladder.
+function addQuality(app: App): void {
+    const select = element<HTMLSelectElement>('quality');
+    const option = (value: string, text: string) => {
+        const one = document.createElement('option');
+        one.value = value;
+        one.textContent = text;
+        return one;
+    };
+    select.append(option('', texts.asTimeAllows), ...usualRungs.map(({ name, dE }) => option(name, texts.rung(name, dE))));
+    select.addEventListener('change', () => {
+        app.state.quality = select.value;
+        app.changed();
+    });
+    app.on('view', () => (select.value = app.state.quality));
+}
+
 export function openSettings(drawing: Drawing, isOpen: boolean): void {
     element('settings').hidden = !isOpen;
     element('open').setAttribute('aria-expanded', String(isOpen));
@@ -60,6 +78,7 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
         ['least-name', texts.threshold],
         ['opacity-name', texts.opacity],
         ['exaggeration-name', texts.exaggeration],
+        ['quality-name', texts.quality],
         ['open', texts.settings],
     ] as const)
         element(id).textContent = text;
@@ -71,6 +90,7 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
         editing.choosePreset((event.target as HTMLSelectElement).value);
     });
     addSliders(app, drawing, editing);
+    addQuality(app);
     element('open').addEventListener('click', () => openSettings(drawing, element('settings').hidden));
     leaveByEscape(element('settings'), 'open', () => openSettings(drawing, false));
     keys.add('Escape', () => openSettings(drawing, false));

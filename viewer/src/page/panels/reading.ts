@@ -7,7 +7,7 @@ import { button, element, labeledButton, leaveByEscape, paragraph } from '../dom
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { Tool } from '../pointers';
-import { ColumnReading, columnAt, readColumn } from '../reading';
+import { ColumnReading, columnAt, gridForColumn, readColumn } from '../reading';
 import { texts } from '../texts';
 
 const mostRows = 10;
@@ -84,12 +84,21 @@ export class Reader implements Tool {
         box.hidden = !this.at || !shown;
         if (!this.at || !shown) return;
         const { grid } = shown.loaded;
-        const column = columnAt(grid, ...this.at);
+        const { at } = this;
+        const column = columnAt(grid, ...at);
         const place = planeOf(grid).toPlace(this.at);
         const title = document.createElement('h2');
         title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
         const body = document.createElement('div');
-        if (column) putColumn(body, readColumn(grid, ...column), this.app.unit, this.app.state.units);
+        if (column) {
+            gridForColumn(shown.loaded, column)
+                .then(exact => {
+                    if (this.at !== at || this.app.shown !== shown) return;
+                    putColumn(body, readColumn(exact, ...column), this.app.unit, this.app.state.units);
+                    this.drawing.draw();
+                })
+                .catch(error => this.app.fail(error));
+        }
         box.replaceChildren(this.close, title, body);
         this.drawing.draw();
     }

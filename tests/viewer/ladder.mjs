@@ -1,0 +1,93 @@
+// Measures the viewer's ladder in Chromium (scripts/viewer-ladder): time of a frame, texels that a pixel asks for,
+// and the difference from the slicer with many slices, for each rung and scene. It prints a table, and with --write puts
+// the figures into the viewer's own table.
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { CheckedPage, Slicer, gridsOf, viewOf } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, stationsText, difference, directory, framesText, size, tablePath, write] = process.argv.slice(2);
+// Each rung is a line of the table.
+const lineOfRung = /^( *\{ name: '([^']+)', .*)cost: [\d.]+, dE: [\d.]+( \},)$/gm;
+const rungs = [...readFileSync(tablePath, 'utf8').matchAll(lineOfRung)].map(([, , name]) => name);
+const frames = Number(framesText);
+const [width, height] = size.split('x').map(Number);
+const referenceSlices = '2048';
+const scenes = [
+  { name: 'squall line', station: 'KLBB', moment: 'REF', azimuth: 180, tilt: 60, zoom: 1, field: 40, exaggeration: 5, opacity: 1, at: [0, 0, 5] },
+  { name: 'its cells', station: 'KLBB', moment: 'REF', azimuth: 217, tilt: 71, zoom: 3, field: 40, exaggeration: 3, opacity: 1.5, at: [-40, 30, 4] },
+  { name: 'its wind', station: 'KLBB', moment: 'VEL', azimuth: 180, tilt: 55, zoom: 1.5, field: 40, exaggeration: 3, opacity: 1, at: [0, 0, 4] },
+  { name: 'its drops', station: 'KLBB', moment: 'ZDR', azimuth: 180, tilt: 50, zoom: 2, field: 40, exaggeration: 3, opacity: 1, at: [0, 0, 4] },
+  { name: 'supercell', station: 'KTLX', moment: 'REF', azimuth: 120, tilt: 78, zoom: 4, field: 40, exaggeration: 2, opacity: 1, at: [-30, 10, 5] },
+];
+
+// Bricks are halved of a grid that is fetched in parts, as one of these is with so little memory (MiB).
+const memoryOf = (rung) => (rung === 'halved bricks' ? 24 : 256);
+
+const browser = await Browser.start();
+const viewers = new Map();
+for (const memory of new Set(rungs.map(memoryOf))) {
+  const viewer = new CheckedPage(await browser.page(width, height), address);
+  await viewer.open(`memory=${memory}`);
+  viewers.set(memory, viewer);
+}
+const stations = stationsText.split(',');
+const slicer = new Slicer(address, await gridsOf(address, stations), difference, directory);
+
+const median = (list) => list.sort((a, b) => a - b)[Math.floor(list.length / 2)];
+
+// The median time of frames of nearly the same view. The first one, for which tables are made, does not count.
+async function frameMs(viewer, scene, quality) {
+  const times = [];
+  for (let i = 0; i <= frames; ++i) {
+    await viewer.show(`${viewOf({ ...scene, azimuth: scene.azimuth + 0.01 * (i + 1) })}&${quality}`);
+    if (i > 0) times.push(Number(await viewer.frameMs()));
+  }
+  return median(times);
+}
+
+async function measure(rung, scene, file) {
+  const viewer = viewers.get(memoryOf(rung));
+  // What is behind is not drawn.
+  await viewer.page.send('Page.bringToFront');
+  const quality = `memory=${memoryOf(rung)}&quality=${encodeURIComponent(rung)}`;
+  const ms = await frameMs(viewer, scene, quality);
+  await viewer.show(`${viewOf(scene)}&${quality}`);
+  await viewer.page.until('document.documentElement.dataset.missing === "0"');
+  const picture = join(directory, 'ladder.ppm');
+  writeFileSync(picture, await viewer.pixels(width, height));
+  const { p99, mean } = slicer.compare(file, picture, scene, ['--slices', referenceSlices]);
+  await viewer.show(`${viewOf(scene)}&${quality}&count-fetches=1`);
+  const fetches = Number(await viewer.page.evaluate('document.documentElement.dataset.fetches'));
+  return { scene: scene.name, ms, dE: p99, mean, fetches };
+}
+
+const rows = rungs.map((rung) => ({ rung, results: [] }));
+for (const scene of scenes) {
+  const file = stations.includes(scene.station) && (await slicer.fileOf(scene.station, scene.moment));
+  if (!file) continue;
+  for (const { rung, results } of rows) {
+    const result = await measure(rung, scene, file);
+    results.push(result);
+    console.error(`${scene.name}, ${rung}: ${result.ms} ms, dE ${result.dE} (mean ${result.mean}), ${result.fetches.toFixed(1)} texels a pixel`);
+  }
+}
+await browser.end();
+
+// What the page says of a rung: its cost over all scenes, and the largest difference of any.
+const total = (results) => results.reduce((sum, { ms }) => sum + ms, 0);
+const costOf = ({ results }) => total(results) / total(rows[0].results);
+const dEOf = ({ results }) => Math.max(...results.map(({ dE }) => dE));
+const row = (cells) => console.log(`| ${cells.join(' | ')} |`);
+const names = rows[0].results.map(({ scene }) => scene);
+row(['rung', ...names.map((name) => `${name}: ms, texels, dE`), 'cost', 'largest dE']);
+row(Array(names.length + 3).fill('---'));
+for (const one of rows) {
+  row([one.rung, ...one.results.map(({ ms, fetches, dE }) => `${ms}, ${fetches.toFixed(1)}, ${dE.toFixed(2)}`), costOf(one).toFixed(2), dEOf(one).toFixed(1)]);
+}
+if (write) {
+  const text = readFileSync(tablePath, 'utf8');
+  const measured = new Map(rows.map((one) => [one.rung, `cost: ${costOf(one).toFixed(2)}, dE: ${dEOf(one).toFixed(1)}`]));
+  writeFileSync(tablePath, text.replace(lineOfRung, (_, before, name, behind) => before + measured.get(name) + behind));
+}

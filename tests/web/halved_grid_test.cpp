@@ -1,0 +1,125 @@
+// Halved grids against the rule, cell by cell.
+#include "web/data/halved_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::web {
+namespace {
+
+using grid::CellStatus;
+
+// Cells of every state in patches, so that there are bricks of each kind; odd sizes.
+grid::Grid patched_grid() {
+    grid::Grid made;
+    made.spec.nx = 53;
+    made.spec.ny = 37;
+    for (int level = 1; level <= 19; ++level)
+        made.spec.levels_m.push_back(500.0 * level);
+    made.values.assign(made.spec.cell_count(), 0.0F);
+    made.status.assign(made.spec.cell_count(), CellStatus::not_seen);
+    std::mt19937 numbers(7);
+    for (int ix = 0; ix < made.spec.nx; ++ix) {
+        for (int iy = 0; iy < made.spec.ny; ++iy) {
+            for (int iz = 0; iz < made.spec.nz(); ++iz) {
+                const std::size_t at = made.spec.index(ix, iy, iz);
+                const int patch = (ix / 16 + iy / 16) % 4;
+                const auto mixed = static_cast<CellStatus>(numbers() % 4);
+                made.status[at] = patch == 0   ? CellStatus::no_echo
+                                  : patch == 1 ? static_cast<CellStatus>(numbers() % 3)
+                                               : mixed;
+                if (made.status[at] == CellStatus::value)
+                    made.values[at] = 0.5F * static_cast<float>(numbers() % 120) - 30;
+            }
+        }
+    }
+    return made;
+}
+
+struct Cell {
+    CellStatus status = CellStatus::not_seen;
+    float value = 0;
+};
+
+// The maximum as the header says it.
+Cell greatest_of(const grid::BrickView& view, int x, int y, int z, bool by_magnitude) {
+    Cell made;
+    bool has_no_echo = false, has_folded = false;
+    for (int ix = 2 * x; ix < std::min(2 * x + 2, view.spec->nx); ++ix) {
+        for (int iy = 2 * y; iy < std::min(2 * y + 2, view.spec->ny); ++iy) {
+            const CellStatus status = view.status(ix, iy, z);
+            has_no_echo |= status == CellStatus::no_echo;
+            has_folded |= status == CellStatus::range_folded;
+            if (status != CellStatus::value) continue;
+            const float value = view.value(ix, iy, z);
+            const bool is_greater =
+                by_magnitude ? std::abs(value) > std::abs(made.value) : value > made.value;
+            if (made.status != CellStatus::value || is_greater) made = {CellStatus::value, value};
+        }
+    }
+    if (made.status == CellStatus::value) return made;
+    if (has_no_echo) return {CellStatus::no_echo, 0};
+    return {has_folded ? CellStatus::range_folded : CellStatus::not_seen, 0};
+}
+
+void expect_maxima(level2::Moment moment, bool by_magnitude) {
+    const grid::BrickGrid whole =
+        grid::BrickGrid::from(patched_grid(), grid::default_quantization(moment));
+    const auto half = halved(whole.view(), moment, 1, HalvedBy::maximum);
+    ASSERT_TRUE(half) << half.error().message;
+    const grid::BrickView view = (*half)->view();
+    ASSERT_EQ(view.spec->nx, 27);
+    ASSERT_EQ(view.spec->ny, 19);
+    int values = 0;
+    for (int x = 0; x < 27; ++x) {
+        for (int y = 0; y < 19; ++y) {
+            for (int z = 0; z < 19; ++z) {
+                const Cell expected = greatest_of(whole.view(), x, y, z, by_magnitude);
+                ASSERT_EQ(view.status(x, y, z), expected.status) << x << ' ' << y << ' ' << z;
+                if (expected.status != CellStatus::value) continue;
+                const float found = view.value(x, y, z);
+                ASSERT_EQ(by_magnitude ? std::abs(found) : found,
+                          by_magnitude ? std::abs(expected.value) : expected.value);
+                ++values;
+            }
+        }
+    }
+    EXPECT_GT(values, 1000);
+}
+
+TEST(HalvedGrid, TheMaximumIsThatOfFourCells) {
+    expect_maxima(level2::Moment::ref, false);
+}
+
+TEST(HalvedGrid, OfCodesOfTwoBytesToo) {
+    expect_maxima(level2::Moment::zdr, false);
+}
+
+TEST(HalvedGrid, OfVelocitiesItIsTheFastest) {
+    expect_maxima(level2::Moment::vel, true);
+}
+
+TEST(HalvedGrid, HalvedTwiceIsTheMaximumOfSixteen) {
+    const grid::BrickGrid whole =
+        grid::BrickGrid::from(patched_grid(), grid::default_quantization(level2::Moment::ref));
+    const auto once = halved(whole.view(), level2::Moment::ref, 1, HalvedBy::maximum);
+    const auto twice = halved(whole.view(), level2::Moment::ref, 2, HalvedBy::maximum);
+    ASSERT_TRUE(once && twice);
+    for (int x = 0; x < 14; ++x) {
+        for (int y = 0; y < 10; ++y) {
+            for (int z = 0; z < 19; ++z) {
+                const Cell expected = greatest_of((*once)->view(), x, y, z, false);
+                ASSERT_EQ((*twice)->view().status(x, y, z), expected.status);
+                if (expected.status == CellStatus::value) {
+                    ASSERT_EQ((*twice)->view().value(x, y, z), expected.value);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::web

@@ -1,0 +1,95 @@
+// The cells of a grid that is too large to be held as a whole: tables of the grid and of its halved ones,
+// the codes of columns of bricks as they come, and the texels that are made of them.
+//
+// A column is known when its codes are there, or when it has none.
+
+import { BrickKind, PackedBricks, PackedGrid } from '../wire/packed_grid';
+import { Filling, ShownCodes, fillSlot, paddedEdge } from './atlas';
+
+type Codes = Uint8Array | Uint16Array;
+
+interface StoredLevel {
+    grid: PackedGrid; // its table
+    columns: Map<number, { codes: Codes; firstBlock: number }>;
+}
+
+export interface MadeColumn {
+    level: number;
+    x: number;
+    y: number;
+    hasValues: boolean[]; // of its bricks, from the bottom
+    texels: Uint8Array; // of the bricks that have values, one behind the other, each 18 x 18 x 18
+}
+
+export const brickTexelBytes = 2 * paddedEdge ** 3;
+
+export class BrickStore {
+    private levels = new Map<number, StoredLevel>();
+
+    constructor(readonly shown: ShownCodes) {}
+
+    hasLevel(level: number): boolean {
+        return this.levels.has(level);
+    }
+
+    // Takes the table of a level, and all codes if the grid has them.
+    addLevel(grid: PackedGrid): void {
+        const level: StoredLevel = { grid, columns: new Map() };
+        this.levels.set(grid.halvings, level);
+        if (grid.codes.length > 0) this.addCodes(level, 0, grid.kind.length, 0, grid.codes);
+    }
+
+    addBricks(bricks: PackedBricks): void {
+        const level = this.levels.get(bricks.halvings);
+        if (level) this.addCodes(level, bricks.first, bricks.end, bricks.firstBlock, bricks.codes);
+    }
+
+    // Blocks stand in the order of the table, so that those of a column follow each other.
+    private addCodes(level: StoredLevel, first: number, end: number, firstBlock: number, codes: Codes): void {
+        const { grid, columns } = level;
+        const layers = grid.bricks[2];
+        const cells = grid.brickEdge ** 3;
+        let block = firstBlock;
+        for (let column = first / layers; column < end / layers; ++column) {
+            const from = block;
+            for (let z = 0; z < layers; ++z) if (grid.kind[column * layers + z] === BrickKind.codes) ++block;
+            if (block > from) columns.set(column, { codes: codes.slice((from - firstBlock) * cells, (block - firstBlock) * cells), firstBlock: from });
+        }
+    }
+
+    drop(levelNumber: number, x: number, y: number): void {
+        const level = this.levels.get(levelNumber);
+        level?.columns.delete(x * level.grid.bricks[1] + y);
+    }
+
+    // The texels of a column. Neighbors whose codes are not there lend no values.
+    make(levelNumber: number, x: number, y: number): MadeColumn {
+        const { grid, columns } = this.levels.get(levelNumber)!;
+        const layers = grid.bricks[2];
+        const cells = grid.brickEdge ** 3;
+        const filling: Filling = {
+            grid,
+            cellsOf: brick => {
+                if (grid.kind[brick] !== BrickKind.codes) return null;
+                const column = columns.get(Math.floor(brick / layers));
+                return column ? { codes: column.codes, from: (grid.block[brick]! - column.firstBlock) * cells } : null;
+            },
+            shownOf: this.shown.table,
+            texels: new Uint8Array(brickTexelBytes),
+            width: paddedEdge,
+            height: paddedEdge,
+        };
+        const hasValues: boolean[] = [];
+        const made: Uint8Array[] = [];
+        for (let z = 0; z < layers; ++z) {
+            const has = fillSlot(filling, x, y, z, 0);
+            hasValues.push(has);
+            if (!has) continue;
+            made.push(filling.texels);
+            filling.texels = new Uint8Array(brickTexelBytes);
+        }
+        const texels = new Uint8Array(made.length * brickTexelBytes);
+        made.forEach((brick, i) => texels.set(brick, i * brickTexelBytes));
+        return { level: levelNumber, x, y, hasValues, texels };
+    }
+}

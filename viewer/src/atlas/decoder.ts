@@ -1,0 +1,33 @@
+// The worker, asked as by a function that answers later.
+
+import { Numbered, WorkerAnswer, WorkerRequest } from './worker';
+
+interface Waiting {
+    done(answer: WorkerAnswer): void;
+    failed(error: Error): void;
+}
+
+export class Decoder {
+    private worker = new Worker('worker.js');
+    private waiting = new Map<number, Waiting>();
+    private count = 0;
+
+    constructor() {
+        this.worker.onmessage = (event: MessageEvent<Numbered<WorkerAnswer & { error?: string }>>) => {
+            const { number, error } = event.data;
+            const waiting = this.waiting.get(number);
+            this.waiting.delete(number);
+            if (error === undefined) waiting?.done(event.data);
+            else waiting?.failed(new Error(error));
+        };
+    }
+
+    // The bytes of a request are given away.
+    ask(request: WorkerRequest): Promise<WorkerAnswer> {
+        const number = ++this.count;
+        return new Promise((done, failed) => {
+            this.waiting.set(number, { done, failed });
+            this.worker.postMessage({ number, ...request }, 'bytes' in request ? [request.bytes] : []);
+        });
+    }
+}

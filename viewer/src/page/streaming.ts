@@ -1,0 +1,300 @@
+// Fetches what the view needs of a grid that is too large to be loaded as a whole, from the middle of the
+// picture outward. Until then its first halved grid is shown; the finest bricks that are there always are.
+
+import { cellSizeM } from '../scene/projection';
+import { paintPages } from '../atlas/page_table';
+import { SlotPool, columnKey } from '../atlas/slot_pool';
+import { WantedColumn, wantedColumns } from '../atlas/view_choice';
+import { GridInParts, LoadedGrid, Renderer } from '../renderer/renderer';
+import { ViewGeometry } from '../camera/geometry';
+import { ApiError, packed } from '../wire/api';
+import { BrickRange, rangesOf } from '../wire/ranges';
+import { Decoder } from '../atlas/decoder';
+
+// A browser has six connections to a server, of which one hears of events.
+const mostFlights = 5;
+// Of a request, before it is compressed.
+const mostRequestBytes = 1024 * 1024;
+// Of all that is looked at for the next requests: a range has the columns of one row of the picture's middle.
+const mostPlannedBytes = 4 * mostRequestBytes;
+// What a range may hold in a row that is not needed.
+const mostSkippedBytes = 64 * 1024;
+const retryMs = 1000;
+const mostFailures = 5;
+
+// How much of what the view needs is there.
+export interface Detail {
+    missing: number; // columns of bricks
+    coarsest: number; // how often the grid was halved, of what is shown in the picture
+}
+
+interface Flight {
+    level: number;
+    columns: Set<string>;
+    abort: AbortController;
+}
+
+// One grid in parts, while it is shown.
+class Stream {
+    private pool: SlotPool;
+    private cells = new Map<string, number>(); // columns whose codes the worker has, and their bytes; the oldest first
+    private tables = new Map<number, 'coming' | 'there'>(); // of halved grids
+    private waitsUntil = 0;
+    private flights: Flight[] = [];
+    private making = new Set<string>();
+    private wanted: WantedColumn[] = [];
+    private wantedKeys = new Set<string>();
+    private failures = 0;
+    private hasEnded = false;
+
+    constructor(
+        private loaded: LoadedGrid,
+        private parts: GridInParts,
+        private renderer: Renderer,
+        private decoder: Decoder,
+        private mostCells: number, // bytes of codes that the worker keeps
+        private changed: () => void,
+        private fail: (error: unknown) => void,
+    ) {
+        const { slots } = loaded.atlas;
+        this.pool = new SlotPool(slots[0] * slots[1] * slots[2]);
+        this.tables.set(0, 'there').set(parts.level, 'there');
+        for (const column of parts.first) {
+            const resident = this.pool.take(column.level, column.x, column.y, column.hasValues, this.wantedKeys);
+            if (!resident) break;
+            this.pool.pin(columnKey(column.level, column.x, column.y));
+            renderer.putBricks(resident.slots, column.texels);
+        }
+        this.paint();
+    }
+
+    end(): void {
+        this.hasEnded = true;
+        for (const { abort } of this.flights) abort.abort();
+    }
+
+    get detail(): Detail {
+        let [missing, coarsest] = [0, 0];
+        for (const { level, key } of this.wanted) {
+            const isThere = this.isThere(level, key);
+            if (!isThere) ++missing;
+            coarsest = Math.max(coarsest, isThere ? level : this.parts.level);
+        }
+        return { missing, coarsest };
+    }
+
+    private isThere(level: number, key: string): boolean {
+        return level === this.parts.level || this.pool.has(key);
+    }
+
+    // Another view: what it needs is fetched, and what it does not need no longer is.
+    look(geometry: ViewGeometry, finest: number): void {
+        const { grid } = this.loaded;
+        const { pyramid, level } = this.parts;
+        const room = this.pool.count - this.parts.first.reduce((sum, column) => sum + column.hasValues.filter(Boolean).length, 0);
+        this.wanted = wantedColumns({ geometry, edge: grid.brickEdge, cellSizeM: cellSizeM(grid) }, pyramid, [finest, level], room);
+        this.wantedKeys = new Set(this.wanted.map(({ key }) => key));
+        for (const key of this.wantedKeys) this.pool.use(key);
+        this.fetchMore();
+    }
+
+    private paint(): void {
+        paintPages(this.loaded.atlas.indirection, this.parts.pyramid, this.pool.columns, this.parts.shownOf);
+        this.renderer.putIndirection();
+    }
+
+    // -- what is needed
+
+    // The columns whose codes the texels of a column are made of.
+    private neighbors({ level, x, y }: WantedColumn): { x: number; y: number; key: string }[] {
+        const { columns } = this.parts.pyramid.levels[level]!;
+        const found = [];
+        for (let nx = Math.max(0, x - 1); nx <= Math.min(columns[0] - 1, x + 1); ++nx) {
+            for (let ny = Math.max(0, y - 1); ny <= Math.min(columns[1] - 1, y + 1); ++ny) {
+                if (this.bytesOf(level, nx * columns[1] + ny) > 0) found.push({ x: nx, y: ny, key: columnKey(level, nx, ny) });
+            }
+        }
+        return found;
+    }
+
+    private bytesOf(level: number, column: number): number {
+        const { layers, levels } = this.parts.pyramid;
+        const { greatest } = levels[level]!;
+        const { brickEdge, codeBytes } = this.loaded.grid;
+        let bricks = 0;
+        for (let z = 0; z < layers; ++z) if (greatest[column * layers + z]! > 0) ++bricks;
+        return bricks * brickEdge ** 3 * codeBytes;
+    }
+
+    private fetchMore(): void {
+        if (this.hasEnded || performance.now() < this.waitsUntil) return;
+        const missing = this.wanted.filter(({ level, key }) => !this.isThere(level, key) && !this.making.has(key));
+        const needed = new Map(missing.map(column => [column, this.neighbors(column).filter(({ key }) => !this.cells.has(key))]));
+        const neededKeys = new Set([...needed.values()].flat().map(({ key }) => key));
+        this.flights = this.flights.filter(flight => {
+            const isNeeded = [...flight.columns].some(key => neededKeys.has(key));
+            if (!isNeeded) flight.abort.abort();
+            return isNeeded;
+        });
+        this.make(missing.filter(column => needed.get(column)!.length === 0));
+        while (this.flights.length < mostFlights) if (!this.fly(missing, needed)) break;
+    }
+
+    // Asks for what is needed first. Returns false if there is nothing to ask for.
+    private fly(missing: WantedColumn[], needed: Map<WantedColumn, { x: number; y: number; key: string }[]>): boolean {
+        const onTheWay = new Set(this.flights.flatMap(({ columns }) => [...columns]));
+        const next = missing.find(column => needed.get(column)!.some(({ key }) => !onTheWay.has(key)));
+        if (!next) return false;
+        const { level } = next;
+        const table = this.tables.get(level);
+        if (!table) this.fetchTable(level);
+        if (table !== 'there') return this.flyAnother(missing, needed, level);
+        const along = this.parts.pyramid.levels[level]!.columns[1];
+        const numbers = new Map<number, string>();
+        let bytes = 0;
+        for (const column of missing) {
+            if (column.level !== level || bytes > mostPlannedBytes) continue;
+            for (const { x, y, key } of needed.get(column)!) {
+                if (onTheWay.has(key) || numbers.has(x * along + y)) continue;
+                numbers.set(x * along + y, key);
+                bytes += this.bytesOf(level, x * along + y);
+            }
+        }
+        const weight = (column: number) => this.bytesOf(level, column);
+        for (const range of rangesOf([...numbers.keys()], this.parts.pyramid.layers, weight, mostSkippedBytes, mostRequestBytes)) {
+            if (this.flights.length >= mostFlights) break;
+            void this.fetchBricks(level, range);
+        }
+        return true;
+    }
+
+    // While the table of a level comes, bricks of the others do.
+    private flyAnother(missing: WantedColumn[], needed: Map<WantedColumn, { x: number; y: number; key: string }[]>, level: number): boolean {
+        const others = missing.filter(column => column.level !== level);
+        return others.length > 0 && this.fly(others, needed);
+    }
+
+    // -- what comes
+
+    private query(level: number): Record<string, string> {
+        const { id } = this.loaded.grid;
+        return level > 0 ? { half: String(level), by: 'maximum', id } : { id };
+    }
+
+    private fetchTable(level: number): void {
+        this.tables.set(level, 'coming');
+        const { domain, moment, time, key } = this.parts;
+        packed(domain, moment, time, { ...this.query(level), part: 'table' })
+            .then(bytes => this.decoder.ask({ kind: 'level', key, bytes }))
+            .then(() => {
+                this.tables.set(level, 'there');
+                this.fetchMore();
+            })
+            .catch(error => {
+                this.tables.delete(level);
+                this.stumble(error);
+            });
+    }
+
+    private async fetchBricks(level: number, range: BrickRange): Promise<void> {
+        const { domain, moment, time, key } = this.parts;
+        const { layers, levels } = this.parts.pyramid;
+        const along = levels[level]!.columns[1];
+        const columns = new Map<string, number>();
+        for (let number = range.first / layers; number < range.end / layers; ++number) {
+            const bytes = this.bytesOf(level, number);
+            if (bytes > 0) columns.set(columnKey(level, Math.floor(number / along), number % along), bytes);
+        }
+        const flight: Flight = { level, columns: new Set(columns.keys()), abort: new AbortController() };
+        this.flights.push(flight);
+        try {
+            const bytes = await packed(domain, moment, time, { ...this.query(level), bricks: `${range.first}-${range.end - 1}` }, flight.abort.signal);
+            await this.decoder.ask({ kind: 'bricks', key, bytes });
+            for (const [column, size] of columns) this.cells.set(column, size);
+            this.failures = 0;
+            this.dropCells();
+        } catch (error) {
+            this.stumble(error);
+        }
+        this.flights = this.flights.filter(one => one !== flight);
+        this.fetchMore();
+    }
+
+    // The oldest codes go when the worker holds too many.
+    private dropCells(): void {
+        let bytes = [...this.cells.values()].reduce((sum, size) => sum + size, 0);
+        const columns = [];
+        for (const [key, size] of this.cells) {
+            if (bytes <= this.mostCells) break;
+            bytes -= size;
+            this.cells.delete(key);
+            const [level, x, y] = key.split('/').map(Number) as [number, number, number];
+            columns.push({ level, x, y });
+        }
+        if (columns.length > 0) void this.decoder.ask({ kind: 'drop', key: this.parts.key, columns });
+    }
+
+    private make(columns: WantedColumn[]): void {
+        if (columns.length === 0) return;
+        for (const { key } of columns) this.making.add(key);
+        const asked = columns.map(({ level, x, y }) => ({ level, x, y }));
+        this.decoder
+            .ask({ kind: 'make', key: this.parts.key, columns: asked })
+            .then(({ columns: made }) => {
+                for (const { key } of columns) this.making.delete(key);
+                if (this.hasEnded) return;
+                for (const { level, x, y, hasValues, texels } of made!) {
+                    // There is room for all that is wanted; what no longer is may find none.
+                    const resident = this.pool.take(level, x, y, hasValues, this.wantedKeys);
+                    if (resident) this.renderer.putBricks(resident.slots, texels);
+                }
+                this.paint();
+                this.changed();
+                this.fetchMore();
+            })
+            .catch(error => this.fail(error));
+    }
+
+    // Too much is asked at once, or the network fails: it is asked again a little later. A grid that is gone
+    // is told.
+    private stumble(error: unknown): void {
+        if (this.hasEnded || (error instanceof DOMException && error.name === 'AbortError')) return;
+        const isGone = error instanceof ApiError && error.status !== 503;
+        if (isGone || ++this.failures > mostFailures) {
+            this.hasEnded = true;
+            this.fail(error);
+        } else {
+            this.waitsUntil = performance.now() + retryMs;
+            window.setTimeout(() => this.fetchMore(), retryMs + 1);
+        }
+    }
+}
+
+// What is shown now, in parts or not.
+export class Streaming {
+    private stream: Stream | null = null;
+
+    constructor(
+        private renderer: Renderer,
+        private decoder: Decoder,
+        private mostCells: number, // bytes of codes that the worker keeps
+        private changed: () => void,
+        private fail: (error: unknown) => void,
+    ) {}
+
+    // After the renderer was given the grid.
+    show(loaded: LoadedGrid): void {
+        this.stream?.end();
+        this.stream = loaded.stream ? new Stream(loaded, loaded.stream, this.renderer, this.decoder, this.mostCells, this.changed, this.fail) : null;
+    }
+
+    // `finest`: how often the finest bricks that are wanted were halved.
+    look(geometry: ViewGeometry, finest: number): void {
+        this.stream?.look(geometry, finest);
+    }
+
+    // Null for a grid that is there as a whole.
+    get detail(): Detail | null {
+        return this.stream?.detail ?? null;
+    }
+}

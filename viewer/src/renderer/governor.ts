@@ -1,0 +1,52 @@
+// Keeps the time of a frame while the camera moves: of the rungs whose error is allowed it takes the most
+// exact one that is expected to be drawn in time, else the fastest.
+//
+// What a frame will take is expected from those before: each tells how long the first rung would have
+// taken, by the costs of the ladder.
+
+import { Rung } from './ladder';
+
+// A more exact rung is taken when it is expected to need this share of the time, so that the picture
+// does not go to and fro between two rungs.
+const margin = 0.8;
+// How much the newest frame counts.
+const weight = 0.5;
+
+export class Governor {
+    private firstRungMs: number | null = null;
+    private moving: Rung | null = null;
+
+    constructor(
+        private rungs: readonly Rung[],
+        private targetMs: number,
+        private mostDE: number,
+    ) {}
+
+    // The rung of the next frame. A picture that stands still is drawn by the first one.
+    next(isMoving: boolean): Rung {
+        const still = this.rungs[0]!;
+        if (!isMoving) {
+            this.moving = null;
+            return still;
+        }
+        const allowed = this.rungs.filter(rung => rung.dE <= this.mostDE).sort((one, other) => one.dE - other.dE);
+        if (allowed.length === 0) return still;
+        const unit = this.firstRungMs;
+        if (unit === null) return allowed[0]!;
+        const now = this.moving;
+        const fits = (rung: Rung) => rung.cost * unit <= this.targetMs * (now && rung.dE < now.dE ? margin : 1);
+        const fastest = allowed.reduce((one, other) => (other.cost < one.cost ? other : one));
+        this.moving = allowed.find(fits) ?? fastest;
+        return this.moving;
+    }
+
+    took(rung: Rung, ms: number): void {
+        const unit = ms / rung.cost;
+        this.firstRungMs = this.firstRungMs === null ? unit : this.firstRungMs + weight * (unit - this.firstRungMs);
+    }
+
+    // Another grid or another view of it: what is known of the time no longer counts.
+    forget(): void {
+        this.firstRungMs = null;
+    }
+}

@@ -1,0 +1,34 @@
+// What each way of drawing costs and how far it is from the slicer. scripts/viewer-ladder measures and
+// writes the rows below; docs/viewer.md has the same table.
+//
+// dE is CIEDE2000 against the slicer with 2048 slices: the 99th percentile over the pixels that show
+// echo in either picture, of the scene where it is largest.
+
+export interface Quality {
+    name: string;
+    slices: number;
+    grain: number; // a ray for so many pixels along each side
+    isNearest: boolean; // cells are not interpolated
+    halvings: number; // how often the columns and rows of the grid were halved
+}
+
+export interface Rung extends Quality {
+    cost: number; // time of a frame, as a share of that of the first rung
+    dE: number;
+}
+
+// The first is that of a picture that stands still.
+export const rungs: readonly Rung[] = [
+    { name: '256 slices', slices: 256, grain: 1, isNearest: false, halvings: 0, cost: 1.00, dE: 8.6 },
+    { name: '512 slices', slices: 512, grain: 1, isNearest: false, halvings: 0, cost: 2.48, dE: 3.2 },
+    { name: '128 slices', slices: 128, grain: 1, isNearest: false, halvings: 0, cost: 0.84, dE: 19.9 },
+    { name: '64 slices', slices: 64, grain: 1, isNearest: false, halvings: 0, cost: 0.65, dE: 33.4 },
+    { name: '256 slices, half resolution', slices: 256, grain: 2, isNearest: false, halvings: 0, cost: 0.44, dE: 9.9 },
+    { name: '128 slices, half resolution', slices: 128, grain: 2, isNearest: false, halvings: 0, cost: 0.30, dE: 17.6 },
+    { name: '64 slices, half resolution', slices: 64, grain: 2, isNearest: false, halvings: 0, cost: 0.19, dE: 31.9 },
+    { name: 'nearest cell', slices: 256, grain: 1, isNearest: true, halvings: 0, cost: 0.97, dE: 21.2 },
+    { name: 'halved bricks', slices: 256, grain: 1, isNearest: false, halvings: 1, cost: 1.99, dE: 45.0 },
+];
+
+// Those that any grid can be drawn by: bricks are halved of a grid in parts alone.
+export const usualRungs = rungs.filter(({ halvings }) => halvings === 0);

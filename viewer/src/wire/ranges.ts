@@ -1,0 +1,31 @@
+// Which ranges of bricks are asked for, so that few requests fetch many columns.
+
+export interface BrickRange {
+    first: number;
+    end: number; // behind the last
+}
+
+// `columns`: numbers of columns of bricks, `layers` bricks each. Columns that follow each other are asked
+// for at once, and so are those between which there is little: `weightOf` says how many bytes a column
+// takes, of which a range skips at most `mostSkipped` in a row and holds at most `most`.
+export function rangesOf(columns: readonly number[], layers: number, weightOf: (column: number) => number, mostSkipped: number, most: number): BrickRange[] {
+    const ranges: BrickRange[] = [];
+    let last: BrickRange | null = null;
+    let weight = 0;
+    for (const column of [...new Set(columns)].sort((one, other) => one - other)) {
+        let between = 0;
+        if (last) for (let skipped = last.end / layers; skipped < column && between <= mostSkipped; ++skipped) between += weightOf(skipped);
+        const more = between + weightOf(column);
+        if (last && between <= mostSkipped && weight + more <= most && (column + 1) * layers - last.first <= mostBricks) {
+            last.end = (column + 1) * layers;
+            weight += more;
+        } else {
+            last = { first: column * layers, end: (column + 1) * layers };
+            weight = weightOf(column);
+            ranges.push(last);
+        }
+    }
+    return ranges;
+}
+// The server refuses more.
+const mostBricks = 16384;
