@@ -3,7 +3,7 @@
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { CheckedPage, Slicer, check, gridsOf, mostDifference, shadesOf, viewOf } from './checked_page.mjs';
+import { CheckedPage, Slicer, check, gridsOf, mostDifference, viewOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
 const [address, station, difference, directory, pictures] = process.argv.slice(2);
@@ -184,6 +184,5 @@ rmSync(toml);
 const cut = await savedAs('my-smooth-reflectivity.toml', () => evaluate("document.getElementById('command').click()"));
 check('the command names the file that was saved', (await evaluate('window.copied')).includes('--colors my-smooth-reflectivity.toml'));
 await compare('a threshold, by the file of the command', cut);
-check('the picture has many colors', shadesOf(await viewer.pixels()).size > 50);
 check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
 await browser.end();

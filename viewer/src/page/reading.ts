@@ -1,9 +1,7 @@
 // What the column at a place holds, from the exact codes.
 
 import { cellSizeM } from '../scene/projection';
-import { LoadedGrid } from '../renderer/renderer';
-import { packed } from '../wire/api';
-import { PackedGrid, codeAt, firstValueCode, readPackedBricks, valueOf, withBricks } from '../wire/packed_grid';
+import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 
 export interface LevelReading {
     heightM: number;
@@ -23,15 +21,6 @@ export function columnAt(grid: PackedGrid, xM: number, yM: number): [number, num
     const x = Math.floor(xM / width + 0.5 * grid.nx);
     const y = Math.floor(yM / height + 0.5 * grid.ny);
     return x >= 0 && y >= 0 && x < grid.nx && y < grid.ny ? [x, y] : null;
-}
-
-// The grid with the exact codes of a column. Of a grid in parts they are asked for.
-export async function gridForColumn({ grid, stream }: LoadedGrid, [x, y]: [number, number]): Promise<PackedGrid> {
-    if (!stream) return grid;
-    const [, columns, layers] = grid.bricks;
-    const first = (Math.floor(x / grid.brickEdge) * columns + Math.floor(y / grid.brickEdge)) * layers;
-    const query = { bricks: `${first}-${first + layers - 1}`, id: grid.id };
-    return withBricks(grid, readPackedBricks(new Uint8Array(await packed(stream.domain, stream.moment, stream.time, query))));
 }
 
 export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReading {
