@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -30,7 +31,9 @@ void widen(std::optional<UtcTime> started, std::optional<UtcTime> ended, Totals&
 }
 
 void add(const Record& record, double cost_s, Totals& totals) {
-    if (record.station.empty()) {
+    if (record.kind == TaskKind::statistics) {
+        ++totals.statistics_tasks;
+    } else if (record.kind == TaskKind::frames) {
         ++totals.frame_tasks;
         totals.frames += record.grids;
     } else {
@@ -54,6 +57,7 @@ void add(const Record& record, double cost_s, Totals& totals) {
 void add(const Totals& more, Totals& all) {
     all.grid_tasks += more.grid_tasks;
     all.frame_tasks += more.frame_tasks;
+    all.statistics_tasks += more.statistics_tasks;
     all.files += more.files;
     all.left_out += more.left_out;
     all.grids += more.grids;
@@ -80,6 +84,7 @@ Json json_of(const Totals& totals, const std::string& plan) {
     return {{"plan", plan},
             {"grid_tasks", totals.grid_tasks},
             {"frame_tasks", totals.frame_tasks},
+            {"statistics_tasks", totals.statistics_tasks},
             {"files", totals.files},
             {"left_out", totals.left_out},
             {"grids", totals.grids},
@@ -100,6 +105,7 @@ Totals totals_of(const Json& json) {
     Totals totals;
     totals.grid_tasks = json.at("grid_tasks");
     totals.frame_tasks = json.at("frame_tasks");
+    totals.statistics_tasks = json.at("statistics_tasks");
     totals.files = json.at("files");
     totals.left_out = json.at("left_out");
     totals.grids = json.at("grids");
@@ -121,7 +127,7 @@ Totals totals_of(const Json& json) {
 
 class Check {
   public:
-    Check(const Plan& plan, const CheckOptions& options) : plan_(plan), options_(options) {}
+    Check(const Plan& plan, CheckOptions options) : plan_(plan), options_(std::move(options)) {}
 
     Result<CheckReport> run() {
         if (options_.deep) {
@@ -139,9 +145,23 @@ class Check {
         return std::move(report_);
     }
 
+    // Writes the summary of a directory if all of its records are there.
+    void sum_up(std::size_t first, std::size_t end) {
+        Totals totals;
+        for (std::size_t number = first; number < end; ++number) {
+            const auto done = look_at(number, totals);
+            if (!done || !*done) return;
+        }
+        write_summary(summary_of(first), totals);
+    }
+
   private:
+    [[nodiscard]] fs::path summary_of(std::size_t number) const {
+        return record_path(plan_.directory(), number).parent_path() / summary_name;
+    }
+
     Status directory(std::size_t first, std::size_t end) {
-        const fs::path path = record_path(plan_.directory(), first).parent_path() / summary_name;
+        const fs::path path = summary_of(first);
         if (!options_.deep) {
             if (const auto known = read_summary(path, end - first)) {
                 add(*known, report_.done);
@@ -181,7 +201,7 @@ class Check {
 
     Result<bool> stands(const Task& task, const Record& record) const {
         if (!store_) return false;
-        const auto standing = grids_standing(*store_, plan_.recipe(), task);
+        const auto standing = grids_standing(*store_, plan_, task);
         if (!standing) return pass_on(standing);
         return digest_of(*standing) == record.digest;
     }
@@ -194,7 +214,7 @@ class Check {
                 Json::parse(reinterpret_cast<const char*>(bytes->data()),
                             reinterpret_cast<const char*>(bytes->data()) + bytes->size());
             Totals totals = totals_of(json);
-            const bool is_whole = totals.grid_tasks + totals.frame_tasks == tasks;
+            const bool is_whole = totals.tasks() == tasks;
             if (is_whole && json.at("plan") == plan_.facts().hash) return totals;
         } catch (const std::exception&) {
             // It is made again.
@@ -216,12 +236,32 @@ class Check {
     }
 
     const Plan& plan_;
-    const CheckOptions& options_;
+    const CheckOptions options_;
     std::optional<cache::StoreReader> store_;
     CheckReport report_;
 };
 
+std::size_t records_in(const fs::path& directory) {
+    std::size_t records = 0;
+    std::error_code error;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().native();
+        if (!name.starts_with('.') && name != summary_name) ++records;
+    }
+    return records;
+}
+
 }  // namespace
+
+Status keep_record(const Plan& plan, const Record& record) {
+    if (Status written = write_record(plan.directory(), record); !written) return written;
+    const std::size_t first = record.number / records_a_directory * records_a_directory;
+    const std::size_t end = std::min(first + records_a_directory, plan.facts().tasks());
+    if (records_in(record_path(plan.directory(), first).parent_path()) >= end - first)
+        Check(plan, {}).sum_up(first, end);
+    return {};
+}
 
 Result<CheckReport> check(const Plan& plan, const CheckOptions& options) {
     return Check(plan, options).run();

@@ -1,6 +1,6 @@
 // batch/check.h -- how far a plan is done, by the records of its tasks.
 //
-// The records of a thousand tasks that are all done are summed up once, in
+// The records of a thousand tasks are summed up by the last of these tasks, in
 // PLAN/tasks/00012/summary.json, which appears by rename: the sum of the same records is the same
 // whoever writes it. So checking a plan of millions of tasks reads thousands of files.
 //
@@ -28,8 +28,9 @@ struct StationHours {
 
 // Sums of records.
 struct Totals {
-    std::size_t grid_tasks = 0, frame_tasks = 0;  // done
+    std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;  // done
     std::size_t files = 0, left_out = 0, grids = 0, frames = 0;
+    [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
     double cpu_s = 0, cost_s = 0;  // taken, and what the plan estimated for the same tasks
     std::uint64_t bytes_read = 0, bytes_written = 0, most_memory_bytes = 0;
     std::optional<UtcTime> started, ended;  // of the first, and of the last
@@ -52,6 +53,9 @@ struct CheckOptions {
 };
 
 [[nodiscard]] Result<CheckReport> check(const Plan& plan, const CheckOptions& options);
+
+// Writes the record of a task, and the summary of its directory if it was the last one there.
+[[nodiscard]] Status keep_record(const Plan& plan, const Record& record);
 
 // Returns what tasks left out, with reasons, from their records.
 struct LeftOutFile {

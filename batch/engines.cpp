@@ -13,7 +13,7 @@
 namespace stormcellar::batch {
 namespace {
 
-// One of the two kinds of tasks, as a job array.
+// One kind of tasks, as a job array.
 struct Step {
     const char* name;        // "grids"
     const char* command;     // of `stormcellar batch`
@@ -106,22 +106,34 @@ std::string quoted(const std::string& text) {
 
 TaskLists lists_of(const Plan& plan, const std::vector<std::size_t>& missing) {
     TaskLists lists;
-    for (const std::size_t number : missing)
-        (number < plan.facts().grid_tasks ? lists.grids : lists.frames).push_back(number);
+    const PlanFacts& facts = plan.facts();
+    const std::size_t first_statistics = facts.grid_tasks + facts.frame_tasks;
+    for (const std::size_t number : missing) {
+        auto& list = number < facts.grid_tasks   ? lists.grids
+                     : number < first_statistics ? lists.frames
+                                                 : lists.statistics;
+        list.push_back(number);
+    }
     return lists;
 }
 
 std::vector<SlurmJob> slurm_jobs(const Plan& plan, const TaskLists& tasks,
                                  const EngineOptions& options) {
-    const std::size_t grids = plan.facts().grid_tasks, all = plan.facts().tasks();
+    const std::size_t grids = plan.facts().grid_tasks, frames = grids + plan.facts().frame_tasks;
     std::vector<SlurmJob> jobs;
     if (!tasks.grids.empty()) {
         const Step step{"grids", "run", 0, grids, resources_of_grids(plan, options.threads)};
         jobs.push_back(job_of(plan, step, tasks.grids, options));
     }
     if (!tasks.frames.empty()) {
-        const Step step{"frames", "merge", grids, all, resources_of_frames(plan, options.threads)};
+        const Step step{"frames", "merge", grids, frames,
+                        resources_of_frames(plan, options.threads)};
         jobs.push_back(job_of(plan, step, tasks.frames, options));
+    }
+    if (!tasks.statistics.empty()) {
+        const Step step{"statistics", "merge", frames, plan.facts().tasks(),
+                        resources_of_statistics(plan)};
+        jobs.push_back(job_of(plan, step, tasks.statistics, options));
     }
     return jobs;
 }
@@ -134,13 +146,17 @@ Result<std::string> makefile_of(const Plan& plan, const TaskLists& tasks,
         "MERGE = @{0} batch merge --plan {1} --threads {2} --task\n"
         "GRIDS ={3}\n"
         "FRAMES ={4}\n"
-        ".PHONY: all $(GRIDS) $(FRAMES)\n"
-        "all: $(GRIDS) $(FRAMES)\n"
+        "STATISTICS ={5}\n"
+        ".PHONY: all $(GRIDS) $(FRAMES) $(STATISTICS)\n"
+        "all: $(GRIDS) $(FRAMES) $(STATISTICS)\n"
         "$(GRIDS): grid-%:\n\t$(RUN) $*\n"
-        "$(FRAMES): frame-%:\n\t$(MERGE) $*\n",
+        "$(FRAMES): frame-%:\n\t$(MERGE) $*\n"
+        "$(STATISTICS): statistics-%:\n\t$(MERGE) $*\n"
+        "$(STATISTICS): $(FRAMES)\n",
         in_makefile(quoted(options.program.native())),
         in_makefile(quoted(plan.directory().native())), options.threads,
-        targets_of("grid", tasks.grids), targets_of("frame", tasks.frames));
+        targets_of("grid", tasks.grids), targets_of("frame", tasks.frames),
+        targets_of("statistics", tasks.statistics));
     // The hours of a day need the same grids, which are named once.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_needs;
     for (const std::size_t number : tasks.frames) {

@@ -27,15 +27,15 @@ struct EngineOptions {
     std::size_t array_size = 1000;
 };
 
-// The tasks that are not done, in two steps: grids, then frames.
+// The tasks that are not done, in three steps: grids, then frames, then statistics.
 struct TaskLists {
-    std::vector<std::size_t> grids, frames;
+    std::vector<std::size_t> grids, frames, statistics;
 };
 [[nodiscard]] TaskLists lists_of(const Plan& plan, const std::vector<std::size_t>& missing);
 
 // A job array of Slurm.
 struct SlurmJob {
-    std::string name;  // "grids" or "frames"
+    std::string name;  // "grids", "frames" or "statistics"
     std::string text;  // of the script
 };
 // Returns the jobs in the order in which they are to be submitted; each begins when the one before

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "batch/check.h"
 #include "batch/leftovers.h"
 #include "batch/standing.h"
 #include "batch/usage.h"
@@ -13,16 +14,6 @@
 namespace stormcellar::batch {
 namespace {
 
-Status check_needs(const Plan& plan, const FrameHour& hour) {
-    for (std::size_t need = hour.first_need; need < hour.end_need; ++need) {
-        const auto task = plan.task(need);
-        if (!task) return pass_on(task);
-        if (read_record(plan, *task)) continue;
-        return fail(ErrorCode::unmet, "needs grid task {}, which is not done", need);
-    }
-    return {};
-}
-
 void add(const pipeline::FillReport& report, Record& record) {
     std::set<std::string> noted;  // each frame of a damaged partial notes it
     for (const pipeline::LeftOut& note : report.notes) {
@@ -32,16 +23,27 @@ void add(const pipeline::FillReport& report, Record& record) {
 
 }  // namespace
 
+Status check_needs(const Plan& plan, std::size_t first, std::size_t end) {
+    for (std::size_t need = first; need < end; ++need) {
+        const auto task = plan.task(need);
+        if (!task) return pass_on(task);
+        if (read_record(plan, *task)) continue;
+        return fail(ErrorCode::unmet, "needs task {}, which is not done", need);
+    }
+    return {};
+}
+
 Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const TaskOptions& options) {
     const auto& hour = std::get<FrameHour>(task.work);
     const Recipe& recipe = plan.recipe();
-    if (Status met = check_needs(plan, hour); !met) return pass_on(met);
+    if (Status met = check_needs(plan, hour.first_need, hour.end_need); !met) return pass_on(met);
     auto store = cache::StoreWriter::open(real_file_system(), recipe.cache, false);
     if (!store) return pass_on(store);
     remove_own_leftovers(recipe, task);
     const Usage usage;
     Record record;
     record.number = task.number;
+    record.kind = task.kind();
     record.plan = plan.facts().hash;
     const auto instants = pipeline::instants_between(hour.from, hour.to, recipe.domain->interval);
     std::size_t made = 0;
@@ -54,7 +56,7 @@ Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const Tas
         add(report, record);
     }
     if (options.stop) return fail(ErrorCode::busy, "stopped; the next run continues");
-    const auto standing = grids_standing(*store, recipe, task);
+    const auto standing = grids_standing(*store, plan, task);
     if (!standing) return pass_on(standing);
     record.grids = standing->size();
     record.digest = digest_of(*standing);
@@ -64,7 +66,7 @@ Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const Tas
     if (auto old = read_record(plan, task); made == 0 && old && old->digest == record.digest) {
         return TaskOutcome{true, std::move(*old)};
     }
-    if (Status written = write_record(plan.directory(), record); !written) return pass_on(written);
+    if (Status written = keep_record(plan, record); !written) return pass_on(written);
     return TaskOutcome{false, std::move(record)};
 }
 

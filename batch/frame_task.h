@@ -12,6 +12,9 @@
 
 namespace stormcellar::batch {
 
+// Errors: unmet, naming the first of these tasks that has no record.
+[[nodiscard]] Status check_needs(const Plan& plan, std::size_t first, std::size_t end);
+
 [[nodiscard]] Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task,
                                                  const TaskOptions& options);
 

@@ -8,6 +8,7 @@
 
 #include <sys/stat.h>
 
+#include "batch/check.h"
 #include "batch/leftovers.h"
 #include "batch/source.h"
 #include "batch/standing.h"
@@ -39,7 +40,8 @@ class GridRun {
   public:
     GridRun(const Plan& plan, const Task& task, const TaskOptions& options,
             cache::StoreWriter& store)
-        : recipe_(plan.recipe()),
+        : plan_(plan),
+          recipe_(plan.recipe()),
           task_(task),
           day_(std::get<StationDay>(task.work)),
           options_(options),
@@ -67,7 +69,7 @@ class GridRun {
             if (options_.stop) return fail(ErrorCode::busy, "stopped; the next run continues");
             if (Status taken = take(ingestor, path); !taken) return pass_on(taken);
         }
-        const auto standing = grids_standing(store_, recipe_, task_);
+        const auto standing = grids_standing(store_, plan_, task_);
         if (!standing) return pass_on(standing);
         record_.grids = standing->size();
         record_.digest = digest_of(*standing);
@@ -93,7 +95,7 @@ class GridRun {
     // The files that need not be read again: those before the last one of which there is a grid, if
     // there is a grid of them as they are. Of the last one a grid may be missing.
     Result<std::set<fs::path>> files_done(const std::vector<fs::path>& files) const {
-        const auto standing = grids_standing(store_, recipe_, task_);
+        const auto standing = grids_standing(store_, plan_, task_);
         if (!standing) return pass_on(standing);
         StandingFiles made_of;
         for (const StandingGrid& grid : *standing)
@@ -139,6 +141,7 @@ class GridRun {
         }
     }
 
+    const Plan& plan_;
     const Recipe& recipe_;
     const Task& task_;
     const StationDay& day_;
@@ -155,13 +158,13 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
     if (!store) return pass_on(store);
     remove_own_leftovers(plan.recipe(), task);
     if (auto record = read_record(plan, task)) {
-        const auto standing = grids_standing(*store, plan.recipe(), task);
+        const auto standing = grids_standing(*store, plan, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) == record->digest) return TaskOutcome{true, std::move(*record)};
     }
     auto record = GridRun(plan, task, options, *store).run();
     if (!record) return pass_on(record);
-    if (Status written = write_record(plan.directory(), *record); !written) return pass_on(written);
+    if (Status written = keep_record(plan, *record); !written) return pass_on(written);
     return TaskOutcome{false, std::move(*record)};
 }
 

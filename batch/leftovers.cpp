@@ -37,6 +37,7 @@ bool has_ended(pid_t process) {
 std::vector<fs::path> directories_of(const Recipe& recipe, const Task& task) {
     const auto* const hour = std::get_if<FrameHour>(&task.work);
     const auto* const day = std::get_if<StationDay>(&task.work);
+    if (day == nullptr && hour == nullptr) return {};
     const std::string domain =
         day != nullptr ? recipe.domain_of(day->station) : recipe.domain->name;
     const UtcTime from = day != nullptr ? UtcTime{day->day} - std::chrono::days{1} : hour->from;
@@ -69,7 +70,8 @@ void remove_own_leftovers(const Recipe& recipe, const Task& task) {
 
 std::size_t remove_all_leftovers(const Plan& plan) {
     std::size_t removed = 0;
-    for (const fs::path& root : {plan.recipe().cache, plan.directory() / "tasks"}) {
+    for (const fs::path& root :
+         {plan.recipe().cache, plan.directory() / "tasks", plan.directory() / "statistics"}) {
         std::error_code error;
         std::vector<fs::path> found;
         for (fs::recursive_directory_iterator entry(root, error), end; !error && entry != end;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <map>
 #include <span>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <fcntl.h>
@@ -32,7 +34,7 @@ constexpr std::size_t most_task_bytes = std::size_t{1} << 20;
 constexpr double grid_bytes_a_second = 35e6;
 constexpr double share_of_more_moments = 0.6;
 // Seconds for a million cells of a frame.
-constexpr double advected_s = 0.2, plain_s = 0.005;
+constexpr double advected_s = 0.2, plain_s = 0.005, statistics_s = 0.01;
 
 double cost_of(const Recipe& recipe, const StationDay& day) {
     const auto bytes = static_cast<double>(day.files == 0 ? bytes_of_unlisted_day : day.bytes);
@@ -47,6 +49,14 @@ double cost_of(const Recipe& recipe, const FrameHour& hour) {
     const double a_frame =
         million_cells * (domain.time == grid::TimeMethod::advected ? advected_s : plain_s);
     return std::ceil(a_frame * static_cast<double>(frames * recipe.moments.size()));
+}
+
+double cost_of(const Recipe& recipe, const MonthHour&) {
+    constexpr double days_a_month = 31;
+    const double frames =
+        days_a_month * 3600 / static_cast<double>(recipe.domain->interval.count());
+    return std::ceil(frames * statistics_s * static_cast<double>(recipe.domain->spec.cell_count()) /
+                     1e6);
 }
 
 // The volumes around an hour's frames begin on the hour's day, or on a day that touches it.
@@ -74,6 +84,30 @@ std::vector<FrameHour> hours_of(const Recipe& recipe, const std::vector<StationD
     return found;
 }
 
+// A month's statistics need all of its frames, whose tasks follow each other.
+std::vector<MonthHour> months_of(const Recipe& recipe, const std::vector<FrameHour>& frames,
+                                 std::size_t first_frame_task) {
+    std::map<std::tuple<int, unsigned, int>, MonthHour> found;
+    std::map<std::pair<int, unsigned>, std::pair<std::size_t, std::size_t>> needs;
+    if (!recipe.statistics) return {};
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto day = std::chrono::floor<days>(frames[i].from);
+        const std::chrono::year_month_day date{day};
+        const int year = static_cast<int>(date.year());
+        const auto month = static_cast<unsigned>(date.month());
+        const auto hour = static_cast<int>((frames[i].from - UtcTime{day}) / hours{1});
+        found[{year, month, hour}] = {year, month, hour, 0, 0};
+        needs.try_emplace({year, month}, first_frame_task + i, 0);
+        needs[{year, month}].second = first_frame_task + i + 1;
+    }
+    std::vector<MonthHour> parts;
+    for (auto& [key, part] : found) {
+        std::tie(part.first_need, part.end_need) = needs.at({part.year, part.month});
+        parts.push_back(part);
+    }
+    return parts;
+}
+
 std::string day_text(std::chrono::sys_days day) {
     return format_compact(UtcTime{day}).substr(0, 8);
 }
@@ -95,6 +129,14 @@ std::string line_of(std::size_t number, const FrameHour& hour, double cost_s) {
         .dump();
 }
 
+std::string line_of(std::size_t number, const MonthHour& part, double cost_s) {
+    return Json{{"n", number},       {"kind", "statistics"},
+                {"year", part.year}, {"month", part.month},
+                {"hour", part.hour}, {"needs", {part.first_need, part.end_need}},
+                {"cost_s", cost_s}}
+        .dump();
+}
+
 // Gathers the lines of a plan, and what its first line says about them.
 class PlanText {
   public:
@@ -110,6 +152,11 @@ class PlanText {
     void add(const FrameHour& hour) {
         add_line(hour, cost_of(recipe_, hour));
         ++facts_.frame_tasks;
+    }
+
+    void add(const MonthHour& part) {
+        add_line(part, cost_of(recipe_, part));
+        ++facts_.statistics_tasks;
     }
 
     [[nodiscard]] std::string text() {
@@ -140,6 +187,7 @@ class PlanText {
                     {"task_bytes", task_bytes},
                     {"grid_tasks", facts_.grid_tasks},
                     {"frame_tasks", facts_.frame_tasks},
+                    {"statistics_tasks", facts_.statistics_tasks},
                     {"volumes", facts_.volumes},
                     {"bytes", facts_.bytes},
                     {"largest_bytes", facts_.largest},
@@ -184,6 +232,16 @@ Task task_of(const Json& json) {
         task.work = hour;
         return task;
     }
+    if (json.at("kind") == "statistics") {
+        MonthHour part;
+        part.year = json.at("year");
+        part.month = json.at("month");
+        part.hour = json.at("hour");
+        part.first_need = json.at("needs").at(0);
+        part.end_need = json.at("needs").at(1);
+        task.work = part;
+        return task;
+    }
     StationDay day;
     day.station = json.at("station");
     day.day = std::chrono::floor<days>(
@@ -225,9 +283,11 @@ Status Plan::read_header() {
                         path.native());
         }
         task_bytes_ = json.at("task_bytes");
-        facts_ = {json.at("hash"),    json.at("grid_tasks"),    json.at("frame_tasks"),
-                  json.at("volumes"), json.at("bytes"),         json.at("largest_bytes"),
-                  json.at("cost_s"),  json.at("largest_cost_s")};
+        facts_ = {json.at("hash"),          json.at("grid_tasks"),
+                  json.at("frame_tasks"),   json.at("statistics_tasks"),
+                  json.at("volumes"),       json.at("bytes"),
+                  json.at("largest_bytes"), json.at("cost_s"),
+                  json.at("largest_cost_s")};
         auto recipe = recipe_of(json.at("recipe"));
         if (!recipe) return pass_on(recipe);
         recipe_ = std::move(*recipe);
@@ -266,8 +326,11 @@ Status write_plan(const fs::path& directory, const Recipe& recipe,
     PlanText plan(recipe);
     for (const StationDay& day : all)
         plan.add(day);
-    for (const FrameHour& hour : hours_of(recipe, all))
+    const std::vector<FrameHour> frames = hours_of(recipe, all);
+    for (const FrameHour& hour : frames)
         plan.add(hour);
+    for (const MonthHour& part : months_of(recipe, frames, all.size()))
+        plan.add(part);
     const std::string text = plan.text();
     const auto bytes = std::as_bytes(std::span(text));
     std::error_code error;

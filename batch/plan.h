@@ -3,7 +3,8 @@
 // PLAN/plan.jsonl is JSON, a document a line. The first line has the recipe; each further line is a
 // task, filled up with blanks to the same length, so that task N is found without reading the
 // others (docs/batch.md has the fields). Grid tasks come first, by day and then station; then the
-// frame tasks, by hour. The same source, range and recipe give the same bytes.
+// frame tasks, by hour, and the statistics, by month and hour of the day. The same source, range
+// and recipe give the same bytes.
 //
 // Threads   A plan may be read by many threads.
 // Errors    not_found, corrupt, io; bad_argument for a number that is no task.
@@ -29,24 +30,34 @@ struct FrameHour {
     std::size_t first_need = 0, end_need = 0;
 };
 
+// The statistics of a month's frames in one hour of the day (batch/statistics_task.h).
+struct MonthHour {
+    int year = 0;
+    unsigned month = 0;
+    int hour = 0;
+    std::size_t first_need = 0, end_need = 0;
+};
+
+enum class TaskKind { grids, frames, statistics };
+
 struct Task {
     std::size_t number = 0;
-    double cost_s = 0;  // of a processor, estimated
-    std::variant<StationDay, FrameHour> work;
+    double cost_s = 0;                                    // of a processor, estimated
+    std::variant<StationDay, FrameHour, MonthHour> work;  // in the order of TaskKind
 
-    [[nodiscard]] bool is_frames() const { return std::holds_alternative<FrameHour>(work); }
+    [[nodiscard]] TaskKind kind() const { return static_cast<TaskKind>(work.index()); }
 };
 
 struct PlanFacts {
     std::string hash;  // of the recipe
-    std::size_t grid_tasks = 0, frame_tasks = 0;
+    std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;
     std::size_t volumes = 0;    // 0: not known before the tasks run
     std::uint64_t bytes = 0;    // of the raw files
     std::uint64_t largest = 0;  // of one station-day
     double cost_s = 0;          // of all tasks
     double largest_cost_s = 0;  // of one task
 
-    [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks; }
+    [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
 };
 
 class Plan {

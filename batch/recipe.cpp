@@ -92,6 +92,7 @@ Recipe read_recipe(const Json& json) {
     if (recipe.moments.empty()) throw std::domain_error("it has no moment");
     if (json.contains("domain")) {
         recipe.domain = domain_of(json.at("domain"), recipe.moments);
+        recipe.statistics = json.at("statistics");
         return recipe;
     }
     const Json& own = json.at("own_grids");
@@ -138,6 +139,7 @@ Json json_of(const Recipe& recipe) {
               {"moments", moments}};
     if (recipe.domain) {
         json["domain"] = json_of_domain(*recipe.domain);
+        json["statistics"] = recipe.statistics;
     } else {
         json["own_grids"] = {{"spacing_m", recipe.spacing_m},
                              {"nx", recipe.nx},

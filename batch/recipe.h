@@ -26,6 +26,7 @@ struct Recipe {
     std::filesystem::path cache;  // where the grids are kept
     UtcTime from, to;             // of the frames, else of the starts of the volumes; inclusive
     std::vector<level2::Moment> moments = {level2::Moment::ref};
+    bool statistics = false;                 // of the domain's frames
     std::optional<pipeline::Domain> domain;  // none: own grids of the stations, of this shape
     double spacing_m = 1000;
     int nx = 460, ny = 460;

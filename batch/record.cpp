@@ -1,6 +1,9 @@
 #include "batch/record.h"
 
+#include <algorithm>
+#include <array>
 #include <span>
+#include <stdexcept>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+// In the order of TaskKind.
+constexpr std::array<const char*, 3> kinds{"grid", "frames", "statistics"};
 constexpr std::uint64_t most_record_bytes = std::uint64_t{64} << 20;
 
 Json json_of(const std::vector<NamedReason>& reasons) {
@@ -31,8 +36,10 @@ std::vector<NamedReason> reasons_of(const Json& json) {
 }
 
 Json json_of(const Record& record) {
-    Json json{{"n", record.number}, {"plan", record.plan}};
-    if (!record.station.empty()) {
+    Json json{{"n", record.number},
+              {"kind", kinds.at(static_cast<std::size_t>(record.kind))},
+              {"plan", record.plan}};
+    if (record.kind == TaskKind::grids) {
         json["station"] = record.station;
         json["day"] = record.day;
         json["files"] = record.files;
@@ -56,8 +63,11 @@ Json json_of(const Record& record) {
 Record read_fields(const Json& json) {
     Record record;
     record.number = json.at("n");
+    const auto kind = std::ranges::find(kinds, json.at("kind").get<std::string>());
+    if (kind == kinds.end()) throw std::domain_error("its kind is not known");
+    record.kind = static_cast<TaskKind>(kind - kinds.begin());
     record.plan = json.at("plan");
-    if (json.contains("station")) {
+    if (record.kind == TaskKind::grids) {
         record.station = json.at("station");
         record.day = json.at("day");
         record.files = json.at("files");
@@ -80,10 +90,10 @@ Record read_fields(const Json& json) {
 
 bool is_of(const Record& record, const Plan& plan, const Task& task) {
     if (record.number != task.number || record.plan != plan.facts().hash) return false;
+    if (record.kind != task.kind()) return false;
     const auto* const day = std::get_if<StationDay>(&task.work);
-    return day == nullptr ? record.station.empty()
-                          : record.station == day->station &&
-                                record.day == format_compact(UtcTime{day->day}).substr(0, 8);
+    return day == nullptr || (record.station == day->station &&
+                              record.day == format_compact(UtcTime{day->day}).substr(0, 8));
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // batch/record.h -- what a task did, in a file that appears when the task is done.
 //
-// PLAN/tasks/00012/12345.json is the record of task 12345: a thousand records to a directory. When
-// a thousand tasks are done, `batch check` writes their sum beside them, so that the next one need
-// not read the records. docs/batch.md has the fields.
+// PLAN/tasks/00012/12345.json is the record of task 12345: a thousand records to a directory. Their
+// sum stands beside them once all are there (batch/check.h). docs/batch.md has the fields.
 //
 // A record appears by rename. Of two tasks that ran at the same time, the last one's record stays;
 // what they made is the same.
@@ -33,8 +32,9 @@ using HourCounts = std::array<std::uint32_t, 24>;  // by the hour of the day, UT
 
 struct Record {
     std::size_t number = 0;
-    std::string plan;     // the hash of its recipe
-    std::string station;  // empty: frames
+    std::string plan;  // the hash of its recipe
+    TaskKind kind = TaskKind::grids;
+    std::string station;  // of grids
     std::string day;      // of a station's files, as 20130520
     // Raw files that were taken and left out, and what there is of them: grids, or frames.
     std::size_t files = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "batch/source.h"
+#include "grid/cells/column_tally.h"
 #include "pipeline/care/archive_fill.h"
 #include "pipeline/options/ingest_options.h"
 #include "stormcellar/grid/grid_window.h"
@@ -66,6 +67,16 @@ Resources resources_of_frames(const Plan& plan, int threads) {
         workers * (frame_worker_bytes + recipe.domain->spec.cell_count() * bytes_a_cell);
     needed.scratch_bytes = catalog_bytes;
     needed.seconds_a_task = margin * plan.facts().largest_cost_s / std::max(1, threads);
+    return needed;
+}
+
+Resources resources_of_statistics(const Plan& plan) {
+    Resources needed;
+    if (!plan.recipe().statistics) return needed;
+    // The counts, their bytes, and these packed.
+    const std::uint64_t counts = grid::ColumnTally::bytes_of(plan.recipe().domain->spec);
+    needed.memory_bytes = program_bytes + 3 * counts;
+    needed.seconds_a_task = margin * plan.facts().largest_cost_s;
     return needed;
 }
 

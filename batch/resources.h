@@ -24,5 +24,6 @@ struct Resources {
 
 [[nodiscard]] Resources resources_of_grids(const Plan& plan, int threads);
 [[nodiscard]] Resources resources_of_frames(const Plan& plan, int threads);
+[[nodiscard]] Resources resources_of_statistics(const Plan& plan);
 
 }  // namespace stormcellar::batch

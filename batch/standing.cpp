@@ -3,7 +3,9 @@
 #include <span>
 
 #include "base/checksum.h"
+#include "batch/statistics_task.h"
 #include "pipeline/care/archive_fill.h"
+#include "stormcellar/base/file_system.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/grid_file.h"
 
@@ -42,9 +44,15 @@ bool is_of(const cache::GridDescription& description, const Recipe& recipe, cons
 
 }  // namespace
 
-Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
-                                                 const Recipe& recipe, const Task& task) {
+Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store, const Plan& plan,
+                                                 const Task& task) {
+    const Recipe& recipe = plan.recipe();
     std::vector<StandingGrid> standing;
+    if (const auto* const part = std::get_if<MonthHour>(&task.work)) {
+        const auto bytes = read_file(tally_path(plan, *part));
+        if (bytes) standing.push_back({{}, 0, {}, xxh3_64(*bytes), bytes->size()});
+        return standing;
+    }
     const Where where = where_of(recipe, task);
     for (const level2::Moment moment : recipe.moments) {
         const auto entries = store.list(where.domain, moment, where.from, where.to);
@@ -53,9 +61,9 @@ Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store
             const auto file = cache::GridFile::open(entry.path);
             if (!file || !is_of(file->description(), recipe, task)) continue;
             const grid::Provenance& provenance = file->description().provenance;
-            standing.push_back({task.is_frames() ? std::string{} : provenance.source_files.front(),
-                                provenance.source_modified_ns, entry.time, file->checksum(),
-                                entry.bytes_on_disk});
+            standing.push_back(
+                {task.kind() == TaskKind::frames ? std::string{} : provenance.source_files.front(),
+                 provenance.source_modified_ns, entry.time, file->checksum(), entry.bytes_on_disk});
         }
     }
     return standing;

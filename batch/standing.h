@@ -23,10 +23,10 @@ struct StandingGrid {
     std::uint64_t bytes = 0;  // on disk
 };
 
-// Returns the grids of the task in order of moment, then time.
+// Returns the grids of the task in order of moment, then time. Of statistics it is the file of
+// counts.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
-                                                               const Recipe& recipe,
-                                                               const Task& task);
+                                                               const Plan& plan, const Task& task);
 
 // Identifies grids to the byte, in their order.
 [[nodiscard]] std::string digest_of(const std::vector<StandingGrid>& grids);

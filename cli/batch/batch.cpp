@@ -21,10 +21,12 @@ constexpr std::array commands{
                  set_up_batch_plan},
     BatchCommand{"run", "Grid what one station sent on one day (exit status 75: try again)",
                  set_up_batch_run},
-    BatchCommand{"merge", "Make the frames of one hour, of grids that tasks made",
+    BatchCommand{"merge", "Make the frames of one hour, or count those of a month",
                  set_up_batch_merge},
     BatchCommand{"check", "Show what is done, missing and left out, and the time left",
                  set_up_batch_check},
+    BatchCommand{"statistics", "Write the climatology of a plan's frames as netCDF",
+                 set_up_batch_statistics},
     BatchCommand{"submit", "Let Slurm, make or this machine run the tasks that are not done",
                  set_up_batch_submit},
 };

@@ -26,6 +26,7 @@ Run set_up_batch_plan(CLI::App& command);
 Run set_up_batch_run(CLI::App& command);
 Run set_up_batch_merge(CLI::App& command);
 Run set_up_batch_check(CLI::App& command);
+Run set_up_batch_statistics(CLI::App& command);
 Run set_up_batch_submit(CLI::App& command);
 
 // Checks a plan, with a bar on stderr.

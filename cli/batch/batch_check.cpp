@@ -95,13 +95,15 @@ void print_report(const CheckCommand& command, const batch::Plan& plan, const Ch
     const Totals& done = report.done;
     const batch::PlanFacts& facts = plan.facts();
     const double share = facts.cost_s > 0 ? 100 * done.cost_s / facts.cost_s : 0;
-    fmt::print("{} of {} {} done ({} of grids, {} of frames): {:.0f} % of the work\n",
-               done.grid_tasks + done.frame_tasks, facts.tasks(), plural(facts.tasks(), "task"),
-               done.grid_tasks, done.frame_tasks, report.missing.empty() ? 100 : share);
-    fmt::print("{} {} read ({}), {} left out; {} {} and {} {} ({} written by the last runs)\n",
-               done.files, plural(done.files, "file"), format_byte_size(done.bytes_read),
-               done.left_out, done.grids, plural(done.grids, "grid"), done.frames,
-               plural(done.frames, "frame"), format_byte_size(done.bytes_written));
+    fmt::print(
+        "{} of {} {} done ({} of grids, {} of frames, {} of statistics): {:.0f} % of "
+        "the work\n",
+        done.tasks(), facts.tasks(), plural(facts.tasks(), "task"), done.grid_tasks,
+        done.frame_tasks, done.statistics_tasks, report.missing.empty() ? 100 : share);
+    fmt::print("{} {}, {} left out, {} read; {} {} and {} {} ({} written by the last runs)\n",
+               done.files, plural(done.files, "file"), done.left_out,
+               format_byte_size(done.bytes_read), done.grids, plural(done.grids, "grid"),
+               done.frames, plural(done.frames, "frame"), format_byte_size(done.bytes_written));
     fmt::print("{} of a processor; the largest task took {} of memory\n",
                short_duration(done.cpu_s), format_byte_size(done.most_memory_bytes));
     print_left_out(plan, report,

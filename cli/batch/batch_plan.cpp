@@ -18,6 +18,7 @@
 #include "cli/loop/archive_options.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/short_duration.h"
+#include "grid/cells/column_tally.h"
 #include "pipeline/mosaic/domain_frames.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
@@ -36,6 +37,7 @@ struct PlanOptions {
     ArchiveOptions archive;  // stations, bounds, the grid and the overlap
     std::string interval{"300"};
     std::string time_method{grid::time_method_name(grid::TimeMethod::advected)};
+    bool statistics = false;
     bool json = false;
 };
 
@@ -186,6 +188,7 @@ Result<SourceListing> take_stations(const PlanOptions& options, Recipe& recipe) 
         if (!domain) return pass_on(domain);
         stations = domain->stations;
         recipe.domain = std::move(*domain);
+        recipe.statistics = options.statistics;
     }
     if (is_bucket) return batch::every_day_of(stations, from, to);
     std::erase_if(listing->days, [&](const batch::StationDay& day) {
@@ -214,6 +217,7 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
                     {"hash", facts.hash},
                     {"grid_tasks", facts.grid_tasks},
                     {"frame_tasks", facts.frame_tasks},
+                    {"statistics_tasks", facts.statistics_tasks},
                     {"volumes", facts.volumes},
                     {"bytes", facts.bytes},
                     {"cost_s", facts.cost_s},
@@ -223,8 +227,9 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
                     {"scratch_bytes", grids.scratch_bytes}});
         return;
     }
-    fmt::print("{}: {} {} of grids, {} of frames\n", printable(plan.directory().native()),
-               facts.grid_tasks, plural(facts.grid_tasks, "task"), facts.frame_tasks);
+    fmt::print("{}: {} {} of grids, {} of frames, {} of statistics\n",
+               printable(plan.directory().native()), facts.grid_tasks,
+               plural(facts.grid_tasks, "task"), facts.frame_tasks, facts.statistics_tasks);
     if (facts.volumes > 0) {
         fmt::print("  {} {}, {} of raw files; the grids take at most about {} in {}\n",
                    facts.volumes, plural(facts.volumes, "volume"), format_byte_size(facts.bytes),
@@ -237,12 +242,22 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
         format_byte_size(frames.memory_bytes), format_byte_size(grids.scratch_bytes));
 }
 
+// Counts are of reflectivity, whose thresholds are in dBZ.
+Status check_statistics(const PlanOptions& options, const Recipe& recipe) {
+    if (!options.statistics) return {};
+    const bool is_reflectivity = recipe.moments == std::vector{level2::Moment::ref};
+    if (!options.mosaic.empty() && is_reflectivity) return {};
+    return fail(ErrorCode::bad_argument,
+                "--statistics are of the frames of --mosaic, and of the moment REF alone");
+}
+
 int run_plan(const PlanOptions& options) {
     Recipe recipe;
     if (Status taken = take_places(options, recipe); !taken) return report_error(taken.error());
     const auto moments = parse_request(options.archive.place);
     if (!moments) return report_error(moments.error());
     recipe.moments = moments->moments();
+    if (Status good = check_statistics(options, recipe); !good) return report_error(good.error());
     const auto listing = take_stations(options, recipe);
     if (!listing) return report_error(listing.error());
     if (listing->nameless > 0) {
@@ -301,6 +316,9 @@ Run set_up_batch_plan(CLI::App& command) {
                                 names_in(grid::time_method_facts, ", ", " or ")))
         ->capture_default_str();
     add_overlap_options(command, options->archive, "");
+    command.add_flag("--statistics", options->statistics,
+                     "Also count the frames of --mosaic, by month and hour of the day, for a "
+                     "climatology (batch statistics)");
     command.add_flag("--json", options->json, "Print one JSON document");
     return [options] { return run_plan(*options); };
 }

@@ -10,6 +10,7 @@
 #include "base/byte_size.h"
 #include "batch/frame_task.h"
 #include "batch/grid_task.h"
+#include "batch/statistics_task.h"
 #include "cli/batch/batch.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/scratch_directory.h"
@@ -28,7 +29,7 @@ struct TaskRange {
 struct TaskCommand {
     std::string plan, tasks;
     int threads = 1;
-    bool frames = false;  // merge
+    bool merges = false;
 };
 
 Result<TaskRange> parse_tasks(const std::string& text) {
@@ -58,6 +59,10 @@ std::string name_of(const Task& task) {
     if (const auto* const hour = std::get_if<batch::FrameHour>(&task.work)) {
         return fmt::format("frames {} to {}", format_utc(hour->from), format_utc(hour->to));
     }
+    if (const auto* const part = std::get_if<batch::MonthHour>(&task.work)) {
+        return fmt::format("statistics of {}-{:02}, hour {:02}", part->year, part->month,
+                           part->hour);
+    }
     const auto& day = std::get<batch::StationDay>(task.work);
     return fmt::format("{} {}", day.station, format_compact(UtcTime{day.day}).substr(0, 8));
 }
@@ -72,14 +77,28 @@ void say_done(const Task& task, const TaskOutcome& outcome) {
         fmt::print("task {}: {}: stands already\n", task.number, name_of(task));
         return;
     }
+    const bool is_grids = task.kind() == batch::TaskKind::grids;
     const std::string of_files =
-        task.is_frames() ? ""
-                         : fmt::format("{} {}, {} left out, ", record.files,
-                                       plural(record.files, "file"), record.left_out.size());
+        !is_grids ? ""
+                  : fmt::format("{} {}, {} left out, ", record.files, plural(record.files, "file"),
+                                record.left_out.size());
     fmt::print("task {}: {}: {}{} {}, {} written, {:.1f} s of a processor\n", task.number,
                name_of(task), of_files, record.grids,
-               plural(record.grids, task.is_frames() ? "frame" : "grid"),
+               plural(record.grids, is_grids ? "grid" : "frame"),
                format_byte_size(record.bytes_written), record.cpu_s);
+}
+
+Result<TaskOutcome> run_by_kind(const batch::Plan& plan, const Task& task,
+                                const batch::TaskOptions& options) {
+    switch (task.kind()) {
+        case batch::TaskKind::grids:
+            return batch::run_grid_task(plan, task, options);
+        case batch::TaskKind::frames:
+            return batch::run_frame_task(plan, task, options);
+        case batch::TaskKind::statistics:
+            break;
+    }
+    return batch::run_statistics_task(plan, task, options);
 }
 
 Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs::path& scratch,
@@ -89,8 +108,7 @@ Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs
     fs::create_directory(own, error);
     if (error) return fail(ErrorCode::io, "{}: {}", own.native(), error.message());
     const batch::TaskOptions options{command.threads, own, stop};
-    auto outcome = command.frames ? batch::run_frame_task(plan, task, options)
-                                  : batch::run_grid_task(plan, task, options);
+    auto outcome = run_by_kind(plan, task, options);
     fs::remove_all(own, error);
     return outcome;
 }
@@ -108,11 +126,10 @@ int run_tasks(const TaskCommand& command) {
     for (std::size_t number = range->first; number <= range->last && !interrupt.flag(); ++number) {
         const auto task = plan->task(number);
         if (!task) return report_error(task.error());
-        if (task->is_frames() != command.frames) {
+        if ((task->kind() != batch::TaskKind::grids) != command.merges) {
             return report_error(
-                {ErrorCode::bad_argument, fmt::format("task {} makes {}: use stormcellar batch {}",
-                                                      number, command.frames ? "grids" : "frames",
-                                                      command.frames ? "run" : "merge")});
+                {ErrorCode::bad_argument, fmt::format("task {} is for stormcellar batch {}", number,
+                                                      command.merges ? "run" : "merge")});
         }
         const auto outcome = run_task(*plan, *task, scratch->path(), command, interrupt.flag());
         if (outcome) {
@@ -127,9 +144,9 @@ int run_tasks(const TaskCommand& command) {
     return interrupt.flag() && worst == exit_done ? exit_try_again : worst;
 }
 
-Run set_up(CLI::App& command, bool frames) {
+Run set_up(CLI::App& command, bool merges) {
     const auto options = std::make_shared<TaskCommand>();
-    options->frames = frames;
+    options->merges = merges;
     add_plan_option(command, options->plan);
     command
         .add_option("--task", options->tasks,

@@ -106,16 +106,21 @@ int submit_locally(const SubmitCommand& command, const batch::Plan& plan,
                 command.options.threads};
     if (job.jobs == 0) job.jobs = default_jobs();
     if (command.dry_run) {
-        fmt::print(
-            "{} processes at a time, of tasks{}{}\n", job.jobs,
-            tasks.grids.empty() ? "" : fmt::format(" {}", fmt::join(tasks.grids, " ")),
-            tasks.frames.empty() ? "" : fmt::format(", then {}", fmt::join(tasks.frames, " ")));
+        fmt::print("{} processes at a time, of tasks", job.jobs);
+        const char* before = " ";
+        for (const auto* const numbers : {&tasks.grids, &tasks.frames, &tasks.statistics}) {
+            if (numbers->empty()) continue;
+            fmt::print("{}{}", before, fmt::join(*numbers, " "));
+            before = ", then ";
+        }
+        fmt::print("\n");
         return exit_done;
     }
     Interrupt interrupt;
     std::size_t failed = 0;
     for (const auto& [name, numbers] :
-         {std::pair{"run", &tasks.grids}, std::pair{"merge", &tasks.frames}}) {
+         {std::pair{"run", &tasks.grids}, std::pair{"merge", &tasks.frames},
+          std::pair{"merge", &tasks.statistics}}) {
         if (interrupt.flag()) break;
         job.command = name;
         const auto ended = run_pool(job, *numbers, interrupt.flag(), [](std::size_t) {});

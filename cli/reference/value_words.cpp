@@ -80,6 +80,9 @@ Names fields() {
     return names;
 }
 
+Names groups_of_time() {
+    return {"hour", "month", "all"};
+}
 Names engines() {
     return {"slurm", "make", "local"};
 }
@@ -170,6 +173,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--plan", "DIRECTORY", Kept::directories},
     {"--program", "FILE", Kept::files},
     {"--engine", "ENGINE", Kept::nowhere, offered::engines},
+    {"--by", "GROUP", Kept::nowhere, offered::groups_of_time},
     {"--task", "NUMBER"},
     {"--mosaic", "NAME"},
     {"--partition", "NAME"},

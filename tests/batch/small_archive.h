@@ -14,6 +14,7 @@
 #include "batch/grid_task.h"
 #include "batch/plan.h"
 #include "batch/source.h"
+#include "batch/statistics_task.h"
 #include "stormcellar/base/file_system.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
@@ -76,8 +77,9 @@ class SmallArchive : public ::testing::Test {
         const Task task = *plan.task(number);
         const testing::TemporaryDirectory scratch;
         const TaskOptions options{1, scratch.path(), stop_};
-        return task.is_frames() ? run_frame_task(plan, task, options)
-                                : run_grid_task(plan, task, options);
+        if (task.kind() == TaskKind::grids) return run_grid_task(plan, task, options);
+        return task.kind() == TaskKind::frames ? run_frame_task(plan, task, options)
+                                               : run_statistics_task(plan, task, options);
     }
     void run_all(const Plan& plan) const {
         for (std::size_t number = 0; number < plan.facts().tasks(); ++number) {

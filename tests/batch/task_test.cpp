@@ -11,6 +11,7 @@
 #include "batch/check.h"
 #include "batch/leftovers.h"
 #include "batch/record.h"
+#include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 #include "tests/batch/small_archive.h"
 
@@ -137,7 +138,7 @@ TEST_F(BatchTasks, FramesWaitForTheRecordsOfTheirGrids) {
     const auto early = run(plan, 1);
     ASSERT_FALSE(early);
     EXPECT_EQ(early.error().code, ErrorCode::unmet);
-    EXPECT_THAT(early.error().message, HasSubstr("needs grid task 0, which is not done"));
+    EXPECT_THAT(early.error().message, HasSubstr("needs task 0, which is not done"));
     // A record of another recipe does not count.
     Record other;
     other.number = 0;
@@ -175,6 +176,39 @@ TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
     EXPECT_EQ(plan.facts().volumes, 3U);
     run_all(plan);
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+}
+
+// The counts of a month and hour are those of its frames, whichever task counts first.
+TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
+    Recipe counted = recipe("one");
+    counted.statistics = true;
+    const Plan plan = plan_of(counted, "plan-one");
+    ASSERT_EQ(plan.facts().statistics_tasks, 2U);  // hours 2 and 3
+    EXPECT_EQ(run(plan, 3).error().code, ErrorCode::unmet);
+    run_all(plan);
+    const auto part = std::get<MonthHour>(plan.task(3)->work);
+    EXPECT_EQ(part.hour, 2);
+    const auto tally = read_tally(plan, part);
+    ASSERT_TRUE(tally) << tally.error().message;
+    const auto store = cache::StoreReader::open(counted.cache);
+    const auto frames = store->list("north", level2::Moment::ref, at("2005-08-22T02:00Z"),
+                                    at("2005-08-22T02:59:59Z"));
+    EXPECT_EQ(tally->tally.grids(), frames->size());
+    EXPECT_EQ(tally->instants, 15U) << "02:45 to 02:59";
+    grid::ColumnTally again(counted.domain->spec, grid::default_quantization(level2::Moment::ref));
+    for (auto frame = frames->rbegin(); frame != frames->rend(); ++frame)
+        ASSERT_TRUE(again.add(cache::GridFile::open(frame->path)->view()));
+    EXPECT_EQ(again.to_bytes(), tally->tally.to_bytes());
+    EXPECT_THAT(check(plan, {true, {}})->missing, IsEmpty());
+
+    // A file of counts that is damaged is told, and counted again.
+    const fs::path path = tally_path(plan, part);
+    const auto bytes = *read_file(path);
+    fs::resize_file(path, bytes.size() - 1);
+    EXPECT_EQ(read_tally(plan, part).error().code, ErrorCode::corrupt);
+    EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(1));
+    ASSERT_TRUE(run(plan, 3));
+    EXPECT_EQ(*read_file(path), bytes);
 }
 
 }  // namespace

@@ -104,7 +104,8 @@ TEST_F(Batch, PlansRunsMergesAndChecks) {
     EXPECT_EQ(batch("merge", "p", {"--task", "1-2"}).status, 0);
     const ProgramResult checked = batch("check", "p", {"--table"});
     EXPECT_EQ(checked.status, 0) << checked.err;
-    EXPECT_THAT(checked.out, HasSubstr("3 of 3 tasks done"));
+    EXPECT_THAT(checked.out,
+                HasSubstr("3 of 3 tasks done (1 of grids, 2 of frames, 0 of statistics)"));
     EXPECT_THAT(checked.out, HasSubstr("KBGM        .     .     3     2     ."));
     const auto document = nlohmann::json::parse(batch("check", "p", {"--json"}).out);
     EXPECT_EQ(document["frames"], 4);
@@ -166,6 +167,23 @@ TEST_F(Batch, ADryRunPrintsAllAndRunsNothing) {
                 HasSubstr("of tasks 0, then 1 2"));
     EXPECT_FALSE(fs::exists(directory_ / "p/tasks"));
     EXPECT_FALSE(fs::exists(directory_ / "p/Makefile"));
+}
+
+TEST_F(Batch, WritesTheClimatologyOfItsFrames) {
+    ASSERT_EQ(plan("p", {"--statistics"}).status, 0);
+    const std::string file = place("c.nc");
+    const ProgramResult early = batch("statistics", "p", {"-o", file});
+    EXPECT_EQ(early.status, 1) << "nothing is counted";
+    EXPECT_FALSE(fs::exists(file));
+    ASSERT_EQ(batch("submit", "p", {"--engine", "make"}).status, 0);
+    for (const char* by : {"hour", "month", "all"}) {
+        const ProgramResult made = batch("statistics", "p", {"--by", by, "-o", file, "--quiet"});
+        EXPECT_EQ(made.status, 0) << made.err;
+        EXPECT_EQ(static_cast<char>(read_file(file)->at(1)), 'H') << "netCDF-4 is HDF5";
+    }
+    ASSERT_EQ(plan("q").status, 0);
+    EXPECT_EQ(batch("statistics", "q", {"-o", file}).status, 2) << "without --statistics";
+    EXPECT_EQ(plan("r", {"--statistics", "--moment", "VEL"}).status, 2);
 }
 
 TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {

@@ -1,10 +1,7 @@
 // What the column at a place holds, from the exact codes.
 
-import { heightRange } from '../camera/geometry';
 import { cellSizeM } from '../scene/projection';
-import { LoadedGrid } from '../renderer/renderer';
-import { packed } from '../wire/api';
-import { PackedGrid, codeAt, firstValueCode, readPackedBricks, valueOf, withBricks } from '../wire/packed_grid';
+import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 
 export interface LevelReading {
     heightM: number;
@@ -26,15 +23,6 @@ export function columnAt(grid: PackedGrid, xM: number, yM: number): [number, num
     return x >= 0 && y >= 0 && x < grid.nx && y < grid.ny ? [x, y] : null;
 }
 
-// The grid with the exact codes of a column. Of a grid in parts they are asked for.
-export async function gridForColumn({ grid, stream }: LoadedGrid, [x, y]: [number, number]): Promise<PackedGrid> {
-    if (!stream) return grid;
-    const [, columns, layers] = grid.bricks;
-    const first = (Math.floor(x / grid.brickEdge) * columns + Math.floor(y / grid.brickEdge)) * layers;
-    const query = { bricks: `${first}-${first + layers - 1}`, id: grid.id };
-    return withBricks(grid, readPackedBricks(new Uint8Array(await packed(stream.domain, stream.moment, stream.time, query))));
-}
-
 export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReading {
     const reading: ColumnReading = { levels: [], greatest: null, seenFromM: null, seenToM: null };
     for (let z = 0; z < grid.nz; ++z) {
@@ -48,9 +36,4 @@ export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReadin
         }
     }
     return reading;
-}
-
-export function boxOf(grid: PackedGrid): { halfXM: number; halfYM: number; bottomM: number; topM: number } {
-    const [width, height] = cellSizeM(grid);
-    return { halfXM: 0.5 * grid.nx * width, halfYM: 0.5 * grid.ny * height, ...heightRange(grid.levelsM) };
 }

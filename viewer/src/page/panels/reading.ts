@@ -5,9 +5,10 @@ import { Units, heightNumber, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
 import { button, element, labeledButton, leaveByEscape, paragraph } from '../dom';
 import { Drawing } from '../drawing';
+import { gridForColumn } from '../exact_column';
 import { Keys } from '../keys';
 import { Tool } from '../pointers';
-import { ColumnReading, columnAt, gridForColumn, readColumn } from '../reading';
+import { ColumnReading, columnAt, readColumn } from '../reading';
 import { texts } from '../texts';
 
 const mostRows = 10;

@@ -1,0 +1,34 @@
+// batch/statistics_task.h -- counts what the frames of one month show in one hour of the day.
+//
+// PLAN/statistics/201305-20.tally has the counts of the frames from 20:00 to 21:00 in May 2013
+// (grid/cells/column_tally.h). Its first line is JSON: month, hour, the number of frames, the
+// number of instants at which a frame could be, the checksum and size of what follows, which are
+// the counts, compressed by zlib. Climatologies of hours, months or the whole time are sums of
+// these files.
+//
+// Threads   One task at a time in a process.
+// Errors    unmet, naming the first frame task that is not done; corrupt for damaged counts; those
+//           of the cache.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "batch/grid_task.h"
+#include "grid/cells/column_tally.h"
+
+namespace stormcellar::batch {
+
+[[nodiscard]] std::filesystem::path tally_path(const Plan& plan, const MonthHour& part);
+
+[[nodiscard]] Result<TaskOutcome> run_statistics_task(const Plan& plan, const Task& task,
+                                                      const TaskOptions& options);
+
+// What a file of counts has.
+struct MonthTally {
+    grid::ColumnTally tally;
+    std::uint64_t instants = 0;  // at which a frame could be
+};
+[[nodiscard]] Result<MonthTally> read_tally(const Plan& plan, const MonthHour& part);
+
+}  // namespace stormcellar::batch

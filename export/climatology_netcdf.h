@@ -1,0 +1,44 @@
+// export/climatology_netcdf.h -- statistics of many grids as CF netCDF.
+//
+// Each group (an hour of the day, a month, or the whole time) has counts of frames, of frames in
+// which a column was seen and not seen, and of the columns that were seen: how often the greatest
+// value of the column reached each threshold, its maximum, means and quantiles, and how often the
+// echo top (18.5 dBZ) was at or above each level. Where a column was never seen, or never had a
+// value, the statistics have the fill value.
+//
+// Units     As the attributes say.
+// Memory    The counts of all groups, and all variables once more.
+// Threads   Any thread; files are written one at a time.
+// Errors    bad_argument for no group, or groups of different grids; those of the file system;
+//           internal if netCDF refuses.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "grid/cells/column_tally.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::netcdf {
+
+struct TallyGroup {
+    int number = 0;              // the hour, the month, or 0
+    std::uint64_t instants = 0;  // at which a frame could be
+    grid::ColumnTally tally;
+};
+
+// What the groups are.
+struct ClimatologyText {
+    const char* group = "all";  // the name of the dimension: hour, month or all
+    std::string time_coverage_start, time_coverage_end;
+    std::string source;
+};
+
+[[nodiscard]] Status write_climatology(FileSystem& file_system, const std::filesystem::path& path,
+                                       std::span<const TallyGroup> groups,
+                                       const ClimatologyText& text);
+
+}  // namespace stormcellar::netcdf
