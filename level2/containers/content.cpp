@@ -1,5 +1,8 @@
 #include "level2/containers/content.h"
 
+#include <algorithm>
+#include <array>
+
 #include "level2/containers/archive_header.h"
 #include "level2/containers/bzip2_stream.h"
 #include "level2/containers/compress_stream.h"
@@ -26,6 +29,15 @@ bool messages_at_start(std::span<const std::byte> bytes, bool after_header) {
            (first && plausible_at(bytes, frame_bytes));
 }
 
+// PNG, HDF5 and the grids of a cache begin with 89h, three letters and these. What looks like a message
+// inside them is chance.
+bool is_of_another_format(std::span<const std::byte> bytes) {
+    constexpr auto line_ends = std::to_array<std::byte>(
+        {std::byte{0x0D}, std::byte{0x0A}, std::byte{0x1A}, std::byte{0x0A}});
+    return bytes.size() >= 8 && bytes[0] == std::byte{0x89} &&
+           std::ranges::equal(bytes.subspan(4, line_ends.size()), line_ends);
+}
+
 }  // namespace
 
 Content content_at_start(std::span<const std::byte> bytes) {
@@ -40,6 +52,7 @@ Content content_at_start(std::span<const std::byte> bytes) {
 }
 
 Content content_anywhere(std::span<const std::byte> bytes) {
+    if (is_of_another_format(bytes)) return Content::unknown;
     const Content content = content_at_start(bytes);
     if (content != Content::unknown) return content;
     if (find_bzip2(bytes, 0)) return Content::ldm;

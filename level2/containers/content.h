@@ -21,7 +21,8 @@ enum class Content : std::uint8_t {
 // Looks only at the start. A first frame that is not a message is allowed if messages follow it.
 [[nodiscard]] Content content_at_start(std::span<const std::byte> bytes);
 
-// The same, but if the start is damaged, searches all of it for an LDM record or a message.
+// The same, but if the start is damaged, searches all of it for an LDM record or a message. A start
+// that is another format's, such as PNG's or that of a cache's grids, is not damaged: unknown.
 [[nodiscard]] Content content_anywhere(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::level2

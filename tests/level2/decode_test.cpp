@@ -129,6 +129,15 @@ TEST(Decode, EmptyUnknownAndEmptyOfMeaningAreToldApart) {
     EXPECT_EQ(code_of(wire::Writer{}.u16(0x1F9D).zeros(100).bytes), ErrorCode::corrupt);
 }
 
+// A grid of the cache holds bytes that look like a message somewhere.
+TEST(Decode, WhatBeginsAsAnotherFormatIsNotSearchedForMessages) {
+    const Bytes volume = wire::ldm_volume(1, 4);
+    Bytes bytes = wire::join({wire::Writer{}.text("\x89SCG\r\n\x1A\n").bytes, volume});
+    EXPECT_EQ(code_of(bytes), ErrorCode::not_level2);
+    bytes[0] = std::byte{'x'};
+    EXPECT_TRUE(decode(bytes)) << "a damaged start is passed over";
+}
+
 TEST(Decode, MetadataAloneIsAVolume) {
     const auto decoded = decode(wire::join({wire::archive_header(), wire::frame(2)}));
     ASSERT_TRUE(decoded) << decoded.error().message;
