@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { elevationsOf, nearestSweep } from '../src/fields/sweep_choice';
+import { elevationsOf, nearestSite, nearestSweep } from '../src/fields/sweep_choice';
 import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from '../src/fields/sweep_cone';
 import { planeOf } from '../src/scene/projection';
 import { PackedError } from '../src/wire/packed_grid';
@@ -78,4 +78,13 @@ test('of sweeps at one elevation the last is meant, of those that have the momen
     assert.equal(nearestSweep(rows, 'VEL', 9)!.sweep, 1);
     assert.equal(nearestSweep(rows, 'ZDR', 0.5), null);
     assert.deepEqual(elevationsOf(rows, 'REF'), [0.48, 1.4, 2.4]);
+});
+
+test('of several sites the nearest to a place is meant', () => {
+    const grid = { projection: 0, centerDeg: [35, -97] as [number, number], parallelsDeg: [0, 0] as [number, number], offsetCells: [0, 0] as [number, number], spacing: 1000, nx: 400, ny: 400 };
+    const site = (icao: string, latitudeDeg: number, longitudeDeg: number) => ({ icao, latitudeDeg, longitudeDeg, altitudeM: 0 });
+    const sites = [site('KTLX', 35.33, -97.28), site('KFDR', 34.36, -98.98)];
+    assert.equal(nearestSite(sites, planeOf(grid), [0, 0])!.icao, 'KTLX');
+    assert.equal(nearestSite(sites, planeOf(grid), [-150000, -60000])!.icao, 'KFDR');
+    assert.equal(nearestSite([], planeOf(grid), [0, 0]), null);
 });

@@ -1,6 +1,8 @@
-// Which sweep of a volume is meant by an elevation.
+// Which sweep of which site is meant.
 
+import { GridPlane, Plane } from '../scene/projection';
 import { SweepRow } from '../wire/api';
+import { Site } from '../wire/packed_grid';
 
 const sameElevationDeg = 0.15;
 
@@ -18,4 +20,13 @@ export function nearestSweep(rows: SweepRow[], moment: string, elevationDeg: num
 export function elevationsOf(rows: SweepRow[], moment: string): number[] {
     const all = rows.filter(row => row.moments.some(one => one.moment === moment)).map(row => row.elevation_deg);
     return all.sort((a, b) => a - b).filter((one, i) => i === 0 || one - all[i - 1]! >= sameElevationDeg);
+}
+
+// The site that is nearest to a place; null without sites.
+export function nearestSite(sites: Site[], plane: GridPlane, [x, y]: Plane): Site | null {
+    const off = (site: Site): number => {
+        const at = plane.toPlane(site);
+        return at ? Math.hypot(at[0] - x, at[1] - y) : Infinity;
+    };
+    return sites.reduce<Site | null>((best, site) => (best === null || off(site) < off(best) ? site : best), null);
 }

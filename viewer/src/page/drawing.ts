@@ -5,13 +5,13 @@ import { Governor } from '../renderer/governor';
 import { Rung, rungs, usualRungs } from '../renderer/ladder';
 import { Frame, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
+import { boxOf } from '../scene/grid_box';
 import { App } from './app';
 import { drawColorBar } from './color_bar';
 import { element, textScale } from './dom';
 import { Ground } from './ground';
 import { LayerMaker } from './layer_maker';
 import { clearLabels, drawLabels } from './labels';
-import { boxOf } from './reading';
 import { Streaming } from './streaming';
 import { texts } from './texts';
 

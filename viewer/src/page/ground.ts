@@ -1,12 +1,12 @@
 // The map below a grid: lines for the renderer, names for the labels.
 
 import { Renderer } from '../renderer/renderer';
+import { boxOf } from '../scene/grid_box';
 import { Mark, cityMarks, mapLines, ringLines } from '../scene/ground_lines';
 import { planeOf } from '../scene/projection';
 import { MapAnswer, map } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 import { App, Shown } from './app';
-import { boxOf } from './reading';
 
 // A margin, since the map is seen beyond the grid.
 const widerThanGrid = 1.6;

@@ -6,7 +6,7 @@ import { Falls, fallsOf } from '../fields/falls';
 import { maximumField, planeField } from '../fields/flat_field';
 import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
-import { nearestSweep } from '../fields/sweep_choice';
+import { nearestSite, nearestSweep } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
@@ -185,11 +185,17 @@ export class LayerMaker {
         }
         if (layers.hasMaximum) said.push(texts.layers.maximumTold);
         const row = layers.sweepDeg === null ? null : nearestSweep(this.rowsOf(shown)?.rows ?? [], shown.moment, layers.sweepDeg);
-        if (row) said.push(texts.layers.sweepAt(row.elevation_deg.toFixed(1), row.start?.slice(11, 19) ?? ''));
+        if (row) said.push(texts.layers.sweepAt(this.stationOf(shown), row.elevation_deg.toFixed(1), row.start?.slice(11, 19) ?? ''));
         return said;
     }
-    private rowsOf({ loaded, time }: Shown): { time: string; rows: SweepRow[] } | null {
-        const station = loaded.grid.sites[0]?.icao ?? '';
+    // Of several sites the one that is nearest to what is looked at.
+    private stationOf({ loaded: { grid } }: Shown): string {
+        const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
+        return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
+    }
+    private rowsOf(shown: Shown): { time: string; rows: SweepRow[] } | null {
+        const { time } = shown;
+        const station = this.stationOf(shown);
         return this.rows.take(`${station} ${time}`, async () => {
             const volume = await volumeBefore(station, time);
             if (volume === null) throw new Error(texts.layers.noVolume(station));
@@ -201,7 +207,7 @@ export class LayerMaker {
         const known = this.rowsOf(shown);
         const row = known && nearestSweep(known.rows, shown.moment, elevationDeg);
         if (!row) return null;
-        const station = shown.loaded.grid.sites[0]!.icao;
+        const station = this.stationOf(shown);
         return this.sweep.take(`${station} ${known.time} ${row.sweep} ${shown.moment} ${shown.key}`, async () => {
             const read = readPackedSweep(new Uint8Array(await gates(station, known.time, row.sweep, shown.moment)));
             return { gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(shown.loaded.grid)) };

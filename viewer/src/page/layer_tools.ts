@@ -2,6 +2,7 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
+import { boxOf } from '../scene/grid_box';
 import { Crop } from '../scene/layers';
 import { Place, Plane, planeOf } from '../scene/projection';
 import { heightText } from '../tables/units';
@@ -9,7 +10,6 @@ import { App } from './app';
 import { fontOf, textScale } from './dom';
 import { Drawing } from './drawing';
 import { Tool } from './pointers';
-import { boxOf } from './reading';
 
 const reachPixels = 14; // of an end of the section
 const shortestPixels = 6;

@@ -1,6 +1,5 @@
 // What the column at a place holds, from the exact codes.
 
-import { heightRange } from '../camera/geometry';
 import { cellSizeM } from '../scene/projection';
 import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 
@@ -37,9 +36,4 @@ export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReadin
         }
     }
     return reading;
-}
-
-export function boxOf(grid: PackedGrid): { halfXM: number; halfYM: number; bottomM: number; topM: number } {
-    const [width, height] = cellSizeM(grid);
-    return { halfXM: 0.5 * grid.nx * width, halfYM: 0.5 * grid.ny * height, ...heightRange(grid.levelsM) };
 }

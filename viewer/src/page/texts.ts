@@ -146,7 +146,7 @@ export const texts = {
         planeTold: (height: string) => `plane at ${height}`,
         surfaceFrom: (moment: string, value: string) => `surface of ${moment} from ${value}`,
         surfaceBelow: (moment: string, value: string) => `surface of ${moment} to ${value}`,
-        sweepAt: (elevation: string, time: string) => `sweep at ${elevation}° of ${time} UTC`,
+        sweepAt: (station: string, elevation: string, time: string) => `sweep of ${station} at ${elevation}°, ${time} UTC`,
         beyond: 'beyond the grid',
         otherCells: (moment: string) => `${moment} has other cells, so its surface cannot be colored.`,
         noVolume: (station: string) => `There is no raw volume of ${station} for this time.`,
