@@ -1,6 +1,6 @@
 // How fast the viewer's page is in Chromium (scripts/bench-viewer). Prints a row for each figure.
-//   node bench.mjs ADDRESS site|nation [ROUNDS]
-// The site's server has some steps in time of one grid, the nation's a mosaic of the United States.
+//   node bench.mjs ADDRESS first|steps|nation [ROUNDS]
+// The first server has one volume, that of the steps a grid at several times, the nation's a mosaic of the United States.
 import { CheckedPage } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
@@ -53,8 +53,7 @@ async function turning(page) {
   row('frames a second while the view turns', `${((after.length - 1) / ((last[0] - after[0][0]) / 1000)).toFixed(1)} (${last[1]})`);
 }
 
-async function site() {
-  await firstPictures('');
+async function steps() {
   const times = (await (await fetch(`${address}/api/v1/grids?domain=KLBB&moment=REF&limit=500`)).json()).grids.map(({ time }) => time);
   const { page, viewer } = await firstPicture(`domain=KLBB&moment=REF&time=${times[0]}`);
   const began = performance.now();
@@ -80,5 +79,5 @@ async function nation() {
   row('memory that is held', await told(page, 'held'));
 }
 
-await (what === 'site' ? site() : nation());
+await { first: () => firstPictures(''), steps, nation }[what]();
 await browser.end();

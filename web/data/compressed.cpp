@@ -24,16 +24,28 @@ Coding coding_for(const Request& request) {
     return request.accepts("gzip") ? Coding::gzip : Coding::identity;
 }
 
-Result<std::string> compressed(std::string_view bytes, Coding coding) {
+namespace {
+
+Result<std::string> compressed_by(std::string_view bytes, Coding coding, int of_gzip, int of_zstd) {
     switch (coding) {
         case Coding::gzip:
-            return gzipped(bytes, gzip_level);
+            return gzipped(bytes, of_gzip);
         case Coding::zstd:
-            return zstd_packed(bytes, zstd_level);
+            return zstd_packed(bytes, of_zstd);
         case Coding::identity:
             break;
     }
     return std::string(bytes);
+}
+
+}  // namespace
+
+Result<std::string> compressed(std::string_view bytes, Coding coding) {
+    return compressed_by(bytes, coding, gzip_level, zstd_level);
+}
+
+Result<std::string> compressed_once(std::string_view bytes, Coding coding) {
+    return compressed_by(bytes, coding, gzip_once_level, zstd_once_level);
 }
 
 Result<std::string> gzipped(std::string_view bytes, int level) {

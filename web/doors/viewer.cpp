@@ -28,7 +28,7 @@ std::optional<Text> file_in_coding(const ViewerFile& file, Coding coding) {
     const std::scoped_lock lock(mutex);
     const auto found = kept.find({file.name, coding});
     if (found != kept.end()) return found->second;
-    auto bytes = compressed(file.bytes, coding);
+    auto bytes = compressed_once(file.bytes, coding);
     if (!bytes) return std::nullopt;
     return kept.emplace(std::pair{file.name, coding}, text_of(std::move(*bytes))).first->second;
 }

@@ -20,6 +20,13 @@ export interface ExportedFile {
     isWhole: boolean; // the file says all that the table has
 }
 
+// FNV-1a of 32 bits, as text.
+function checksum(text: string): string {
+    let sum = 0x811c9dc5;
+    for (const letter of text) sum = Math.imul(sum ^ letter.codePointAt(0)!, 0x01000193);
+    return (sum >>> 0).toString(16).padStart(8, '0');
+}
+
 export class TableEditing {
     private history = new History<Colors>();
     private known: { key: string; draft: Draft | undefined } = { key: '', draft: undefined };
@@ -107,6 +114,12 @@ export class TableEditing {
     toml(): ExportedFile {
         const draft = this.draft!;
         return { name: `${draft.name}.toml`, text: writeToml(fileOf(draft, this.app.state.least)), isWhole: true };
+    }
+    // The same with a name of its own for each content: a browser saves a second file of a name under another one,
+    // and a command would read the first.
+    tomlForCommand(): ExportedFile {
+        const file = this.toml();
+        return { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };
     }
     pal(): ExportedFile {
         const draft = this.draft!;

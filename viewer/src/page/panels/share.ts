@@ -8,8 +8,10 @@ import { Drawing } from '../drawing';
 import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
+// Browsers give no clipboard to pages that came over plain HTTP from another machine.
 function copy(app: App, text: string, said: string): void {
-    navigator.clipboard.writeText(text).then(
+    const clipboard: Clipboard | undefined = navigator.clipboard;
+    (clipboard ? clipboard.writeText(text) : Promise.reject(new Error('no clipboard'))).then(
         () => app.say(said),
         () => window.prompt(said, text),
     );
@@ -22,14 +24,17 @@ function save(app: App, drawing: Drawing): void {
     link.click();
 }
 
+const savedFiles = new Set<string>(); // of commands that were copied
+
 // Colors that no table of the program has are in a file that the command names.
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing): void {
     const { width, height } = drawing.picture;
     const { state } = app;
     const preset = app.book?.presets(state.moment).some(table => table.name === state.colors) ? state.colors : '';
     if (!editing.isEdited && state.least === null) return copy(app, commandOf(state, width, height, preset), texts.commandCopied);
-    const file = editing.toml();
-    saveFile(file.name, file.text);
+    const file = editing.tomlForCommand();
+    if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
+    savedFiles.add(file.name);
     copy(app, commandOf(state, width, height, file.name), texts.commandWithFile(file.name));
 }
 
