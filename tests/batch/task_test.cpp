@@ -14,6 +14,7 @@
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 #include "tests/batch/small_archive.h"
+#include "tests/fetch/mock_bucket.h"
 
 namespace stormcellar::batch {
 namespace {
@@ -176,6 +177,30 @@ TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
     EXPECT_EQ(plan.facts().volumes, 3U);
     run_all(plan);
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+}
+
+// Two plans of one bucket, as two machines would run them: files have the times of the bucket.
+TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
+    fetch::MockBucket bucket;
+    for (const std::string& name : pipeline::sequence) {
+        const auto bytes = *read_file(raw_ / "day" / name);
+        bucket.put("2005/08/22/KBGM/" + name,
+                   {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    for (const std::string cache : {"one", "two"}) {
+        Recipe fetched = recipe(cache);
+        fetched.source = bucket.address();
+        const fs::path place = directory_ / ("plan-" + cache);
+        ASSERT_TRUE(
+            write_plan(place, fetched, every_day_of({"KBGM"}, fetched.from, fetched.to).days));
+        const Plan plan = std::move(*Plan::open(place));
+        EXPECT_EQ(plan.facts().volumes, 0U) << "not known before the tasks run";
+        const auto outcome = run(plan, 0);
+        ASSERT_TRUE(outcome) << outcome.error().message;
+        EXPECT_EQ(outcome->record.files, 3U);
+        EXPECT_EQ(outcome->record.grids, 3U);
+    }
+    EXPECT_EQ(tree_of(directory_ / "one"), tree_of(directory_ / "two"));
 }
 
 // The counts of a month and hour are those of its frames, whichever task counts first.

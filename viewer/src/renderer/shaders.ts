@@ -147,9 +147,10 @@ ${litColorText}
 ${facingText}
 ${lightAtText}`;
 
-// The light of two steps is that between them.
+// The light of two steps is that between them, but a step that shows much has its own.
 const stepLit = `
-            if (frontLight < 0.0 || mod(k, 2.0) < 0.5) frontLight = lightAt(cellOf(start + clamp(depth, enter, leave) * along), looks);
+            bool isOwn = frontLight < 0.0 || seen > 0.02;
+            if (isOwn || mod(k, 2.0) < 0.5) frontLight = lightAt(cellOf(start + clamp(isOwn ? depth - 0.5 * stepM : depth, enter, leave) * along), looks);
             lit += seen * frontLight;`;
 
 // What the ray has gathered, lit.
