@@ -29,8 +29,8 @@ bool messages_at_start(std::span<const std::byte> bytes, bool after_header) {
            (first && plausible_at(bytes, frame_bytes));
 }
 
-// PNG, HDF5 and the grids of a cache begin with 89h, three letters and these. What looks like a message
-// inside them is chance.
+// PNG, HDF5 and the grids of a cache begin with 89h, three letters and these. What looks like a
+// message inside them is chance.
 bool is_of_another_format(std::span<const std::byte> bytes) {
     constexpr auto line_ends = std::to_array<std::byte>(
         {std::byte{0x0D}, std::byte{0x0A}, std::byte{0x1A}, std::byte{0x0A}});
