@@ -45,8 +45,8 @@ async function turning(page) {
   await page.mouse('mousePressed', 300, 300, { buttons: 1 });
   const end = performance.now() + 4000;
   for (let x = 300; performance.now() < end; x = x < 500 ? x + 1 : 300) await page.mouse('mouseMoved', x, 300, { buttons: 1 });
-  await page.mouse('mouseReleased', 400, 300);
   frames.push(...(await page.evaluate('frames_')));
+  await page.mouse('mouseReleased', 400, 300);
   // The first second is the governor's.
   const after = frames.filter(([at]) => at > frames[0][0] + 1000);
   const last = after[after.length - 1];

@@ -36,6 +36,12 @@ test('a rung whose error is not allowed is never taken', () => {
     assert.equal(strict.next(true).name, 'exact');
 });
 
+test('nothing that moves is drawn with more effort than what stands still', () => {
+    const governor = new Governor([...three, rung('lavish', 3, 0.1)], 50, 10);
+    governor.took(three[0]!, 1);
+    assert.equal(governor.next(true).name, 'exact');
+});
+
 test('near the limit the picture does not go to and fro', () => {
     const governor = new Governor(three, 50, 10);
     governor.took(three[0]!, 101);

@@ -17,7 +17,8 @@ import { texts } from './texts';
 
 const movingFrameMs = 50;
 const mostMovingDE = 20;
-const stillAfterMs = 180;
+const leastStillAfterMs = 180;
+const mostStillAfterMs = 1000;
 const leastBetweenMs = 150; // of pictures as bricks come
 
 // Draws over the picture in pixels of the page.
@@ -100,6 +101,11 @@ export class Drawing {
         requestAnimationFrame(() => this.drawNow());
     }
 
+    // A hand that turns the view is not at rest because a frame took long.
+    private get stillAfterMs(): number {
+        return Math.min(mostStillAfterMs, Math.max(leastStillAfterMs, 2 * this.lastMs));
+    }
+
     // Bricks come faster than pictures are drawn of them.
     private drawLater(): void {
         if (this.isWaiting) return;
@@ -129,7 +135,7 @@ export class Drawing {
         const geometry = this.geometry();
         const { table, shown, state } = app;
         if (!geometry || !table || !shown) return;
-        const isMoving = performance.now() - this.movedAt < stillAfterMs;
+        const isMoving = performance.now() - this.movedAt < this.stillAfterMs;
         const rung = this.rung(isMoving);
         this.stream(geometry, rung);
         const frame: Frame = {
@@ -154,7 +160,7 @@ export class Drawing {
         drawColorBar(element<HTMLCanvasElement>('bar'), table, shownUnit(table.unit, state.units), state.least);
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         if (isMoving) {
-            window.setTimeout(() => this.draw(), stillAfterMs);
+            window.setTimeout(() => this.draw(), this.stillAfterMs);
         } else if (!this.isFinal && !this.layers!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
             this.isFinal = true;
             const detail = this.streaming!.detail;

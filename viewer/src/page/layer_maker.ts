@@ -10,7 +10,7 @@ import { nearestSite, nearestSweep } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
-import { Layers, isBelow, usualLayers } from '../scene/layers';
+import { Layers, isBelow, layersAddress, usualLayers } from '../scene/layers';
 import { Place, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
@@ -73,9 +73,9 @@ class Asked<T> {
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
 
-// Layers are cut from a grid that is there as a whole: one in parts has the box alone.
-function nothing(table: ColorTable): Omit<DrawnLayers, 'crop' | 'looks'> {
-    const none = { plane: null, section: null, surface: null, maximum: null, sweep: null, falls: null, air: null };
+// Layers are cut from a grid that is there as a whole: one in parts has the box and a sweep, which is not of the grid.
+function nothing(table: ColorTable): Omit<DrawnLayers, 'crop' | 'sweep' | 'looks'> {
+    const none = { plane: null, section: null, surface: null, maximum: null, falls: null, air: null };
     return { ...none, hasHaze: false, hasFolded: false, mixes: false, folded: table.range_folded };
 }
 
@@ -113,14 +113,18 @@ export class LayerMaker {
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
         if (!shown || !table || isUsual) return null;
         const { grid, stream } = shown.loaded;
-        this.isLeftOut = stream !== null;
-        if (stream) return { ...nothing(table), crop: layers.crop, looks: this.looksOf(table, state.least) };
+        const sweep = layers.sweepDeg === null ? null : this.sweepOf(shown, layers.sweepDeg);
+        if (stream) {
+            const { hasVolume, crop, sweepDeg } = layers;
+            this.isLeftOut = layersAddress(layers).length > layersAddress({ ...usualLayers, hasVolume, crop, sweepDeg }).length;
+            return { ...nothing(table), crop, sweep, looks: this.looksOf(table, state.least) };
+        }
         return {
             plane: this.planeOf(grid, shown.moment, layers.planeM),
             section: layers.section && this.sectionOf(grid, shown.moment, layers.section),
             surface: this.surfaceOf(shown, layers),
             maximum: layers.hasMaximum ? this.kept.take('maximum', [grid], () => maximumField(grid)) : null,
-            sweep: layers.sweepDeg === null ? null : this.sweepOf(shown, layers.sweepDeg),
+            sweep,
             crop: layers.crop,
             falls: layers.isLit ? this.fallsOf(grid, shown.moment, table) : null,
             air: layers.hasHaze || layers.hasFolded ? this.airOf(grid) : null,

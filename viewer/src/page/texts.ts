@@ -108,7 +108,7 @@ export const texts = {
     asTimeAllows: 'as time allows',
     rung: (name: string, dE: number) => `${name}: dE ${dE}`,
     held: (bytes: number, most: number) => `Grids take ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
-    layersLeftOut: 'this grid is too large for layers',
+    layersLeftOut: 'this grid is too large for layers other than a sweep and the box',
     detail: (halvings: number, missing: number) => {
         const cells = halvings > 0 ? `greatest of ${2 ** halvings} x ${2 ** halvings} cells` : '';
         return missing > 0 ? `coarse: ${cells}, finer ones are loading` : cells;

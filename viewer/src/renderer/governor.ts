@@ -29,7 +29,8 @@ export class Governor {
             this.moving = null;
             return still;
         }
-        const allowed = this.rungs.filter(rung => rung.dE <= this.mostDE).sort((one, other) => one.dE - other.dE);
+        // Nothing that moves is drawn with more effort than what stands still.
+        const allowed = this.rungs.filter(rung => rung.dE <= this.mostDE && rung.cost <= still.cost).sort((one, other) => one.dE - other.dE);
         if (allowed.length === 0) return still;
         const unit = this.firstRungMs;
         if (unit === null) return allowed[0]!;

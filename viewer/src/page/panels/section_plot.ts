@@ -77,8 +77,9 @@ export class SectionPlot {
         const { shown, table, state } = this.app;
         const ends = state.layers.section;
         const hasBeenHidden = this.box.hidden;
-        this.box.hidden = !ends || !shown || !table;
-        if (!ends || !shown || !table) {
+        const isThere = shown !== null && shown.loaded.stream === null; // as a whole, from which can be cut
+        this.box.hidden = !ends || !isThere || !table;
+        if (!ends || !isThere || !table) {
             this.drawn = [];
             return;
         }
