@@ -7,7 +7,13 @@ import { CheckedPage, Slicer, check, gridsOf, mostDifference, viewOf } from './c
 import { Browser } from './devtools.mjs';
 
 const [address, station, difference, directory] = process.argv.slice(2);
-const memoryMib = 24;
+// A tenth of the memory is a little less than the grid.
+const packedBytes = (await (await fetch(`${address}/api/v1/grids/${station}/REF/latest/packed`)).arrayBuffer()).byteLength;
+const memoryMib = Math.floor((0.98 * packedBytes * 10) / 2 ** 20);
+if (memoryMib < 4) {
+  console.log(`the grid of ${station} has ${packedBytes} bytes, too few to be fetched in parts`);
+  process.exit(0);
+}
 const scene = { station, moment: 'REF', azimuth: 217, tilt: 60, zoom: 8, field: 40, exaggeration: 3, opacity: 1, at: [-20, 20, 4] };
 const otherScene = { ...scene, at: [30, 30, 4], zoom: 12 };
 const inParts = (one) => `memory=${memoryMib}&quality=512%20slices&${viewOf(one)}`;

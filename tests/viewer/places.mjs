@@ -85,6 +85,61 @@ await viewer.settled(async () => {
   await page.touch('touchEnd', []);
 });
 check('a touch opens a station', (await viewer.told('domain')) === station);
+
+// ---- Tools, from straight above, where a pixel is a column
+await viewer.show(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=40`);
+const { grids } = await (await fetch(`${address}/api/v1/grids?domain=${station}&moment=REF`)).json();
+let told = 0;
+for (const [px, py] of [[300, 200], [270, 190], [330, 220], [350, 240], [400, 180], [250, 230]]) {
+  await page.evaluate("document.getElementById('hover').hidden = true");
+  await page.mouse('mouseMoved', px, py);
+  const hovered = await page.until("!document.getElementById('hover').hidden && document.getElementById('hover').innerText");
+  await page.drag([px, py], [0, 0]);
+  const reading = await page.until("document.getElementById('reading').innerText");
+  await page.key('Escape'); // the reading covers a part of the picture
+  const [latitude, longitude] = reading.match(/-?\d+\.\d+/g).map(Number);
+  const { levels } = await (await fetch(`${address}${grids[0].path}/probe?at=${latitude},${longitude}`)).json();
+  const seen = levels.filter(({ state, value }) => state === 'value' && value >= 40).pop();
+  if (seen ? hovered.startsWith(`${seen.value} dBZ at`) : hovered.startsWith('Lowest level')) ++told;
+  else console.log(`at ${px}, ${py} the page says ${JSON.stringify(hovered)}, the server ${JSON.stringify(seen)}`);
+}
+// The reading writes places to three decimals, which may lie in the next cell.
+check(`${told} of 6 pixels tell the highest visible cell`, told >= 4);
+await page.key('Escape');
+await page.key('d');
+await page.drag([250, 200], [0, 0]);
+await page.drag([350, 200], [0, 0]);
+const distance = await texts('tool-says');
+check(`a distance eastward is told: ${distance}`, /^\d+(\.\d+)? km, azimuth (89|90|91)°, height [+−]/.test(distance));
+await keep('distance');
+await page.key('r');
+for (const corner of [[250, 200], [350, 200], [350, 300], [250, 300]]) await page.drag(corner, [0, 0]);
+const area = await texts('tool-says');
+const side = Number(distance.match(/^[\d.]+/)[0]);
+check(`the square on it has its area: ${area}`, Math.abs(Number(area.match(/^[\d.]+/)[0]) / side ** 2 - 1) < 0.02);
+await page.key('Escape');
+check('Escape ends a tool', (await texts('tool-says')) === '');
+await page.evaluate("document.getElementById('raw').click()");
+const raw = await page.until("document.querySelector('#tool-says a')?.href", 5);
+const { headers } = await fetch(raw, { method: 'HEAD' });
+check(`the raw volume is a link: ${raw.split('/').pop()}`, raw.includes(`/volumes/${station}/`) && Number(headers.get('content-length')) > 1e5);
+
+// ---- A flight
+await viewer.show(`domain=${station}&moment=REF&azimuth=180&tilt=60&zoom=4&field-of-view=0&least=70`);
+await viewer.settled(() => page.key('f'));
+check('a flight has perspective', (await viewer.number('field-of-view')) === 60 && (await viewer.number('zoom')) === 1);
+const from = await viewer.told('look-at-km');
+await page.send('Input.dispatchKeyEvent', { type: 'keyDown', key: 'w', text: 'w' });
+await page.until(`new URLSearchParams(location.hash.slice(1)).get('look-at-km') !== ${JSON.stringify(from)}`, 10);
+await viewer.settled(() => page.send('Input.dispatchKeyEvent', { type: 'keyUp', key: 'w' }));
+const [fx, fy] = [from, await viewer.told('look-at-km')].map((text) => text.split(',').map(Number)).reduce((a, b) => [b[0] - a[0], b[1] - a[1]]);
+check(`W flies northward (${fx}, ${fy} km)`, fy > 0.05 && Math.abs(fx) < 0.01);
+await viewer.changes('a drag looks around', 'azimuth', () => page.drag([350, 200], [50, 0]), (was, is) => Math.abs(is - was - 10) < 0.5);
+await page.key('Escape');
+const landed = await viewer.told('look-at-km');
+await page.key('q');
+check('Escape lands', (await viewer.told('look-at-km')) === landed);
+
 check('no request leaves the server of the page', page.requests.every((url) => url.startsWith(`${address}/`) || url.startsWith('data:') || url.startsWith('blob:')));
 check('nothing failed on the way', page.trouble.length === 0, page.trouble.join('\n'));
 

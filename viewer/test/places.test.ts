@@ -69,6 +69,8 @@ test('outlines lie where the grid ends', () => {
         nx: 460,
         ny: 400,
         greatest: null,
+        provenance: { source_files: [], stations: [], predicted_error: '', sweeps: [] },
+        audit: null,
     };
     const center = { latitudeDeg: 35, longitudeDeg: -97 };
     for (const place of circleOf(facts)) assert.ok(Math.abs(geodesic(center, place).distanceM - 200000) < 1);

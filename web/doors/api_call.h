@@ -24,6 +24,7 @@
 #include "stormcellar/level2/volume.h"
 #include "web/data/grids.h"
 #include "web/data/kept_answers.h"
+#include "web/data/region.h"
 #include "web/data/served_catalog.h"
 #include "web/http/answer.h"
 
@@ -136,6 +137,12 @@ struct NamedGrid {
 };
 [[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
 [[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
+// Find the region that {region} and {moment} of the path name. The error is 400 or 404.
+struct AskedRegion {
+    std::string name;  // its box as it was asked
+    RegionPlan plan;
+};
+[[nodiscard]] Answered<AskedRegion> asked_region(const ApiCall& call);
 // The answer to those who ask for a grid that is not there.
 [[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
 

@@ -48,6 +48,12 @@ constexpr std::array map_parameters{
                  "county, state, lake, country, coast, city, with commas; default: all "
                  "but county"}};
 
+constexpr std::array regions_parameters{
+    ApiParameter{"west", "degrees", ApiKind::number, true},
+    ApiParameter{"south", "degrees", ApiKind::number, true},
+    ApiParameter{"east", "degrees, greater than west", ApiKind::number, true},
+    ApiParameter{"north", "degrees", ApiKind::number, true}};
+
 constexpr std::array events_parameters{
     ApiParameter{"station", "hear of these stations: ICAOs with commas"},
     ApiParameter{"domain", "hear of the grids of these domains, too"},
@@ -136,6 +142,16 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
      bytes_type,
      computed_errors,
      api_between},
+    {"regions", "/api/v1/regions",
+     "A box over several sites as a domain: its sites, cells, moments and times.",
+     regions_parameters, json_type, catalog_errors, api_regions},
+    {"region_packed",
+     "/api/v1/regions/{region}/{moment}/{time}/packed",
+     "The grids of a region's sites as one, at one instant, made when it is asked for.",
+     {},
+     bytes_type,
+     volume_errors,
+     api_region_packed},
     {"events", "/api/v1/events", "What happens, as it happens: server-sent events.",
      events_parameters, events_type, events_errors, api_no_events},
     {"map", "/api/v1/map", "Coasts, borders, lakes and cities of an area.", map_parameters,
@@ -156,6 +172,7 @@ constexpr auto path_parameters = std::to_array<PathParameter>({
     {"domain", "name of a domain: a station's ICAO, or that of a mosaic"},
     {"moment", "short name of a moment, in capitals"},
     {"time", "ISO 8601 in UTC with milliseconds where they are not 0, or latest"},
+    {"region", "WEST,SOUTH,EAST,NORTH in degrees, as /api/v1/regions names it"},
     {"station", "ICAO of a station"},
     {"sweep", "number of a sweep in its volume, from 0"},
 });

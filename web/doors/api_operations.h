@@ -55,6 +55,8 @@ Answer api_profile(const ApiCall& call);
 Answer api_netcdf(const ApiCall& call);
 Answer api_grid_file(const ApiCall& call);
 Answer api_between(const ApiCall& call);
+Answer api_regions(const ApiCall& call);
+Answer api_region_packed(const ApiCall& call);
 Answer api_map(const ApiCall& call);
 Answer api_tables(const ApiCall& call);
 Answer api_no_events(const ApiCall& call);

@@ -6,6 +6,7 @@
 #include "web/data/halved_grid.h"
 #include "web/data/memory_file.h"
 #include "web/data/packed_grid.h"
+#include "web/data/region.h"
 #include "web/doors/api_door.h"
 #include "web/doors/api_operations.h"
 
@@ -166,6 +167,18 @@ Answer other_id(const OpenGrid& grid) {
     return json_error(410, "the grid was made again; its id is now " + grid.id);
 }
 
+// What was made on request and has no file.
+Result<Kept> pack_frame(const pipeline::MosaicFrame& frame, Coding coding, PackedSource source) {
+    source.description = &frame.description;
+    source.view = frame.mosaic.cells.view();
+    auto bytes = pack_whole(source);
+    if (!bytes) return pass_on(bytes);
+    // The id is of the bytes, since there is no file.
+    const std::uint64_t id = xxh3_64(std::as_bytes(std::span(*bytes)));
+    std::memcpy(bytes->data() + offsetof(PackedHeader, id), &id, sizeof id);
+    return compress_packed(bytes, coding, fmt::format("\"{:016x}-{}\"", id, coding_name(coding)));
+}
+
 Result<Kept> make_between(const ApiCall& call, const NamedGrid& named, Coding coding) {
     const auto store = cache::StoreReader::open(call.grids().cache());
     if (!store) return pass_on(store);
@@ -182,13 +195,7 @@ Result<Kept> make_between(const ApiCall& call, const NamedGrid& named, Coding co
         return fail(ErrorCode::not_found, "there is no volume near {} in {}",
                     format_utc(named.time), named.domain);
     }
-    PackedSource source{&(*frame)->description, (*frame)->mosaic.cells.view()};
-    auto bytes = pack_whole(source);
-    if (!bytes) return pass_on(bytes);
-    // The id is of the bytes, since there is no file.
-    const std::uint64_t id = xxh3_64(std::as_bytes(std::span(*bytes)));
-    std::memcpy(bytes->data() + offsetof(PackedHeader, id), &id, sizeof id);
-    return compress_packed(bytes, coding, fmt::format("\"{:016x}-{}\"", id, coding_name(coding)));
+    return pack_frame(**frame, coding, {});
 }
 
 }  // namespace
@@ -245,6 +252,38 @@ Answer api_between(const ApiCall& call) {
         const auto slot = call.state.take_slot();
         if (!slot) return come_back_later();
         auto made = answers.find_or_make(key, [&] { return make_between(call, *named, coding); });
+        if (!made) return json_error(made.error());
+        kept = std::move(*made);
+    }
+    return packed_answer(call.request, *kept, false);
+}
+
+Answer api_region_packed(const ApiCall& call) {
+    const auto asked = asked_region(call);
+    if (!asked) return asked.error();
+    const auto time = parse_utc(call.path_value("time"), now_utc());
+    if (!time) return json_error(404, time.error().message);
+    const Coding coding = coding_for(call.request);
+    std::string key =
+        fmt::format("region/{}/{}/{}/{}", asked->name, level2::moment_name(asked->plan.moment),
+                    format_utc(*time), coding_name(coding));
+    // It may become another one as soon as anything of its sites changes.
+    for (const std::string& site : asked->plan.sites)
+        key += fmt::format("/{}", call.grids().changes_of(site));
+    KeptAnswers& answers = *call.state.sources().kept;
+    auto kept = answers.find(key);
+    if (!kept) {
+        const auto slot = call.state.take_slot();
+        if (!slot) return come_back_later();
+        auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
+            const auto frame = make_region(call.grids(), asked->plan, *time);
+            if (!frame) return pass_on(frame);
+            PackedSource source;
+            source.halved = static_cast<std::uint32_t>(asked->plan.halvings);
+            source.halved_by =
+                source.halved > 0 ? static_cast<std::uint32_t>(HalvedBy::maximum) : 0;
+            return pack_frame(*frame, coding, source);
+        });
         if (!made) return json_error(made.error());
         kept = std::move(*made);
     }

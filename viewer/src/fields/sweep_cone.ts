@@ -10,16 +10,29 @@ const semiMajorM = 6378137;
 const flattening = 1 / 298.257223563;
 const radians = Math.PI / 180;
 
+// The radius of the sphere over which a beam is straight.
+function beamSphereM(latitudeDeg: number): number {
+    const sine = Math.sin(latitudeDeg * radians);
+    const gaussian = (semiMajorM * (1 - flattening)) / (1 - flattening * (2 - flattening) * sine * sine);
+    return (4 / 3) * gaussian;
+}
+
 // Where a beam has a slant range: along the earth at sea level, and above it.
 export function beamAt(site: { latitudeDeg: number; altitudeM: number }, elevationDeg: number, rangeM: number): { arcM: number; heightM: number } {
-    const sine = Math.sin(site.latitudeDeg * radians);
-    const gaussian = (semiMajorM * (1 - flattening)) / (1 - flattening * (2 - flattening) * sine * sine);
-    const radius = (4 / 3) * gaussian;
+    const radius = beamSphereM(site.latitudeDeg);
     const antenna = radius + site.altitudeM;
     const up = rangeM * Math.sin(elevationDeg * radians);
     const along = rangeM * Math.cos(elevationDeg * radians);
     const q = rangeM * rangeM + 2 * antenna * up;
     return { arcM: radius * Math.atan2(along, antenna + up), heightM: site.altitudeM + q / (Math.sqrt(antenna * antenna + q) + antenna) };
+}
+
+// Which beam meets a point: the inverse of beamAt().
+export function beamTo(site: { latitudeDeg: number; altitudeM: number }, arcM: number, heightM: number): { elevationDeg: number; rangeM: number } {
+    const radius = beamSphereM(site.latitudeDeg);
+    const along = (radius + heightM) * Math.sin(arcM / radius);
+    const up = (radius + heightM) * Math.cos(arcM / radius) - (radius + site.altitudeM);
+    return { elevationDeg: Math.atan2(up, along) / radians, rangeM: Math.hypot(along, up) };
 }
 
 export const azimuthSteps = 7200; // of a turn

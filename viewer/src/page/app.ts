@@ -8,7 +8,7 @@ import { ColorTable } from '../tables/color_table';
 import { instantsBetween } from '../time/between';
 import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../time/player';
 import { Units, namesOf } from '../tables/units';
-import { ApiError, Domain, domains, tables, times } from '../wire/api';
+import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
 import { element } from './dom';
 import { Loader } from './loader';
 import { rememberUnits, rememberedUnits } from './remembered';
@@ -19,6 +19,7 @@ const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
 const loadedAhead = 12; // of a loop
 const betweenAhead = 3; // of what is made on request
+const newOfRegion = 4; // instants that a volume of a site may change
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
 // where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
@@ -122,7 +123,14 @@ export class App {
     }
 
     async findDomains(): Promise<void> {
-        this.domains = (await domains()).filter(domain => domain.part_of === null && domain.moments.length > 0);
+        const found = (await domains()).filter(domain => domain.part_of === null && domain.moments.length > 0);
+        this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
+    }
+
+    // A region is a domain once its sites and times are known. Errors: what the server says of its box.
+    async findRegion(domain: string): Promise<void> {
+        const found = await region(domain);
+        this.domains = [...this.domains.filter(one => one.domain !== domain), found];
     }
 
     private openMap(): void {
@@ -155,6 +163,13 @@ export class App {
 
     // Shows a domain and a moment of it, the first of each if there is none of the name.
     async choose(domain: string, moment: string): Promise<void> {
+        if (isRegion(domain) && !this.domains.some(one => one.domain === domain)) {
+            try {
+                await this.findRegion(domain);
+            } catch (error) {
+                return this.fail(error);
+            }
+        }
         if (this.isOnMap) {
             this.isOnMap = false;
             this.tell('map');
@@ -304,6 +319,19 @@ export class App {
         this.tell('time');
     }
 
+    private isPartOfShown(domain: string | undefined): boolean {
+        const own = this.domain as Region | undefined;
+        return domain === this.state.domain || (isRegion(this.state.domain) && (own?.moments.some(one => one.sites.includes(domain ?? '')) ?? false));
+    }
+    // Of a region, any instant near the newest may have become another one.
+    private async takeNewsOfSite(): Promise<void> {
+        const { domain, moment } = this.state;
+        await this.findRegion(domain);
+        for (const time of this.stored.slice(-newOfRegion)) this.loader.forget(Loader.key(domain, moment, time));
+        this.takeTimes((await times(domain, moment, soonTimes)).times);
+        await this.showTime();
+    }
+
     // The server has other times now; `changedTime` is that of a grid that was made again.
     async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined): Promise<void> {
         if (this.domains.length === 0) {
@@ -315,7 +343,8 @@ export class App {
             await this.findDomains();
             this.tell('choices');
         }
-        if (domain !== this.state.domain || moment !== this.state.moment) return;
+        if (!this.isPartOfShown(domain) || moment !== this.state.moment) return;
+        if (domain !== this.state.domain) return this.takeNewsOfSite();
         if (changedTime) this.loader.forget(Loader.key(domain, moment, changedTime));
         const before = this.player.times[this.player.at];
         const newest = (await times(domain, moment, soonTimes)).times;

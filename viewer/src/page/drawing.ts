@@ -175,6 +175,12 @@ export class Drawing {
         }
     }
 
+    // What tools mark has changed, the scene has not.
+    drawMarks(): void {
+        const geometry = this.geometry();
+        if (geometry && !this.isDrawing) this.drawOver(geometry);
+    }
+
     private drawOver(geometry: ViewGeometry): void {
         if (this.labels.width !== geometry.width || this.labels.height !== geometry.height) {
             this.labels.width = geometry.width;

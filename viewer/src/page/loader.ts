@@ -10,7 +10,7 @@ import { Pyramid, levelWithin } from '../atlas/pyramid';
 import { WorkerAnswer } from '../atlas/worker';
 import { LoadedGrid } from '../renderer/renderer';
 import { PackedGrid } from '../wire/packed_grid';
-import { packed, packedBetween } from '../wire/api';
+import { isRegion, packed, packedBetween } from '../wire/api';
 
 // How a budget of bytes is divided.
 export class Budget {
@@ -116,7 +116,7 @@ export class Loader {
 
     private async fetch(domain: string, moment: string, time: string, isBetween: boolean): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
-        const bytes = await (isBetween ? packedBetween(domain, moment, time) : packed(domain, moment, time, { most: String(this.budget.mostWhole), codes: 'values' }));
+        const bytes = await (isBetween || isRegion(domain) ? packedBetween(domain, moment, time) : packed(domain, moment, time, { most: String(this.budget.mostWhole), codes: 'values' }));
         const answer = await this.decoder.ask({ kind: 'grid', key, bytes, mostTexels: this.mostTexels });
         const { grid, atlas, coverage } = answer;
         const loaded = atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : await this.fetchFirst(domain, moment, time, answer);

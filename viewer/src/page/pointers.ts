@@ -38,7 +38,7 @@ export class Pointers {
     use(tool: Tool | null): void {
         this.tool.end?.();
         this.tool = tool ?? this.usual;
-        this.drawing.draw();
+        this.drawing.drawMarks();
     }
 
     begin(): void {

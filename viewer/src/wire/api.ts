@@ -51,6 +51,32 @@ export interface GridFacts {
     nx: number;
     ny: number;
     greatest: number | null;
+    provenance: {
+        source_files: string[];
+        stations: string[];
+        predicted_error: string;
+        sweeps: SweepTime[];
+    };
+    audit: { unit: string; summary: string; rows: AuditRow[] } | null;
+}
+// When a sweep of the grid began, and how fast it turned.
+export interface SweepTime {
+    elevation_deg: number;
+    start: string;
+    first_azimuth_deg: number;
+    degrees_per_s: number;
+}
+// How far the grid's values are from the gates of a sweep, between two ranges.
+export interface AuditRow {
+    elevation_deg: number;
+    range_from_m: number;
+    range_to_m: number | null;
+    count: number;
+    rms: number;
+}
+// Several sites within a box, as one domain (docs/web/grids.md#regions).
+export interface Region extends Domain {
+    moments: (MomentOfDomain & { sites: string[]; left_out: string[]; spacing_m: number; times: string[] })[];
 }
 export interface MapLine {
     kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
@@ -106,26 +132,46 @@ export async function stations(): Promise<Station[]> {
 export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
 }
+const regionBegins = 'region:';
+export const isRegion = (domain: string): boolean => domain.startsWith(regionBegins);
+// "region:west,south,east,north", in degrees.
+export function regionName({ west, south, east, north }: { west: number; south: number; east: number; north: number }): string {
+    return regionBegins + [west, south, east, north].map(degrees => Number(degrees.toFixed(3))).join(',');
+}
+export async function region(domain: string): Promise<Region> {
+    const [west, south, east, north] = domain.slice(regionBegins.length).split(',');
+    const query = new URLSearchParams({ west: west ?? '', south: south ?? '', east: east ?? '', north: north ?? '' });
+    const found = (await (await ask(`api/v1/regions?${query}`)).json()) as Omit<Region, 'part_of'>;
+    return { ...found, domain, part_of: null };
+}
 export interface Times {
     times: string[]; // rising
     more: boolean; // there are older ones
 }
 // The newest times of a domain's grids, at most `limit`, up to 10,000; until `to`, inclusive.
 export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
+    if (isRegion(domain)) {
+        const found = (await region(domain)).moments.find(one => one.moment === moment);
+        return { times: found?.times.filter(time => to === undefined || time <= to).slice(-limit) ?? [], more: false };
+    }
     const until = to === undefined ? '' : `&to=${encodeURIComponent(to)}`;
     const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=${limit}${until}`;
     const { grids, more } = (await (await ask(path)).json()) as { grids: { time: string }[]; more: boolean };
     return { times: grids.map(grid => grid.time), more };
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
-    `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
+    isRegion(domain)
+        ? `api/v1/regions/${domain.slice(regionBegins.length)}/${moment}/${encodeURIComponent(time)}`
+        : `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
+export const rawPath = (station: string, name: string): string => address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
 // `query`: the parameters of docs/web/packed-grid.md.
 export async function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
     return (await ask(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, signal)).arrayBuffer();
 }
-// A grid for an instant between volumes.
+// A grid that is made on request, whole: for an instant between volumes, or of a region.
 export async function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
-    return (await ask(`api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`)).arrayBuffer();
+    const path = isRegion(domain) ? `${gridPath(domain, moment, time)}/packed` : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
+    return (await ask(path)).arrayBuffer();
 }
 export interface Tables {
     tables: ColorTable[];

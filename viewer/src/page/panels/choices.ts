@@ -1,5 +1,6 @@
 // The head of the page: domain, moments, and what is shown.
 
+import { isRegion } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press, putOptions } from '../dom';
 import { texts } from '../texts';
@@ -10,6 +11,7 @@ function putChoices(app: App): void {
         element<HTMLSelectElement>('domain'),
         app.domains.map(one => one.domain),
         state.domain,
+        name => (isRegion(name) ? texts.start.region : name),
     );
     element('moments').replaceChildren(
         ...(domain?.moments ?? []).map(({ moment }) => button(`moment-${moment}`, moment, () => void app.choose(state.domain, moment))),

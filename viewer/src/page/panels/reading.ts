@@ -10,6 +10,8 @@ import { Keys } from '../keys';
 import { Tool } from '../pointers';
 import { ColumnReading, columnAt, readColumn } from '../reading';
 import { texts } from '../texts';
+import { Hover } from './hover';
+import { profilePlot } from './profile_plot';
 
 const mostRows = 10;
 const mostDigits = 6; // of a value: all that its code has
@@ -19,11 +21,14 @@ function summaryOf({ greatest, seenFromM }: ColumnReading, unit: string, units: 
     return seenFromM === null ? texts.notSeen : texts.noEcho;
 }
 
-function putColumn(body: HTMLElement, reading: ColumnReading, unit: string, units: Units): void {
+function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
+    const { unit } = app;
+    const { units } = app.state;
     body.append(paragraph(summaryOf(reading, unit, units)));
     if (reading.seenFromM !== null) {
         body.append(paragraph(texts.seenBetween(heightNumber(reading.seenFromM, units), heightText(reading.seenToM!, units))));
     }
+    if (reading.seenFromM !== null) body.append(profilePlot(app, reading));
     const table = document.createElement('table');
     const told = reading.levels.filter(level => level.value !== null || level.code === 2);
     const every = Math.ceil(told.length / mostRows);
@@ -43,6 +48,7 @@ export class Reader implements Tool {
     constructor(
         private app: App,
         private drawing: Drawing,
+        private pointed: Hover,
     ) {}
 
     begin(keys: Keys): void {
@@ -57,6 +63,10 @@ export class Reader implements Tool {
         keys.add('Escape', () => this.clear());
         keys.add('?', () => this.showHelp());
         element('actions').append(button('help', texts.help, () => this.showHelp()));
+    }
+
+    hover(x: number, y: number): void {
+        this.pointed.over(x, y);
     }
 
     click(x: number, y: number): void {
@@ -95,13 +105,13 @@ export class Reader implements Tool {
             gridForColumn(shown.loaded, column)
                 .then(exact => {
                     if (this.at !== at || this.app.shown !== shown) return;
-                    putColumn(body, readColumn(exact, ...column), this.app.unit, this.app.state.units);
-                    this.drawing.draw();
+                    putColumn(body, this.app, readColumn(exact, ...column));
+                    this.drawing.drawMarks();
                 })
                 .catch(error => this.app.fail(error));
         }
         box.replaceChildren(this.close, title, body);
-        this.drawing.draw();
+        this.drawing.drawMarks();
     }
 
     private showHelp(): void {

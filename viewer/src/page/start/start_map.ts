@@ -2,6 +2,7 @@
 
 import { MapBox, MapView, boxBetween, draggedMap, fittedMap, isInBox, mapPoint, pixelOf, scaledMap } from '../../map/mercator';
 import { Pixel, StationPlace, isInside, nearestPixel, pixelToward, search } from '../../map/places';
+import { isRegion, regionName } from '../../wire/api';
 import { App } from '../app';
 import { button, element } from '../dom';
 import { Rect } from '../labels';
@@ -79,7 +80,7 @@ export class StartMap {
         if (document.hidden) return;
         try {
             await this.app.findDomains();
-            await this.data.load(this.app.domains);
+            await this.data.load(this.app.domains.filter(one => !isRegion(one.domain)));
         } catch (error) {
             this.say(texts.failed(error instanceof Error ? error.message : String(error)));
         }
@@ -268,15 +269,22 @@ export class StartMap {
     private tellBox(): void {
         this.say(texts.start.boxed(this.stationsInBox().map(one => one.icao)));
     }
-    // The box is what shall be seen; of one station, the station is opened.
+    // The sites of the box become one domain; of one station, the station is opened.
     async openBox(): Promise<void> {
         const box = this.boxDegrees();
         const inside = this.stationsInBox();
         this.dropBox();
         if (!box || inside.length === 0) return this.say(texts.start.boxed([]));
-        this.say('');
         if (inside.length === 1) return this.open(inside[0]!.icao);
-        this.view = fittedMap(inside.map(mapPoint), this.view!.width, this.view!.height, [300, 100, 60, 60]);
+        this.say(texts.start.merging(inside.map(one => one.icao)));
+        const domain = regionName(box);
+        try {
+            await this.app.findRegion(domain);
+            await this.app.enter(domain);
+            this.say('');
+        } catch (error) {
+            this.say(error instanceof Error ? error.message : String(error));
+        }
     }
 
     // -- keys

@@ -1,0 +1,44 @@
+// A box over two sites opens a grid of both (scripts/check-viewer).
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { CheckedPage, check, gridsOf, shadesOf } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, one, other, pictures] = process.argv.slice(2);
+await gridsOf(address, [one, other]);
+const browser = await Browser.start();
+const page = await browser.page(700, 440);
+const viewer = new CheckedPage(page, address);
+
+await page.goto(`${address}/view/`);
+const text = await page.until(`document.documentElement.dataset.map?.includes('${other}') && document.documentElement.dataset.map`);
+const places = new Map(text.split(',').map((place) => place.split(' ')).map(([icao, x, y]) => [icao, [Number(x), Number(y)]]));
+const [a, b] = [places.get(one), places.get(other)];
+const [left, top] = [Math.min(a[0], b[0]) - 25, Math.min(a[1], b[1]) - 25];
+const [right, bottom] = [Math.max(a[0], b[0]) + 25, Math.max(a[1], b[1]) + 25];
+await viewer.settled(() => page.drag([left, top], [right - left, bottom - top], { modifiers: 8 }));
+const domain = await viewer.told('domain');
+check(`a box over two sites opens ${domain}`, domain.startsWith('region:'));
+const title = await page.evaluate("document.getElementById('title').innerText");
+check(`it has both: ${title}`, title.includes(one) && title.includes(other));
+check('it is drawn', shadesOf(await viewer.pixels()).size > 100);
+const drawn = await page.evaluate('document.documentElement.dataset.drawn');
+if (pictures) {
+  mkdirSync(pictures, { recursive: true });
+  writeFileSync(join(pictures, 'region.png'), await page.screenshot());
+}
+
+// ---- Its address alone shows the same
+const link = await page.evaluate('location.href');
+await page.goto('about:blank');
+await page.goto(link);
+await page.until('document.documentElement.dataset.drawn');
+check('its address shows the same', (await page.evaluate('document.documentElement.dataset.drawn')) === drawn);
+
+// ---- What cannot be merged is said
+await page.evaluate(`location.hash = 'domain=region:-100,20,-50,50&moment=REF'; undefined`);
+const said = await page.until("document.getElementById('state').innerText.includes('degrees') && document.getElementById('state').innerText");
+check(`a region that is too large is refused: ${said}`, said.includes('at most'));
+check('nothing else failed', page.trouble.every((line) => line.includes('400')), page.trouble.join('\n'));
+await browser.end();

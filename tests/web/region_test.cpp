@@ -1,0 +1,184 @@
+// A box over several sites: its plan, its cells, and what the API answers.
+#include "web/data/region.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/projection.h"
+#include "tests/cache/made_grids.h"
+#include "tests/testing/temporary_directory.h"
+#include "tests/web/asked.h"
+#include "web/data/packed_grid.h"
+#include "web/doors/api_door.h"
+
+namespace stormcellar::web {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int side = 160;  // columns of 2 km
+constexpr float value_of_kbgm = 20, value_of_kccx = 40;
+
+// One value everywhere within 150 km of the site, no echo beyond.
+grid::Grid grid_of(const char* icao, float value, UtcTime time) {
+    const Station station = *find_station(icao);
+    grid::Grid made;
+    made.spec.center_latitude_deg = station.latitude_deg;
+    made.spec.center_longitude_deg = station.longitude_deg;
+    made.spec.spacing_m = 2000;
+    made.spec.nx = made.spec.ny = side;
+    made.spec.levels_m = {1000, 2000, 3000};
+    made.time = made.start_time = time;
+    made.end_time = time + std::chrono::minutes{4};
+    made.sites = {{icao, station.latitude_deg, station.longitude_deg, 300}};
+    made.values.assign(made.spec.cell_count(), 0);
+    made.status.assign(made.spec.cell_count(), grid::CellStatus::no_echo);
+    for (int iy = 0; iy < side; ++iy) {
+        for (int ix = 0; ix < side; ++ix) {
+            if (std::hypot(made.spec.x_m(ix), made.spec.y_m(iy)) >= 150'000) continue;
+            for (int iz = 0; iz < 3; ++iz) {
+                made.values[made.spec.index(ix, iy, iz)] = value;
+                made.status[made.spec.index(ix, iy, iz)] = grid::CellStatus::value;
+            }
+        }
+    }
+    return made;
+}
+
+class Region : public ::testing::Test {
+  protected:
+    Region() {
+        commit(grid_of("KBGM", value_of_kbgm, testing::noon));
+        commit(grid_of("KCCX", value_of_kccx, testing::noon + std::chrono::minutes{6}));
+        commit(grid_of("KTLX", 50, testing::noon));  // far away
+        grids_ = *Grids::open({.cache = directory_ / "cache"});
+        door_ = std::make_unique<ApiDoor>(
+            ApiSources{.grids = grids_,
+                       .catalog = {},
+                       .kept = std::make_shared<KeptAnswers>(std::uint64_t{16} << 20)});
+    }
+    void commit(const grid::Grid& made) {
+        const auto quantization = grid::default_quantization(level2::Moment::ref);
+        ASSERT_TRUE(store_.commit(made.sites.front().icao, cache::describe(made),
+                                  grid::BrickGrid::from(made, quantization).view()));
+    }
+    Json json(const std::string& target, unsigned status = 200) {
+        const Answer answer = asked(*door_, target);
+        EXPECT_EQ(answer.status, status) << target << body_of(answer);
+        return Json::parse(body_of(answer));
+    }
+    RegionPlan plan(const RegionBox& box) {
+        auto made = plan_region(*grids_, box, level2::Moment::ref);
+        EXPECT_TRUE(made) << (made ? "" : made.error().message);
+        return made ? *made : RegionPlan{};
+    }
+
+    testing::TemporaryDirectory directory_;
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
+    std::shared_ptr<Grids> grids_;
+    std::unique_ptr<ApiDoor> door_;
+};
+
+constexpr RegionBox both{-78.8, 40.3, -75, 42.9};
+constexpr const char* both_query = "/api/v1/regions?west=-78.8&south=40.3&east=-75&north=42.9";
+
+float value_at(const grid::BrickView& view, double latitude, double longitude) {
+    const auto at = grid::GridProjection(*view.spec).to_column({latitude, longitude});
+    const int x = static_cast<int>(std::lround(at.x)), y = static_cast<int>(std::lround(at.y));
+    EXPECT_EQ(view.status(x, y, 1), grid::CellStatus::value);
+    return view.value(x, y, 1);
+}
+
+TEST_F(Region, HasTheSitesThatReachIt) {
+    const RegionPlan made = plan(both);
+    EXPECT_EQ(made.sites, (std::vector<std::string>{"KBGM", "KCCX"}));
+    EXPECT_EQ(made.halvings, 0);
+    EXPECT_EQ(made.spec.spacing_m, 2000);
+    EXPECT_EQ(made.spec.levels_m, (std::vector<double>{1000, 2000, 3000}));
+    // The corners of the box lie in the grid, and hardly more does.
+    const grid::GridProjection plane(made.spec);
+    for (const double latitude : {both.south_deg, both.north_deg}) {
+        for (const double longitude : {both.west_deg, both.east_deg}) {
+            const auto at = plane.to_column({latitude, longitude});
+            EXPECT_TRUE(at.x > -1 && at.x < made.spec.nx && at.y > -1 && at.y < made.spec.ny);
+        }
+    }
+    EXPECT_LT(made.spec.nx * 2.0, 340);
+    EXPECT_EQ(plan({-75.2, 43.2, -75.0, 43.4}).sites, (std::vector<std::string>{"KBGM"}));
+}
+
+TEST_F(Region, CellsAreThoseOfTheSitesAndMixBetweenThem) {
+    const auto frame = make_region(*grids_, plan(both), testing::noon + std::chrono::minutes{5});
+    ASSERT_TRUE(frame) << frame.error().message;
+    const grid::BrickView view = frame->mosaic.cells.view();
+    EXPECT_EQ(value_at(view, 42.2, -75.9), value_of_kbgm);
+    EXPECT_EQ(value_at(view, 40.9, -78.1), value_of_kccx);
+    // Where both see echo, by the weights of their distances.
+    const float between = value_at(view, 41.56, -77.0);
+    EXPECT_GT(between, value_of_kbgm + 5);
+    EXPECT_LT(between, value_of_kccx - 5);
+    EXPECT_EQ(frame->description.sites.size(), 2u);
+}
+
+TEST_F(Region, TakesVolumesNearTheInstantAlone) {
+    const RegionPlan made = plan(both);
+    const auto times = region_times(*grids_, made);
+    EXPECT_EQ(times,
+              (std::vector<UtcTime>{testing::noon, testing::noon + std::chrono::minutes{5}}));
+    const auto late = make_region(*grids_, made, testing::noon + std::chrono::hours{2});
+    ASSERT_FALSE(late);
+    EXPECT_EQ(late.error().code, ErrorCode::not_found);
+}
+
+TEST_F(Region, LargeOnesAreCoarserAndLargerOnesRefused) {
+    EXPECT_EQ(plan({-95, 30, -70, 48}).halvings, 1);
+    const auto far_too_large = region_box_of("-100,20,-50,50");
+    ASSERT_FALSE(far_too_large);
+    EXPECT_EQ(far_too_large.error().code, ErrorCode::bad_argument);
+}
+
+TEST_F(Region, TheApiNamesSitesTimesAndPathsAndPacksThem) {
+    const Json region = json(both_query);
+    EXPECT_EQ(region["domain"], "region:-78.8,40.3,-75,42.9");
+    ASSERT_EQ(region["moments"].size(), 1u);
+    const Json& ref = region["moments"][0];
+    EXPECT_EQ(ref["moment"], "REF");
+    EXPECT_EQ(ref["sites"], (Json{"KBGM", "KCCX"}));
+    EXPECT_EQ(ref["times"], (Json{"2024-11-22T12:00:00Z", "2024-11-22T12:05:00Z"}));
+    const std::string path = ref["path"].get<std::string>() + "/2024-11-22T12:05:00Z/packed";
+    const Answer packed = asked(*door_, path);
+    ASSERT_EQ(packed.status, 200u) << body_of(packed);
+    const std::string bytes = body_of(packed);
+    PackedHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    EXPECT_EQ(header.magic, packed_magic);
+    EXPECT_EQ(header.size, bytes.size());
+    EXPECT_EQ(header.nx, ref["nx"]);
+    EXPECT_EQ(header.site_count, 2u);
+    // The second answer is the kept one, until a grid of a site changes.
+    EXPECT_EQ(body_of(asked(*door_, path)), bytes);
+    commit(grid_of("KBGM", 30, testing::noon));
+    grids_->refresh();
+    EXPECT_NE(body_of(asked(*door_, path)), bytes);
+}
+
+TEST_F(Region, ErrorsSayWhatIsWrong) {
+    EXPECT_NE(json("/api/v1/regions?west=-75&south=40&east=-78&north=42", 400)["error"], "");
+    EXPECT_NE(json("/api/v1/regions?west=-75&south=40&east=-74", 400)["error"], "");
+    EXPECT_EQ(json("/api/v1/regions?west=10&south=40&east=12&north=42", 404)["error"],
+              "no site with grids of REF reaches this region");
+    for (const char* region : {"a,b,c,d", "-78,40,-75", "-78,40,-75,42,7", "-78,40,-75,nan"})
+        EXPECT_EQ(json(std::string("/api/v1/regions/") + region + "/REF/latest/packed", 400).size(),
+                  1u);
+    json("/api/v1/regions/-78.8,40.3,-75,42.9/XYZ/2024-11-22T12:05:00Z/packed", 404);
+    json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/2024-11-22T18:00:00Z/packed", 404);
+}
+
+}  // namespace
+}  // namespace stormcellar::web

@@ -1,0 +1,56 @@
+// Flying: the eye moves, and turns where it is. The camera has no eye of its own, so that what it looks at is
+// moved until the eye is where it shall be.
+
+import { Box, Camera, Vec3, ViewGeometry, minus, plus } from './geometry';
+
+export interface Window {
+    box: Box;
+    exaggeration: number;
+    width: number; // pixels
+    height: number;
+}
+
+const geometryOf = (camera: Camera, { box, exaggeration, width, height }: Window): ViewGeometry =>
+    new ViewGeometry(box, camera, exaggeration, width, height);
+
+// The same direction, seen from an eye in drawn space.
+export function withEye(camera: Camera, window: Window, eye: Vec3): Camera {
+    const usual = geometryOf({ ...camera, lookAtM: null }, window);
+    const drawn = plus(minus(eye, usual.eye), 1, usual.middle);
+    return { ...camera, lookAtM: [drawn[0], drawn[1], drawn[2] / window.exaggeration] };
+}
+
+const flownFieldDeg = 60;
+
+// The camera from which a flight begins: a perspective whose eye is where the picture seems to be seen from.
+export function takenOff(camera: Camera, window: Window): Camera {
+    const now = geometryOf(camera, window);
+    const lookAt = camera.lookAtM;
+    const target: Vec3 = lookAt ? [lookAt[0], lookAt[1], lookAt[2] * window.exaggeration] : now.middle;
+    // As many meters are seen across the target as before.
+    const across = now.metersPerPixel * window.width;
+    const back = across / 2 / Math.tan((flownFieldDeg * Math.PI) / 360);
+    return withEye({ ...camera, fieldOfViewDeg: flownFieldDeg, zoom: 1 }, window, plus(target, -back, now.forward));
+}
+
+// Turned where it is, by degrees.
+export function turned(camera: Camera, window: Window, rightDeg: number, upDeg: number): Camera {
+    const { eye } = geometryOf(camera, window);
+    const azimuth = camera.azimuthDeg + rightDeg;
+    const next: Camera = { ...camera, azimuthDeg: ((azimuth % 360) + 360) % 360, tiltDeg: Math.min(90, Math.max(0, camera.tiltDeg + upDeg)) };
+    return withEye(next, window, eye);
+}
+
+// Moved by drawn meters ahead, to the right and upward; never below the ground.
+export function flown(camera: Camera, window: Window, aheadM: number, rightM: number, upM: number): Camera {
+    const now = geometryOf(camera, window);
+    const eye = plus(plus(now.eye, aheadM, now.forward), rightM, now.right);
+    const ground = now.groundM * window.exaggeration;
+    return withEye(camera, window, [eye[0], eye[1], Math.max(ground + 200, eye[2] + upM)]);
+}
+
+// How fast a flight is, in drawn meters a second: slower near the ground.
+export function speedOf(camera: Camera, window: Window): number {
+    const { eye, groundM } = geometryOf(camera, window);
+    return Math.min(200_000, Math.max(4_000, 0.6 * (eye[2] - groundM * window.exaggeration)));
+}

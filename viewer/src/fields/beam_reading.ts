@@ -1,0 +1,55 @@
+// Which beam saw a point of a grid, when, and what the grid's own audit says of values there.
+
+import { Place, geodesic } from '../scene/projection';
+import { GridFacts, SweepTime } from '../wire/api';
+import { Site } from '../wire/packed_grid';
+import { beamTo } from './sweep_cone';
+
+export interface BeamReading {
+    icao: string;
+    rangeM: number;
+    elevationDeg: number; // of the beam that meets the point
+    widthM: number; // of the beam there, between the points of half power
+    sweepDeg: number | null; // the nearest sweep; null where the grid does not say when its sweeps were
+    timeMs: number | null; // when it saw the azimuth of the point
+    rms: number | null; // of the grid's values against the gates of that sweep and range, in the audit's unit
+}
+
+const beamWidthDeg = 0.95; // of the WSR-88D, between half powers
+const radians = Math.PI / 180;
+
+function nearest(sweeps: SweepTime[], elevationDeg: number): SweepTime | null {
+    let best: SweepTime | null = null;
+    for (const sweep of sweeps) {
+        if (!best || Math.abs(sweep.elevation_deg - elevationDeg) < Math.abs(best.elevation_deg - elevationDeg)) best = sweep;
+    }
+    return best;
+}
+
+function timeOf(sweep: SweepTime, azimuthDeg: number): number | null {
+    if (!(Math.abs(sweep.degrees_per_s) > 0)) return null;
+    const turned = sweep.degrees_per_s > 0 ? azimuthDeg - sweep.first_azimuth_deg : sweep.first_azimuth_deg - azimuthDeg;
+    return Date.parse(sweep.start) + (1000 * (((turned % 360) + 360) % 360)) / Math.abs(sweep.degrees_per_s);
+}
+
+// Of the site that is nearest to the point; null without sites. `facts` may still be on their way.
+export function beamReading(sites: Site[], facts: GridFacts | null, place: Place, heightM: number): BeamReading | null {
+    const all = sites.map(site => ({ site, way: geodesic(site, place) })).sort((a, b) => a.way.distanceM - b.way.distanceM);
+    const [first] = all;
+    if (!first) return null;
+    const { site, way } = first;
+    const { elevationDeg, rangeM } = beamTo(site, way.distanceM, heightM);
+    const sweep = nearest(facts?.provenance.sweeps ?? [], elevationDeg);
+    const azimuthDeg = (way.azimuth / radians + 360) % 360;
+    const rows = (facts?.audit?.rows ?? []).filter(row => row.count > 0 && rangeM >= row.range_from_m && rangeM < (row.range_to_m ?? Infinity));
+    const row = rows.sort((a, b) => Math.abs(a.elevation_deg - elevationDeg) - Math.abs(b.elevation_deg - elevationDeg))[0];
+    return {
+        icao: site.icao,
+        rangeM,
+        elevationDeg,
+        widthM: rangeM * beamWidthDeg * radians,
+        sweepDeg: sweep?.elevation_deg ?? null,
+        timeMs: sweep && timeOf(sweep, azimuthDeg),
+        rms: row?.rms ?? null,
+    };
+}

@@ -1,0 +1,98 @@
+// A flight: W, A, S and D move the eye, E and Q lift and sink it, drags turn it.
+
+import { Window, flown, speedOf, takenOff, turned } from '../camera/fly';
+import { App } from './app';
+import { Drawing } from './drawing';
+import { Tool } from './pointers';
+import { boxOf } from '../scene/grid_box';
+
+const degreesAPixel = 0.2;
+const degreesASecond = 60; // by arrows
+const faster = 4; // with Shift
+const ways: Record<string, [number, number, number]> = { w: [1, 0, 0], s: [-1, 0, 0], a: [0, -1, 0], d: [0, 1, 0], e: [0, 0, 1], q: [0, 0, -1] };
+const turns: Record<string, [number, number]> = { arrowleft: [-1, 0], arrowright: [1, 0], arrowup: [0, 1], arrowdown: [0, -1] };
+
+export class FlyTool implements Tool {
+    private held = new Set<string>();
+    private last: [number, number] = [0, 0];
+    private before = 0; // ms, of the last move
+    private isFast = false;
+    private readonly down = (event: KeyboardEvent) => void this.key(event, true);
+    private readonly up = (event: KeyboardEvent) => void this.key(event, false);
+    private readonly lost = () => this.held.clear();
+
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+        private ended: () => void,
+    ) {
+        const view = this.window();
+        if (view) app.moved(takenOff(app.state.camera, view));
+        // Before the keys of the picture, some of which are the same.
+        document.addEventListener('keydown', this.down, { capture: true });
+        document.addEventListener('keyup', this.up, { capture: true });
+        window.addEventListener('blur', this.lost);
+        drawing.picture.focus();
+    }
+
+    end(): void {
+        document.removeEventListener('keydown', this.down, { capture: true });
+        document.removeEventListener('keyup', this.up, { capture: true });
+        window.removeEventListener('blur', this.lost);
+        this.held.clear();
+        this.ended();
+    }
+
+    press(x: number, y: number): boolean {
+        this.last = [x, y];
+        return true;
+    }
+    drag(x: number, y: number): void {
+        const view = this.window();
+        const ratio = window.devicePixelRatio || 1;
+        const [dx, dy] = [(x - this.last[0]) / ratio, (y - this.last[1]) / ratio];
+        this.last = [x, y];
+        if (view) this.app.moved(turned(this.app.state.camera, view, dx * degreesAPixel, -dy * degreesAPixel));
+    }
+
+    private window(): Window | null {
+        const geometry = this.drawing.geometry();
+        const { shown, state } = this.app;
+        return shown && geometry && { box: boxOf(shown.loaded.grid), exaggeration: state.exaggeration, width: geometry.width, height: geometry.height };
+    }
+
+    private key(event: KeyboardEvent, isDown: boolean): void {
+        this.isFast = event.shiftKey;
+        const name = event.key.toLowerCase();
+        const isOurs = (name in ways || name in turns) && !event.ctrlKey && !event.metaKey && !event.altKey;
+        if (!isOurs || (event.target !== this.drawing.picture && event.target !== document.body)) return;
+        event.stopPropagation();
+        event.preventDefault();
+        if (!isDown) this.held.delete(name);
+        else if (!this.held.has(name)) {
+            this.held.add(name);
+            if (this.held.size === 1) {
+                this.before = performance.now();
+                requestAnimationFrame(() => this.move());
+            }
+        }
+    }
+
+    // The way since the last picture, however long that took.
+    private move(): void {
+        const view = this.window();
+        if (this.held.size === 0 || !view) return;
+        const now = performance.now();
+        const seconds = Math.min(0.5, (now - this.before) / 1000);
+        this.before = now;
+        let { camera } = this.app.state;
+        const meters = speedOf(camera, view) * seconds * (this.isFast ? faster : 1);
+        for (const name of this.held) {
+            const [way, turn] = [ways[name], turns[name]];
+            if (way) camera = flown(camera, view, way[0] * meters, way[1] * meters, way[2] * meters);
+            if (turn) camera = turned(camera, view, turn[0] * degreesASecond * seconds, turn[1] * degreesASecond * seconds);
+        }
+        this.app.moved(camera);
+        requestAnimationFrame(() => this.move());
+    }
+}

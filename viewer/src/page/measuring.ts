@@ -1,0 +1,106 @@
+// Distances and areas that are clicked together in the picture.
+
+import { ViewGeometry } from '../camera/geometry';
+import { shades } from '../renderer/shades';
+import { areaM2, legOf } from '../scene/measure';
+import { planeOf } from '../scene/projection';
+import { distanceText, heightText } from '../tables/units';
+import { App } from './app';
+import { fontOf, textScale } from './dom';
+import { Drawing } from './drawing';
+import { haloed } from './labels';
+import { Picked, pick } from './picked';
+import { Tool } from './pointers';
+import { texts } from './texts';
+
+export type Measure = 'distance' | 'area';
+
+export class MeasureTool implements Tool {
+    private points: Picked[] = [];
+    private ahead: Picked | null = null; // under the pointer
+
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+        readonly measure: Measure,
+        private tell: (text: string) => void,
+        private ended: () => void,
+    ) {
+        tell(texts.tools.hint(measure));
+    }
+
+    click(x: number, y: number): void {
+        const picked = pick(this.app, this.drawing, x, y);
+        if (!picked) return;
+        // A third click begins another distance.
+        if (this.measure === 'distance' && this.points.length === 2) this.points = [];
+        this.points.push(picked);
+        this.ahead = null;
+        this.put();
+    }
+    hover(x: number, y: number): void {
+        const isOpen = this.points.length > 0 && !(this.measure === 'distance' && this.points.length === 2);
+        if (!isOpen) return;
+        this.ahead = pick(this.app, this.drawing, x, y);
+        this.put();
+    }
+    end(): void {
+        this.points = [];
+        this.ahead = null;
+        this.ended();
+    }
+
+    private get all(): Picked[] {
+        return this.ahead ? [...this.points, this.ahead] : this.points;
+    }
+
+    private put(): void {
+        const { units } = this.app.state;
+        const all = this.all;
+        if (all.length < 2) this.tell(texts.tools.hint(this.measure));
+        else if (this.measure === 'distance') {
+            const [from, to] = [all[0]!, all[1]!];
+            const { distanceM, azimuthDeg } = legOf(from.place, to.place);
+            const apartM = to.heightM - from.heightM;
+            this.tell(texts.tools.distance(distanceText(distanceM, units), Math.round(azimuthDeg) % 360, `${apartM < 0 ? '−' : '+'}${heightText(Math.abs(apartM), units)}`));
+        } else {
+            const around = all.reduce((sum, one, i) => sum + legOf(one.place, all[(i + 1) % all.length]!.place).distanceM, 0);
+            const side = units.distance.si;
+            this.tell(texts.tools.area(`${Number((areaM2(all.map(one => one.place)) / side ** 2).toPrecision(4))} ${units.distance.symbol}²`, distanceText(around, units)));
+        }
+        this.drawing.drawMarks();
+    }
+
+    draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry): void {
+        const { shown } = this.app;
+        if (!shown || this.points.length === 0) return;
+        const plane = planeOf(shown.loaded.grid);
+        const ratio = window.devicePixelRatio || 1;
+        const pixels = this.all.map(one => {
+            const at = plane.toPlane(one.place);
+            const pixel = at && geometry.project([at[0], at[1], one.heightM * geometry.exaggeration]);
+            return pixel && ([pixel[0] / ratio, pixel[1] / ratio] as [number, number]);
+        });
+        for (const [color, width] of [
+            [shades.halo, 5],
+            ['#7db8f0', 2],
+        ] as const) {
+            pen.beginPath();
+            for (const pixel of pixels) if (pixel) pen.lineTo(...pixel);
+            if (this.measure === 'area' && pixels.length > 2) pen.closePath();
+            pen.strokeStyle = color;
+            pen.lineWidth = width;
+            pen.stroke();
+        }
+        const scale = textScale();
+        pen.font = fontOf(12 * scale, 'bold');
+        pixels.forEach((pixel, i) => {
+            if (!pixel) return;
+            pen.beginPath();
+            pen.arc(pixel[0], pixel[1], 3.5 * scale, 0, 2 * Math.PI);
+            pen.fillStyle = '#7db8f0';
+            pen.fill();
+            if (this.measure === 'distance') haloed(pen, 'AB'[i]!, pixel[0] + 7 * scale, pixel[1], shades.text);
+        });
+    }
+}

@@ -1,0 +1,55 @@
+// The column at a place as a plot: values over height, and between which heights it was seen.
+
+import { colorOf } from '../../tables/color_table';
+import { heightText, shownUnit } from '../../tables/units';
+import { App } from '../app';
+import { fontOf, textScale } from '../dom';
+import { ColumnReading } from '../reading';
+import { shades } from '../../renderer/shades';
+import { texts } from '../texts';
+
+const [width, height] = [250, 130]; // pixels at the usual size of texts
+const [left, bottom] = [52, 20];
+
+export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement {
+    const canvas = document.createElement('canvas');
+    canvas.className = 'profile';
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', texts.tools.profile);
+    const { table, unit } = app;
+    const { units } = app.state;
+    const scale = (window.devicePixelRatio || 1) * textScale();
+    [canvas.width, canvas.height] = [Math.round(width * scale), Math.round(height * scale)];
+    const pen = canvas.getContext('2d')!;
+    pen.scale(scale, scale);
+    const { levels } = reading;
+    if (!table || levels.length < 2) return canvas;
+    const [lowM, highM] = [levels[0]!.heightM, levels[levels.length - 1]!.heightM];
+    const values = levels.flatMap(level => (level.value === null ? [] : [level.value]));
+    const [from, to] = [Math.min(table.bar_begin, ...values), Math.max(table.end, ...values)];
+    const x = (value: number) => left + ((value - from) / (to - from)) * (width - left - 8);
+    const y = (heightM: number) => height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
+    // What no beam saw is hatched by its gray; the rest is where there may be no echo.
+    for (let i = 0; i < levels.length; ++i) {
+        const [below, above] = [levels[i - 1] ?? levels[i]!, levels[i + 1] ?? levels[i]!].map(one => y((one.heightM + levels[i]!.heightM) / 2));
+        pen.fillStyle = levels[i]!.code === 0 ? 'rgba(78, 82, 92, 0.55)' : levels[i]!.code === 2 ? 'rgba(124, 74, 140, 0.6)' : 'rgba(40, 44, 50, 0.9)';
+        pen.fillRect(left, above!, width - left - 8, below! - above!);
+        const { value } = levels[i]!;
+        const color = value === null ? null : colorOf(table, value);
+        if (!color) continue;
+        pen.fillStyle = `rgb(${color.slice(0, 3).join(',')})`;
+        pen.fillRect(left, above! + 0.4, x(value!) - left, below! - above! - 0.8);
+    }
+    pen.font = fontOf(10);
+    pen.fillStyle = shades.quietText;
+    pen.textBaseline = 'middle';
+    pen.textAlign = 'right';
+    for (const share of [0, 0.5, 1]) pen.fillText(heightText(lowM + share * (highM - lowM), units), left - 4, Math.min(height - bottom, Math.max(8, y(lowM + share * (highM - lowM)))));
+    pen.textAlign = 'center';
+    const { perStored, symbol } = shownUnit(unit, units);
+    for (const share of [0, 0.5, 1]) {
+        const value = from + share * (to - from);
+        pen.fillText(`${Math.round(value * perStored)}${share === 1 ? ` ${symbol}` : ''}`, Math.min(width - 24, x(value)), height - bottom / 2);
+    }
+    return canvas;
+}

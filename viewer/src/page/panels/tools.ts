@@ -1,0 +1,87 @@
+// Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
+
+import { rawPath } from '../../wire/api';
+import { App } from '../app';
+import { button, element, press } from '../dom';
+import { Drawing } from '../drawing';
+import { FactsOfShown } from '../facts_of_shown';
+import { FlyTool } from '../flying';
+import { Keys } from '../keys';
+import { Measure, MeasureTool } from '../measuring';
+import { Pointers } from '../pointers';
+import { texts } from '../texts';
+
+export class ToolsPanel {
+    constructor(
+        private app: App,
+        private drawing: Drawing,
+        private pointers: Pointers,
+        private facts: FactsOfShown,
+    ) {}
+
+    begin(keys: Keys): void {
+        const tools = element('tools');
+        tools.setAttribute('aria-label', texts.tools.name);
+        for (const [id, text, key, toggle] of [
+            ['tool-distance', texts.tools.distanceName, 'd', () => this.measure('distance')],
+            ['tool-area', texts.tools.areaName, 'r', () => this.measure('area')],
+            ['tool-fly', texts.tools.flyName, 'f', () => this.fly()],
+        ] as const) {
+            tools.append(button(id, text, toggle));
+            press(id, false);
+            keys.add(key, toggle);
+        }
+        tools.append(button('raw', texts.tools.raw, () => void this.download()));
+        this.drawing.addOverlay((pen, geometry) => {
+            const { current } = this.pointers;
+            if (current instanceof MeasureTool) current.draw(pen, geometry);
+        });
+        this.app.on('choices', () => this.pointers.current instanceof MeasureTool && this.pointers.use(null));
+    }
+
+    private tell(text: string): void {
+        element('tool-says').textContent = text;
+    }
+
+    private measure(measure: Measure): void {
+        const { current } = this.pointers;
+        if (current instanceof MeasureTool && current.measure === measure) return this.pointers.use(null);
+        const id = `tool-${measure}`;
+        this.pointers.use(null);
+        const ended = () => {
+            press(id, false);
+            this.tell('');
+        };
+        this.pointers.use(new MeasureTool(this.app, this.drawing, measure, text => this.tell(text), ended));
+        press(id, true);
+    }
+
+    private fly(): void {
+        if (this.pointers.current instanceof FlyTool) return this.pointers.use(null);
+        this.pointers.use(null);
+        const ended = () => {
+            press('tool-fly', false);
+            this.tell('');
+        };
+        this.pointers.use(new FlyTool(this.app, this.drawing, ended));
+        press('tool-fly', true);
+        this.tell(texts.tools.flyHint);
+    }
+
+    // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
+    private async download(): Promise<void> {
+        const { provenance } = await this.facts.ask().catch(error => {
+            this.app.fail(error);
+            return { provenance: { source_files: [] as string[] } };
+        });
+        const links = provenance.source_files.map(name => {
+            const link = document.createElement('a');
+            link.href = rawPath(name.slice(0, 4), name);
+            link.download = link.textContent = name;
+            return link;
+        });
+        if (links.length === 0) return this.tell(texts.tools.noRaw);
+        element('tool-says').replaceChildren(...links.flatMap(link => [link, ' ']));
+        if (links.length === 1) links[0]!.click();
+    }
+}

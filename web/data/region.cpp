@@ -1,0 +1,273 @@
+#include "web/data/region.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/grid_window.h"
+#include "stormcellar/grid/projection.h"
+#include "web/data/halved_grid.h"
+
+namespace stormcellar::web {
+namespace {
+
+constexpr double least_side_deg = 0.05;
+constexpr double most_side_deg = 40;
+constexpr double farthest_latitude_deg = 80;
+constexpr double farthest_site_deg = 12;  // beyond the box; none reaches so far
+constexpr int threads_of_a_region = 1;
+
+Status check_region_box(const RegionBox& box) {
+    for (const double side : {box.west_deg, box.east_deg, box.south_deg, box.north_deg}) {
+        if (!std::isfinite(side)) return fail(ErrorCode::bad_argument, "the region has no sides");
+    }
+    const double wide = box.east_deg - box.west_deg, high = box.north_deg - box.south_deg;
+    if (!(wide >= least_side_deg) || !(high >= least_side_deg) || std::abs(box.west_deg) > 180) {
+        return fail(ErrorCode::bad_argument,
+                    "west must be less than east and south less than north, by {} degrees at least",
+                    least_side_deg);
+    }
+    if (wide > most_side_deg || high > most_side_deg ||
+        std::max(std::abs(box.south_deg), std::abs(box.north_deg)) > farthest_latitude_deg) {
+        return fail(
+            ErrorCode::bad_argument,
+            "a region has at most {} degrees a side, and lies within {} degrees of latitude",
+            most_side_deg, farthest_latitude_deg);
+    }
+    return {};
+}
+
+// The plane about the middle of the box, with as many columns as cover its corners.
+grid::GridSpec region_spec(const RegionBox& box, double spacing_m, std::vector<double> levels_m) {
+    grid::GridSpec spec;
+    spec.center_latitude_deg = 0.5 * (box.south_deg + box.north_deg);
+    spec.center_longitude_deg = std::remainder(0.5 * (box.west_deg + box.east_deg), 360.0);
+    spec.spacing_m = spacing_m;
+    spec.levels_m = std::move(levels_m);
+    spec.nx = spec.ny = 2;
+    const grid::GridProjection plane(spec);
+    double half_x = 1, half_y = 1;  // in columns
+    for (const double latitude : {box.south_deg, spec.center_latitude_deg, box.north_deg}) {
+        for (const double longitude : {box.west_deg, spec.center_longitude_deg, box.east_deg}) {
+            const auto at = plane.to_column({latitude, std::remainder(longitude, 360.0)});
+            half_x = std::max(half_x, std::abs(at.x - spec.center_x()));
+            half_y = std::max(half_y, std::abs(at.y - spec.center_y()));
+        }
+    }
+    const auto side = [](double half) {
+        return static_cast<int>(std::min(2 * std::ceil(half), 1.0 * grid::GridSpec::greatest_side));
+    };
+    spec.nx = side(half_x);
+    spec.ny = side(half_y);
+    return spec;
+}
+
+// How far the corners of a site's grid are from its site.
+double reach_of_grid(const grid::GridSpec& spec) {
+    return 0.5 * std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m());
+}
+
+bool is_near_region(const Station& station, const RegionBox& box) {
+    const double across =
+        std::remainder(station.longitude_deg - 0.5 * (box.west_deg + box.east_deg), 360.0);
+    return std::abs(across) < 0.5 * (box.east_deg - box.west_deg) + farthest_site_deg &&
+           station.latitude_deg > box.south_deg - farthest_site_deg &&
+           station.latitude_deg < box.north_deg + farthest_site_deg;
+}
+
+struct NearbySite {
+    std::string name;
+    std::shared_ptr<const OpenGrid> newest;
+};
+
+Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
+                                            level2::Moment moment) {
+    std::vector<NearbySite> found;
+    for (const std::string& domain : grids.domains()) {
+        const auto station = is_icao(domain) ? find_station(domain) : std::nullopt;
+        if (!station || !is_near_region(*station, box)) continue;
+        const auto newest = grids.newest(domain, moment);
+        if (!newest) continue;
+        auto grid = grids.find(domain, moment, *newest);
+        // It may have been evicted meanwhile.
+        if (!grid && grid.error().code == ErrorCode::not_found) continue;
+        if (!grid) return pass_on(grid);
+        if ((*grid)->file.description().sites.size() == 1) found.push_back({domain, *grid});
+    }
+    return found;
+}
+
+// Sites are laid over each other level by level and code by code.
+bool fit_together(const OpenGrid& one, const OpenGrid& other) {
+    const grid::BrickView a = one.file.view(), b = other.file.view();
+    return a.spec->levels_m == b.spec->levels_m &&
+           a.quantization.code_bytes == b.quantization.code_bytes &&
+           a.quantization.first_value == b.quantization.first_value &&
+           a.quantization.step == b.quantization.step;
+}
+
+// A site's grid on the columns of the region.
+struct LaidGrid {
+    std::shared_ptr<const OpenGrid> source;
+    cache::GridDescription description;
+    std::optional<grid::BrickGrid> bricks;
+};
+
+// Copies the nearest columns of a grid to a window of the region.
+grid::BrickGrid laid_cells(const grid::BrickView& from, const grid::GridSpec& window) {
+    grid::Grid laid;
+    laid.spec = window;
+    laid.values.assign(window.cell_count(), 0.0F);
+    laid.status.assign(window.cell_count(), grid::CellStatus::not_seen);
+    const grid::GridProjection here(*from.spec), there(window);
+    for (int iy = 0; iy < window.ny; ++iy) {
+        for (int ix = 0; ix < window.nx; ++ix) {
+            const grid::GeoPoint place =
+                there.to_geo({static_cast<double>(ix), static_cast<double>(iy)});
+            const grid::ColumnPoint at = here.to_column(place);
+            const double x = std::round(at.x), y = std::round(at.y);
+            if (!(x >= 0) || !(y >= 0) || x >= from.spec->nx || y >= from.spec->ny) continue;
+            for (int iz = 0; iz < window.nz(); ++iz) {
+                const auto status = from.status(static_cast<int>(x), static_cast<int>(y), iz);
+                const std::size_t to = window.index(ix, iy, iz);
+                laid.status[to] = status;
+                if (status == grid::CellStatus::value)
+                    laid.values[to] = from.value(static_cast<int>(x), static_cast<int>(y), iz);
+            }
+        }
+    }
+    return grid::BrickGrid::from(laid, from.quantization, threads_of_a_region);
+}
+
+// None if the site's grid does not reach the region.
+Result<std::optional<LaidGrid>> laid_grid(std::shared_ptr<const OpenGrid> source,
+                                          const RegionPlan& plan) {
+    LaidGrid laid{std::move(source), {}, {}};
+    laid.description = laid.source->file.description();
+    grid::BrickView view = laid.source->file.view();
+    std::shared_ptr<const grid::BrickGrid> half;
+    if (plan.halvings > 0) {
+        auto made = halved(view, plan.moment, plan.halvings, HalvedBy::maximum);
+        if (!made) return pass_on(made);
+        half = std::move(*made);
+        view = half->view();
+    }
+    const auto window = grid::site_window(plan.spec, laid.description.sites.front(),
+                                          reach_of_grid(laid.description.spec));
+    if (!window) return std::optional<LaidGrid>{};
+    laid.description.spec = grid::window_spec(plan.spec, *window);
+    laid.bricks = laid_cells(view, laid.description.spec);
+    // Codes that were cut meanwhile read as zeros, which are not seen.
+    if (Status whole = laid.source->file.check_whole(); !whole) return pass_on(whole);
+    return std::optional<LaidGrid>{std::move(laid)};
+}
+
+// The grid of a site whose middle is nearest to an instant, if one is near enough.
+std::optional<UtcTime> nearest_grid_time(const Grids& grids, const std::string& site,
+                                         level2::Moment moment, UtcTime instant) {
+    const auto gap = pipeline::FrameOptions{}.greatest_gap;
+    const auto times = grids.times(site, moment, instant - 2 * gap, instant + gap);
+    if (times.empty()) return std::nullopt;
+    return *std::ranges::min_element(
+        times, {}, [&](UtcTime time) { return std::abs(seconds_between(time, instant)); });
+}
+
+}  // namespace
+
+Result<RegionBox> region_box_of(std::string_view text) {
+    RegionBox box;
+    for (double* side : {&box.west_deg, &box.south_deg, &box.east_deg, &box.north_deg}) {
+        const std::string_view part = text.substr(0, text.find(','));
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), *side);
+        if (error != std::errc{} || end != part.data() + part.size()) {
+            return fail(ErrorCode::bad_argument, "a region is WEST,SOUTH,EAST,NORTH in degrees");
+        }
+        text.remove_prefix(std::min(text.size(), part.size() + 1));
+    }
+    if (!text.empty())
+        return fail(ErrorCode::bad_argument, "a region is WEST,SOUTH,EAST,NORTH in degrees");
+    if (Status good = check_region_box(box); !good) return pass_on(good);
+    return box;
+}
+
+Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box, level2::Moment moment) {
+    if (Status good = check_region_box(box); !good) return pass_on(good);
+    const auto nearby = sites_about(grids, box, moment);
+    if (!nearby) return pass_on(nearby);
+    RegionPlan plan;
+    plan.moment = moment;
+    std::shared_ptr<const OpenGrid> first;
+    for (const auto& [name, newest] : *nearby) {
+        const grid::GridSpec& own = newest->file.description().spec;
+        if (!first) plan.spec = region_spec(box, own.cell_height_m(), own.levels_m);
+        const auto& site = newest->file.description().sites.front();
+        if (!grid::site_window(plan.spec, site, reach_of_grid(own))) continue;
+        if (!first) first = newest;
+        (fit_together(*first, *newest) ? plan.sites : plan.left_out).push_back(name);
+    }
+    if (plan.sites.empty()) {
+        return fail(ErrorCode::not_found, "no site with grids of {} reaches this region",
+                    level2::moment_name(moment));
+    }
+    if (plan.sites.size() > most_region_sites) {
+        return fail(ErrorCode::bad_argument,
+                    "{} sites reach this region; at most {} are merged on request",
+                    plan.sites.size(), most_region_sites);
+    }
+    const double finest_m = plan.spec.spacing_m;
+    while (plan.spec.column_count() > most_region_columns && plan.halvings < most_region_halvings) {
+        ++plan.halvings;
+        plan.spec = region_spec(box, std::ldexp(finest_m, plan.halvings), plan.spec.levels_m);
+    }
+    if (plan.spec.column_count() > most_region_columns) {
+        return fail(ErrorCode::bad_argument,
+                    "the region has {} columns of {:.0f} m, and {} are made on request: draw a "
+                    "smaller one",
+                    plan.spec.column_count(), plan.spec.spacing_m, most_region_columns);
+    }
+    return plan;
+}
+
+std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan) {
+    const auto interval = std::chrono::duration_cast<UtcTime::duration>(region_interval);
+    std::set<UtcTime> instants;
+    for (const std::string& site : plan.sites) {
+        for (const UtcTime time : grids.times(site, plan.moment)) {
+            const auto since = time.time_since_epoch() + interval / 2;
+            instants.insert(UtcTime{since - since % interval});
+        }
+    }
+    return {instants.begin(), instants.end()};
+}
+
+Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan, UtcTime instant) {
+    std::vector<LaidGrid> laid;
+    for (const std::string& site : plan.sites) {
+        const auto time = nearest_grid_time(grids, site, plan.moment, instant);
+        if (!time) continue;
+        auto source = grids.find(site, plan.moment, *time);
+        if (!source && source.error().code == ErrorCode::not_found) continue;
+        if (!source) return pass_on(source);
+        auto one = laid_grid(std::move(*source), plan);
+        if (!one) return pass_on(one);
+        if (*one) laid.push_back(std::move(**one));
+    }
+    std::vector<pipeline::PartialView> partials;
+    partials.reserve(laid.size());
+    for (const LaidGrid& one : laid)
+        partials.push_back({&one.description, one.bricks->view(), nullptr});
+    pipeline::FrameOptions options;
+    options.overlap.moment = plan.moment;
+    options.overlap.overlap = grid::default_overlap(plan.moment);
+    options.time = grid::TimeMethod::nearest;
+    options.sweep_times = false;
+    options.threads = threads_of_a_region;
+    options.overlap.threads = threads_of_a_region;
+    pipeline::GeometryCache geometries(1);
+    return pipeline::make_frame(plan.spec, partials, instant, options, geometries);
+}
+
+}  // namespace stormcellar::web

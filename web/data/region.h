@@ -1,0 +1,62 @@
+// web/data/region.h -- a grid of several sites over a box that somebody draws, made on request.
+//
+// The grids of the sites that reach the box are laid on one plane about its middle: each cell takes
+// the nearest column of a site's grid, state and code unchanged, so it is off by at most half a
+// diagonal of a column. The mosaic's own code (pipeline/mosaic/mosaic_frame.h) then brings the
+// sites to one instant, by the nearest volume of each, and merges them by the default rule of the
+// moment. A box with too many columns is made of halved grids (web/data/halved_grid.h, by maximum).
+//
+// Units     Degrees, meters.
+// Threads   Pure functions of what the cache holds.
+// Errors    See each function.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/mosaic/mosaic_frame.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "web/data/grids.h"
+
+namespace stormcellar::web {
+
+struct RegionBox {
+    double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
+};
+
+// What one request may take.
+inline constexpr std::size_t most_region_columns = 1'000'000;
+inline constexpr std::size_t most_region_sites = 32;
+inline constexpr int most_region_halvings = 3;
+// Instants of a region: whole multiples of this since midnight.
+inline constexpr std::chrono::minutes region_interval{5};
+
+// What the grid of a region is, before it is made.
+struct RegionPlan {
+    level2::Moment moment = level2::Moment::ref;
+    grid::GridSpec spec;
+    std::vector<std::string> sites;     // that reach the box, by name
+    std::vector<std::string> left_out;  // that would, but whose grids do not fit the others
+    int halvings = 0;                   // of the sites' grids
+};
+
+// Returns the box of a text "west,south,east,north". Errors: bad_argument.
+[[nodiscard]] Result<RegionBox> region_box_of(std::string_view text);
+
+// Errors: bad_argument for a box that is none, that more than most_region_sites sites reach, or
+// that is too large even for halved grids; not_found if no site with grids of the moment reaches
+// it; those of Grids::find().
+[[nodiscard]] Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box,
+                                             level2::Moment moment);
+
+// Returns the instants for which one of the sites has a volume, rising.
+[[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
+
+// Makes the grid for an instant. Errors: not_found if no site has a volume near it; those of
+// Grids::find(), halved() and make_frame().
+[[nodiscard]] Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan,
+                                                        UtcTime instant);
+
+}  // namespace stormcellar::web
