@@ -36,6 +36,7 @@ export class Drawing {
     private lookedAt = ''; // the view whose bricks were asked for
     private governor = new Governor(usualRungs, movingFrameMs, mostMovingDE);
     private movedAt = 0;
+    private wasPlaying = false;
     private isDrawing = false;
     private isWaiting = false; // for more bricks
     private lastMs = 0; // of the last frame
@@ -64,6 +65,7 @@ export class Drawing {
             if (app.shown) void this.ground!.show(app.shown);
         });
         app.on('view', () => this.draw());
+        app.on('time', () => this.drawAtRest());
         app.on('camera', () => this.move());
         app.on('restored', () => {
             this.renderer.forget();
@@ -102,6 +104,13 @@ export class Drawing {
         requestAnimationFrame(() => this.drawNow());
     }
 
+    // What was played fast is drawn fine when it stops.
+    private drawAtRest(): void {
+        const { isPlaying } = this.app!.player;
+        if (this.wasPlaying && !isPlaying) this.draw();
+        this.wasPlaying = isPlaying;
+    }
+
     // A hand that turns the view is not at rest because a frame took long.
     private get stillAfterMs(): number {
         return Math.min(mostStillAfterMs, Math.max(leastStillAfterMs, 2 * this.lastMs));
@@ -137,7 +146,7 @@ export class Drawing {
         const { table, shown, state } = app;
         if (!geometry || !table || !shown) return;
         const isMoving = performance.now() - this.movedAt < this.stillAfterMs;
-        const rung = this.rung(isMoving);
+        const rung = this.rung(isMoving || app.player.isPlaying);
         this.stream(geometry, rung);
         const frame: Frame = {
             geometry: rung.grain > 1 ? this.geometry(rung.grain)! : geometry,
