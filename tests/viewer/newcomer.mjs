@@ -32,6 +32,12 @@ try {
     if (!at) throw new Error(`nothing that is shown says '${text}'`);
     await page.drag(at, [0, 0]);
   };
+  // Opens something, of which the picture need not change; where it does, that is waited for.
+  const open = async (text) => {
+    actions.push(text);
+    await press(text);
+    await page.until('document.documentElement.dataset.drawn', 120);
+  };
   // The strongest echo near a place of the picture, as the eye finds it: the middle of what is red.
   const redNear = async ([nearX, nearY], within) => {
     const ppm = await viewer.pixels();
@@ -51,17 +57,17 @@ try {
   };
 
   await act('open the address', () => page.goto(`${address}/view/`));
-  await act('Settings', () => press('Settings'));
+  await open('Settings');
   await act('Top', () => press('Top'));
   const storm = await redNear([width / 2, height / 2], 60);
   await act('wheel over the storm', () => page.wheel(...storm, -1200));
-  await act('Layers', () => press('Layers'));
+  await open('Layers');
   await act('Vertical section', () => press('Vertical section'));
-  await act('Draw on the ground', () => press('Draw on the ground'));
+  await open('Draw on the ground');
   const [x, y] = await redNear(storm, 150);
   await act('drag across the hook', () => page.drag([x - 100, y], [200, 0]));
   const said = await page.evaluate("document.getElementById('section-reading').textContent");
-  await act('Settings', () => press('Settings'));
+  await open('Settings');
   actions.push('Copy link');
   await press('Copy link');
   await page.until("document.getElementById('state').textContent.includes('clipboard')");
