@@ -24,9 +24,10 @@ try {
   const page = await browser.page(width, height);
   await browser.send('Browser.grantPermissions', { permissions: ['clipboardReadWrite', 'clipboardSanitizedWrite'] });
   const viewer = new CheckedPage(page, address);
+  await viewer.open(`domain=${scenes[0][1]}&moment=REF&zoom=0.9`);
   for (const [name, station, more] of scenes) {
     const volume = readdirSync(volumes).find((file) => file.startsWith(`${station}${{ KTLX: 1999, KDMX: 2022, KLBB: 2016 }[station] ?? ''}`));
-    await viewer.open(`domain=${station}&moment=REF&${more}`);
+    await viewer.show(`domain=${station}&moment=REF&${more}`);
     writeFileSync(join(pictures, `viewer-${name}.png`), await page.screenshot());
     await page.evaluate("document.getElementById('command').click()");
     const words = (await page.evaluate('navigator.clipboard.readText()')).split(' ').slice(1);

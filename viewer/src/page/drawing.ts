@@ -171,7 +171,7 @@ export class Drawing {
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         if (isMoving) {
             window.setTimeout(() => this.draw(), this.stillAfterMs);
-        } else if (!this.isFinal && !this.layers!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
+        } else if (!this.isFinal && !this.layers!.isWaiting && !this.ground!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
             this.isFinal = true;
             const detail = this.streaming!.detail;
             const said = [texts.drawn(ms, rung, fetches), detail && texts.detail(detail.coarsest, detail.missing), this.layers!.isLeftOut && texts.layersLeftOut];

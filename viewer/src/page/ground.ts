@@ -28,6 +28,7 @@ async function mapAround(grid: PackedGrid): Promise<MapAnswer> {
 
 export class Ground {
     marks: Mark[] = [];
+    isWaiting = false; // for the map
     private mapOf = '';
 
     constructor(
@@ -43,17 +44,28 @@ export class Ground {
     async show({ domain, loaded }: Shown): Promise<void> {
         const { grid } = loaded;
         const { units } = this.app.state;
-        const key = `${domain} ${grid.nx} ${grid.ny} ${grid.spacing} ${grid.centerDeg.join()} ${grid.offsetCells.join()} ${units.distance.name}`;
+        const place = `${domain} ${grid.nx} ${grid.ny} ${grid.spacing} ${grid.centerDeg.join()} ${grid.offsetCells.join()}`;
+        const key = `${place} ${units.distance.name}`;
         if (this.mapOf === key) return;
+        // No map of another place lies below the grid.
+        if (!this.mapOf.startsWith(`${place} `)) this.put(loaded.grid, null);
         this.mapOf = key;
+        this.isWaiting = true;
+        // Without a map the grid alone is shown.
+        const found = await mapAround(grid).catch(() => null);
+        if (this.mapOf !== key) return;
+        this.isWaiting = false;
+        if (found && this.app.state.domain === domain) this.put(grid, found);
+        this.redraw();
+    }
+
+    // The rings need no server.
+    private put(grid: PackedGrid, found: MapAnswer | null): void {
         const plane = planeOf(grid);
         const { halfXM, halfYM } = boxOf(grid);
-        // Without a map the grid alone is shown.
-        const found = await mapAround(grid).catch(() => ({ credit: '', lines: [], cities: [] }));
-        if (this.mapOf !== key || this.app.state.domain !== domain) return;
-        const rings = ringLines(grid.sites, plane, halfXM, halfYM, units);
-        this.renderer.showLines([...mapLines(found, plane, Math.max(halfXM, halfYM)), ...rings.lines]);
-        this.marks = [...rings.marks, ...cityMarks(found.cities, plane, halfXM, halfYM)];
-        this.redraw();
+        const rings = ringLines(grid.sites, plane, halfXM, halfYM, this.app.state.units);
+        const lines = found ? mapLines(found, plane, Math.max(halfXM, halfYM)) : [];
+        this.renderer.showLines([...lines, ...rings.lines]);
+        this.marks = [...rings.marks, ...(found ? cityMarks(found.cities, plane, halfXM, halfYM) : [])];
     }
 }
