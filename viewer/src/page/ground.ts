@@ -9,7 +9,7 @@ import { PackedGrid } from '../wire/packed_grid';
 import { App, Shown } from './app';
 
 // A margin, since the map is seen beyond the grid.
-const widerThanGrid = 1.6;
+const widerThanGrid = 1.4;
 const coarseFromM = 6e5;
 
 async function mapAround(grid: PackedGrid): Promise<MapAnswer> {
