@@ -20,111 +20,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t most_summary_bytes = std::uint64_t{64} << 20;
 constexpr const char* summary_name = "summary.json";
 
-template <class Number>
-void add(const std::array<Number, 24>& more, std::array<Number, 24>& all) {
-    std::ranges::transform(more, all, all.begin(), std::plus<>{});
-}
-
-void widen(std::optional<UtcTime> started, std::optional<UtcTime> ended, Totals& totals) {
-    if (started && (!totals.started || *started < *totals.started)) totals.started = started;
-    if (ended && (!totals.ended || *ended > *totals.ended)) totals.ended = ended;
-}
-
-void add(const Record& record, double cost_s, Totals& totals) {
-    if (record.kind == TaskKind::statistics) {
-        ++totals.statistics_tasks;
-    } else if (record.kind == TaskKind::frames) {
-        ++totals.frame_tasks;
-        totals.frames += record.grids;
-    } else {
-        ++totals.grid_tasks;
-        totals.grids += record.grids;
-        totals.files += record.files;
-        totals.left_out += record.left_out.size();
-        StationHours& hours = totals.stations[record.station];
-        add(record.taken_by_hour, hours.taken);
-        add(record.left_out_by_hour, hours.left_out);
-        if (!record.left_out.empty()) totals.with_left_out.push_back(record.number);
-    }
-    totals.cpu_s += record.cpu_s;
-    totals.cost_s += cost_s;
-    totals.bytes_read += record.bytes_read;
-    totals.bytes_written += record.bytes_written;
-    totals.most_memory_bytes = std::max(totals.most_memory_bytes, record.memory_bytes);
-    widen(record.started, record.ended, totals);
-}
-
-void add(const Totals& more, Totals& all) {
-    all.grid_tasks += more.grid_tasks;
-    all.frame_tasks += more.frame_tasks;
-    all.statistics_tasks += more.statistics_tasks;
-    all.files += more.files;
-    all.left_out += more.left_out;
-    all.grids += more.grids;
-    all.frames += more.frames;
-    all.cpu_s += more.cpu_s;
-    all.cost_s += more.cost_s;
-    all.bytes_read += more.bytes_read;
-    all.bytes_written += more.bytes_written;
-    all.most_memory_bytes = std::max(all.most_memory_bytes, more.most_memory_bytes);
-    widen(more.started, more.ended, all);
-    for (const auto& [station, hours] : more.stations) {
-        StationHours& known = all.stations[station];
-        add(hours.taken, known.taken);
-        add(hours.left_out, known.left_out);
-    }
-    all.with_left_out.insert(all.with_left_out.end(), more.with_left_out.begin(),
-                             more.with_left_out.end());
-}
-
-Json json_of(const Totals& totals, const std::string& plan) {
-    Json stations = Json::object();
-    for (const auto& [station, hours] : totals.stations)
-        stations[station] = {{"taken", hours.taken}, {"left_out", hours.left_out}};
-    return {{"plan", plan},
-            {"grid_tasks", totals.grid_tasks},
-            {"frame_tasks", totals.frame_tasks},
-            {"statistics_tasks", totals.statistics_tasks},
-            {"files", totals.files},
-            {"left_out", totals.left_out},
-            {"grids", totals.grids},
-            {"frames", totals.frames},
-            {"cpu_s", totals.cpu_s},
-            {"cost_s", totals.cost_s},
-            {"bytes_read", totals.bytes_read},
-            {"bytes_written", totals.bytes_written},
-            {"most_memory_bytes", totals.most_memory_bytes},
-            {"started", format_utc(*totals.started)},
-            {"ended", format_utc(*totals.ended)},
-            {"stations", stations},
-            {"with_left_out", totals.with_left_out}};
-}
-
-// It throws what nlohmann::json throws.
-Totals totals_of(const Json& json) {
-    Totals totals;
-    totals.grid_tasks = json.at("grid_tasks");
-    totals.frame_tasks = json.at("frame_tasks");
-    totals.statistics_tasks = json.at("statistics_tasks");
-    totals.files = json.at("files");
-    totals.left_out = json.at("left_out");
-    totals.grids = json.at("grids");
-    totals.frames = json.at("frames");
-    totals.cpu_s = json.at("cpu_s");
-    totals.cost_s = json.at("cost_s");
-    totals.bytes_read = json.at("bytes_read");
-    totals.bytes_written = json.at("bytes_written");
-    totals.most_memory_bytes = json.at("most_memory_bytes");
-    totals.started = parse_utc(json.at("started").get<std::string>(), {}).value();
-    totals.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();
-    for (const auto& [station, hours] : json.at("stations").items()) {
-        hours.at("taken").get_to(totals.stations[station].taken);
-        hours.at("left_out").get_to(totals.stations[station].left_out);
-    }
-    json.at("with_left_out").get_to(totals.with_left_out);
-    return totals;
-}
-
 class Check {
   public:
     Check(const Plan& plan, CheckOptions options) : plan_(plan), options_(std::move(options)) {}
@@ -224,7 +119,9 @@ class Check {
 
     // Without a summary, the next check reads the records again.
     void write_summary(const fs::path& path, const Totals& totals) const {
-        const std::string text = json_of(totals, plan_.facts().hash).dump() + "\n";
+        Json json = json_of(totals);
+        json["plan"] = plan_.facts().hash;
+        const std::string text = json.dump() + "\n";
         (void)write_file_atomically(real_file_system(), path, std::as_bytes(std::span(text)));
     }
 

@@ -8,35 +8,17 @@
 // Errors    Those of reading the plan and, with `deep`, the cache.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "batch/plan.h"
 #include "batch/record.h"
+#include "batch/totals.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::batch {
-
-// What a station gave, by the hour of the day.
-struct StationHours {
-    HourCounts taken{}, left_out{};
-};
-
-// Sums of records.
-struct Totals {
-    std::size_t grid_tasks = 0, frame_tasks = 0, statistics_tasks = 0;  // done
-    std::size_t files = 0, left_out = 0, grids = 0, frames = 0;
-    [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
-    double cpu_s = 0, cost_s = 0;  // taken, and what the plan estimated for the same tasks
-    std::uint64_t bytes_read = 0, bytes_written = 0, most_memory_bytes = 0;
-    std::optional<UtcTime> started, ended;  // of the first, and of the last
-    std::map<std::string, StationHours> stations;
-    std::vector<std::size_t> with_left_out;  // tasks that left files out
-};
 
 struct CheckReport {
     Totals done;
