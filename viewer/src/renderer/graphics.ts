@@ -2,14 +2,115 @@
 
 import { ViewGeometry } from '../camera/geometry';
 
-export interface Graphics {
-    readonly gl: WebGL2RenderingContext;
-    program(name: string, vertex: string, fragment: string): WebGLProgram;
+// No program reads from it, so that an upload changes nothing that is bound.
+const unitOfUploads = 15;
+
+export class Graphics {
+    private programs = new Map<string, WebGLProgram>();
+    private begun = new Map<string, WebGLProgram>(); // their compilation was not waited for yet
+
+    constructor(readonly gl: WebGL2RenderingContext) {}
+
+    get mostTexels(): number {
+        return this.gl.getParameter(this.gl.MAX_3D_TEXTURE_SIZE) as number;
+    }
+    get compiledVariants(): string[] {
+        return [...this.programs.keys()];
+    }
+
+    // After the context came back.
+    forget(): void {
+        this.programs.clear();
+        this.begun.clear();
+    }
+
+    private compile(type: number, source: string): WebGLShader {
+        const shader = this.gl.createShader(type)!;
+        this.gl.shaderSource(shader, source);
+        this.gl.compileShader(shader);
+        return shader;
+    }
+
+    // Begins to compile, which is waited for when the program is first used.
+    begin(name: string, vertex: string, fragment: string): WebGLProgram {
+        const gl = this.gl;
+        const program = gl.createProgram()!;
+        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, vertex));
+        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, fragment));
+        gl.linkProgram(program);
+        this.begun.set(name, program);
+        return program;
+    }
+
+    program(name: string, vertex: string, fragment: string): WebGLProgram {
+        const known = this.programs.get(name);
+        if (known) return known;
+        const gl = this.gl;
+        const program = this.begun.get(name) ?? this.begin(name, vertex, fragment);
+        if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+            const logs = gl.getAttachedShaders(program)!.map(shader => gl.getShaderInfoLog(shader));
+            throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);
+        }
+        this.programs.set(name, program);
+        return program;
+    }
+
+    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView | null, filter: number): WebGLTexture {
+        const gl = this.gl;
+        const texture = gl.createTexture()!;
+        this.beginUpload(texture);
+        const type = data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_BYTE;
+        gl.texImage3D(gl.TEXTURE_3D, 0, internal, size[0]!, size[1]!, size[2]!, 0, format, type, data);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, name, gl.CLAMP_TO_EDGE);
+        return texture;
+    }
+
+    texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture {
+        const gl = this.gl;
+        const texture = gl.createTexture()!;
+        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+        gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+        return texture;
+    }
+
+    // What follows is written to this texture.
+    beginUpload(texture: WebGLTexture): void {
+        const gl = this.gl;
+        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
+        gl.bindTexture(gl.TEXTURE_3D, texture);
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    }
+
     // Takes a program into use, gives it the camera, and tells where its uniforms are.
-    use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null;
-    bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void;
-    texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture;
-    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView, filter: number): WebGLTexture;
+    use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null {
+        const gl = this.gl;
+        gl.useProgram(program);
+        const at = (name: string) => gl.getUniformLocation(program, name);
+        gl.uniform2f(at('size'), geometry.width, geometry.height);
+        gl.uniform3fv(at('eye'), geometry.eye);
+        gl.uniform3fv(at('right'), geometry.right);
+        gl.uniform3fv(at('up'), geometry.up);
+        gl.uniform3fv(at('forward'), geometry.forward);
+        gl.uniform1f(at('scale'), geometry.isPerspective ? geometry.focalPixels : geometry.metersPerPixel);
+        return at;
+    }
+
+    bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void {
+        this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+        this.gl.bindTexture(target, texture);
+        this.gl.uniform1i(at, unit);
+    }
+
+    // Waits until everything is drawn.
+    finish(): void {
+        const pixel = new Uint8Array(4);
+        this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
+    }
 }
 
 // Textures of what is drawn now. What is drawn again is not uploaded again; what the last picture did not

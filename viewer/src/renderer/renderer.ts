@@ -15,13 +15,9 @@ import { Exposure } from './exposure';
 import { Graphics } from './graphics';
 import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
 import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
-import { VolumeVariant, fullScreenVertex, groundFragment, lineFragment, lineVertex, variantName, volumeFragment } from './shaders';
+import { LinePass, MapLines } from './line_pass';
+import { VolumeVariant, fullScreenVertex, groundFragment, variantName, volumeFragment } from './shaders';
 import { shades } from './shades';
-
-export interface MapLines {
-    kind: 'county' | 'state' | 'lake' | 'country' | 'coast' | 'ring' | 'border';
-    segments: Float32Array; // x, y, x, y in meters from the middle
-}
 
 // What a grid needs in the memory of the graphics processor.
 export interface LoadedGrid {
@@ -72,29 +68,19 @@ interface Uploaded {
 
 type WantedOfVolume = Pick<VolumeVariant, 'countsFetches' | 'endsAtSolids' | 'isLit' | 'measuresLight'>;
 
-interface UploadedLines {
-    lines: MapLines;
-    array: WebGLVertexArrayObject;
-    count: number;
-}
-
-const lineWidths: Record<MapLines['kind'], number> = { county: 0.7, state: 1.3, lake: 1, country: 1.6, coast: 1.3, ring: 1, border: 1 };
 const levelTexels = 1024;
-// No program reads from it, so that an upload changes nothing that is bound.
-const unitOfUploads = 15;
 // A table is made for steps of one length. For steps nearly as long its depths are scaled while the
 // camera moves.
 const mostStretch = 1.25;
 
-export class Renderer implements Graphics {
-    readonly gl: WebGL2RenderingContext;
-    private programs = new Map<string, WebGLProgram>();
-    private begun = new Map<string, WebGLProgram>(); // their compilation was not waited for yet
+export class Renderer {
+    private gl: WebGL2RenderingContext;
+    private graphics: Graphics;
     private uploaded: Uploaded | null = null;
     private other: Uploaded | null = null; // whose surface the shown one colors
     private passes: LayerPasses;
     private exposure: Exposure;
-    private lines: UploadedLines[] = [];
+    private lines: LinePass;
     private transferTexture: WebGLTexture | null = null;
     private transfer: { made: Transfer; stepM: number; key: TransferKey } | null = null;
 
@@ -102,81 +88,29 @@ export class Renderer implements Graphics {
         const gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true, alpha: false });
         if (!gl) throw new Error('webgl2');
         this.gl = gl;
-        this.passes = new LayerPasses(this);
+        this.graphics = new Graphics(gl);
+        this.passes = new LayerPasses(this.graphics);
+        this.lines = new LinePass(this.graphics);
         this.exposure = new Exposure(gl);
         canvas.addEventListener('webglcontextlost', event => event.preventDefault());
     }
 
     get mostTexels(): number {
-        return this.gl.getParameter(this.gl.MAX_3D_TEXTURE_SIZE) as number;
+        return this.graphics.mostTexels;
     }
     get compiledVariants(): string[] {
-        return [...this.programs.keys()];
+        return this.graphics.compiledVariants;
     }
 
     // After the context came back: everything is uploaded again by its owner.
     forget(): void {
-        this.programs.clear();
-        this.begun.clear();
+        this.graphics.forget();
+        this.lines.forget();
         this.uploaded = this.other = null;
         this.passes.forget();
         this.exposure.forget();
-        this.lines = [];
         this.transferTexture = null;
         this.transfer = null;
-    }
-
-    private compile(type: number, source: string): WebGLShader {
-        const shader = this.gl.createShader(type)!;
-        this.gl.shaderSource(shader, source);
-        this.gl.compileShader(shader);
-        return shader;
-    }
-
-    private begin(name: string, vertex: string, fragment: string): WebGLProgram {
-        const gl = this.gl;
-        const program = gl.createProgram()!;
-        gl.attachShader(program, this.compile(gl.VERTEX_SHADER, vertex));
-        gl.attachShader(program, this.compile(gl.FRAGMENT_SHADER, fragment));
-        gl.linkProgram(program);
-        this.begun.set(name, program);
-        return program;
-    }
-
-    program(name: string, vertex: string, fragment: string): WebGLProgram {
-        const known = this.programs.get(name);
-        if (known) return known;
-        const gl = this.gl;
-        const program = this.begun.get(name) ?? this.begin(name, vertex, fragment);
-        if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-            const logs = gl.getAttachedShaders(program)!.map(shader => gl.getShaderInfoLog(shader));
-            throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);
-        }
-        this.programs.set(name, program);
-        return program;
-    }
-
-    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView | null, filter: number): WebGLTexture {
-        const gl = this.gl;
-        const texture = gl.createTexture()!;
-        this.beginUpload(texture);
-        const type = data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_BYTE;
-        gl.texImage3D(gl.TEXTURE_3D, 0, internal, size[0]!, size[1]!, size[2]!, 0, format, type, data);
-        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
-        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, name, gl.CLAMP_TO_EDGE);
-        return texture;
-    }
-
-    texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture {
-        const gl = this.gl;
-        const texture = gl.createTexture()!;
-        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
-        gl.bindTexture(gl.TEXTURE_2D, texture);
-        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-        gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
-        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
-        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
-        return texture;
     }
 
     show(loaded: LoadedGrid): void {
@@ -207,9 +141,9 @@ export class Renderer implements Graphics {
         const halved = (cells: number) => Math.ceil(cells / 2 ** (stream?.level ?? 0));
         return {
             loaded,
-            atlas: pool ?? this.texture3d(gl.RG8, gl.RG, atlas.size, stream ? null : atlas.texels, gl.LINEAR),
-            indirection: this.texture3d(gl.R32UI, gl.RED_INTEGER, atlas.bricks, atlas.indirection, gl.NEAREST),
-            coverage: this.texture2d(gl.R8UI, gl.RED_INTEGER, gl.UNSIGNED_BYTE, halved(grid.nx), halved(grid.ny), coverage),
+            atlas: pool ?? this.graphics.texture3d(gl.RG8, gl.RG, atlas.size, stream ? null : atlas.texels, gl.LINEAR),
+            indirection: this.graphics.texture3d(gl.R32UI, gl.RED_INTEGER, atlas.bricks, atlas.indirection, gl.NEAREST),
+            coverage: this.graphics.texture2d(gl.R8UI, gl.RED_INTEGER, gl.UNSIGNED_BYTE, halved(grid.nx), halved(grid.ny), coverage),
             levels: hasUnevenLevels(grid) ? this.levelTable(grid, range) : null,
             levelRange: range,
         };
@@ -219,7 +153,7 @@ export class Renderer implements Graphics {
     putBricks(slots: Int32Array, texels: Uint8Array): void {
         const gl = this.gl;
         if (!this.uploaded) return;
-        this.beginUpload(this.uploaded.atlas);
+        this.graphics.beginUpload(this.uploaded.atlas);
         let from = 0;
         for (const slot of slots) {
             if (slot < 0) continue;
@@ -234,15 +168,8 @@ export class Renderer implements Graphics {
         const gl = this.gl;
         if (!this.uploaded) return;
         const { bricks, indirection } = this.uploaded.loaded.atlas;
-        this.beginUpload(this.uploaded.indirection);
+        this.graphics.beginUpload(this.uploaded.indirection);
         gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, ...bricks, gl.RED_INTEGER, gl.UNSIGNED_INT, indirection);
-    }
-
-    private beginUpload(texture: WebGLTexture): void {
-        const gl = this.gl;
-        gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
-        gl.bindTexture(gl.TEXTURE_3D, texture);
-        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     }
 
     // The level, with a fraction, of evenly spaced heights.
@@ -256,41 +183,7 @@ export class Renderer implements Graphics {
             const level = i + (height - levels[i]!) / (levels[Math.min(i + 1, levels.length - 1)]! - levels[i]!);
             table[t] = Math.min(levels.length - 1, Math.max(0, Number.isFinite(level) ? level : 0));
         }
-        return this.texture2d(this.gl.R32F, this.gl.RED, this.gl.FLOAT, levelTexels, 1, table);
-    }
-
-    showLines(all: MapLines[]): void {
-        const gl = this.gl;
-        this.lines = all.map(lines => {
-            const array = gl.createVertexArray()!;
-            gl.bindVertexArray(array);
-            gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-            gl.bufferData(gl.ARRAY_BUFFER, lines.segments, gl.STATIC_DRAW);
-            gl.enableVertexAttribArray(0);
-            gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
-            gl.vertexAttribDivisor(0, 1);
-            gl.bindVertexArray(null);
-            return { lines, array, count: lines.segments.length / 4 };
-        });
-    }
-
-    use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null {
-        const gl = this.gl;
-        gl.useProgram(program);
-        const at = (name: string) => gl.getUniformLocation(program, name);
-        gl.uniform2f(at('size'), geometry.width, geometry.height);
-        gl.uniform3fv(at('eye'), geometry.eye);
-        gl.uniform3fv(at('right'), geometry.right);
-        gl.uniform3fv(at('up'), geometry.up);
-        gl.uniform3fv(at('forward'), geometry.forward);
-        gl.uniform1f(at('scale'), geometry.isPerspective ? geometry.focalPixels : geometry.metersPerPixel);
-        return at;
-    }
-
-    bind(unit: number, target: number, texture: WebGLTexture | null, at: WebGLUniformLocation | null): void {
-        this.gl.activeTexture(this.gl.TEXTURE0 + unit);
-        this.gl.bindTexture(target, texture);
-        this.gl.uniform1i(at, unit);
+        return this.graphics.texture2d(this.gl.R32F, this.gl.RED, this.gl.FLOAT, levelTexels, 1, table);
     }
 
     draw(frame: Frame): void {
@@ -316,7 +209,7 @@ export class Renderer implements Graphics {
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (layers?.maximum) this.passes.drawMaximum(geometry, layers, layers.maximum);
-        if (frame.hasGround) this.drawLines(geometry, frame.grain);
+        if (frame.hasGround) this.lines.draw(geometry, frame.grain);
         if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, layers, layers.air);
         if (isSolid) this.passes.showSolids(geometry);
         if (!frame.hasVolume) return;
@@ -352,9 +245,9 @@ export class Renderer implements Graphics {
     private drawGround(geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
         const gl = this.gl;
         const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.use(this.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)), geometry);
+        const at = this.graphics.use(this.graphics.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)), geometry);
         const color = (uniform: string, rgb: readonly number[]) => gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
-        this.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
+        this.graphics.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
         const { grid, stream } = this.uploaded!.loaded;
         gl.uniform2f(at('columns'), grid.nx, grid.ny);
         gl.uniform1f(at('columnsATexel'), 2 ** (stream?.level ?? 0));
@@ -365,22 +258,6 @@ export class Renderer implements Graphics {
         if (hasHaze) color('seenAloft', shades.seen);
         gl.uniform1f(at('hatchScale'), 1 / grain);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
-    }
-
-    private drawLines(geometry: ViewGeometry, grain: number): void {
-        const gl = this.gl;
-        if (this.lines.length === 0) return;
-        const at = this.use(this.program('lines', lineVertex, lineFragment), geometry);
-        gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
-        gl.uniform1i(at('isPerspective'), geometry.isPerspective ? 1 : 0);
-        for (const { lines, array, count } of this.lines) {
-            const rgba = shades[lines.kind];
-            gl.uniform4f(at('look'), rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255);
-            gl.uniform1f(at('width'), lineWidths[lines.kind] / grain);
-            gl.bindVertexArray(array);
-            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
-        }
-        gl.bindVertexArray(null);
     }
 
     // Returns the table, and by what its depths are multiplied.
@@ -394,7 +271,7 @@ export class Renderer implements Graphics {
             const made = makeTransfer(frame.table, grid, { opacity: frame.opacity, least: frame.leastValue }, stepM);
             this.transfer = { made, stepM, key };
             gl.deleteTexture(this.transferTexture);
-            this.transferTexture = this.texture2d(gl.RGBA32F, gl.RGBA, gl.FLOAT, 256, 256, made.entries);
+            this.transferTexture = this.graphics.texture2d(gl.RGBA32F, gl.RGBA, gl.FLOAT, 256, 256, made.entries);
             return { made, scale: 1 };
         }
         return { made: now!.made, scale: stretch };
@@ -407,12 +284,12 @@ export class Renderer implements Graphics {
         const { box, exaggeration } = frame.geometry;
         const [nearM, farM] = slicedDepths(loaded, frame.geometry);
         const [cellWidth, cellHeight] = cellSizeM(grid);
-        this.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
+        this.graphics.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
         const filter = frame.isNearest ? gl.NEAREST : gl.LINEAR;
         for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
-        this.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
+        this.graphics.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
         if (levels) {
-            this.bind(3, gl.TEXTURE_2D, levels, at('levels'));
+            this.graphics.bind(3, gl.TEXTURE_2D, levels, at('levels'));
             gl.uniform2f(at('levelRange'), levelRange[0] * exaggeration, levelRange[1] * exaggeration);
         } else {
             const spacing = grid.nz > 1 ? grid.levelsM[1]! - grid.levelsM[0]! : 1;
@@ -439,12 +316,12 @@ export class Renderer implements Graphics {
         const { grid } = loaded;
         if (loaded.atlas.brickCount === 0) return;
         const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null, hasHalved: loaded.stream !== null, ...wanted };
-        const at = this.use(this.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
+        const at = this.graphics.use(this.graphics.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
         const [nearM, farM] = slicedDepths(loaded, geometry);
         const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
         this.bindGrid(this.uploaded!, frame, at);
-        this.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
+        this.graphics.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
         const { codeScale, codeOffset } = loaded.atlas;
         gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
         gl.uniform1ui(at('leastShown'), Math.min(255, Math.max(1, Math.floor((made.leastVisibleCode - codeOffset) / codeScale))));
@@ -466,7 +343,7 @@ export class Renderer implements Graphics {
             hasHaze: layers.hasHaze,
             hasFolded: layers.hasFolded,
         };
-        const at = this.use(this.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
+        const at = this.graphics.use(this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
         this.bindGrid(this.uploaded!, frame, at);
         this.passes.bindAir(4, air, layers, at);
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
@@ -483,7 +360,7 @@ export class Renderer implements Graphics {
         const surface = of ? this.other! : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
         const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, isBelow, hasOther: of !== null };
-        const at = this.use(this.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
+        const at = this.graphics.use(this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
         this.bindGrid(surface, frame, at);
         const { grid, atlas } = surface.loaded;
         const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;
@@ -494,8 +371,8 @@ export class Renderer implements Graphics {
         gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
         this.passes.bindSun(geometry, at);
         if (of) {
-            this.bind(4, gl.TEXTURE_3D, shown.atlas, at('otherAtlas'));
-            this.bind(5, gl.TEXTURE_3D, shown.indirection, at('otherIndirection'));
+            this.graphics.bind(4, gl.TEXTURE_3D, shown.atlas, at('otherAtlas'));
+            this.graphics.bind(5, gl.TEXTURE_3D, shown.indirection, at('otherIndirection'));
             gl.uniform3iv(at('otherSlots'), shown.loaded.atlas.slots);
             gl.uniform3fv(at('otherAtlasSize'), shown.loaded.atlas.size);
         }
@@ -506,30 +383,20 @@ export class Renderer implements Graphics {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
+    showLines(all: MapLines[]): void {
+        this.lines.show(all);
+    }
+    // Waits until everything is drawn.
+    finish(): void {
+        this.graphics.finish();
+    }
+
     // Begins to compile what the first picture needs, while its data are still on their way.
     prepare(): void {
         const variant: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };
-        this.begin(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant));
-        this.begin('ground, perspective', fullScreenVertex, groundFragment(true));
-        this.begin('lines', lineVertex, lineFragment);
-    }
-
-    // Settles when everything that was asked for is drawn.
-    async finished(): Promise<void> {
-        const gl = this.gl;
-        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-        gl.flush();
-        if (!fence) return;
-        while (!gl.isContextLost() && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
-            await new Promise(done => setTimeout(done, 1));
-        }
-        gl.deleteSync(fence);
-    }
-
-    // Waits until everything is drawn.
-    finish(): void {
-        const pixel = new Uint8Array(4);
-        this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
+        this.graphics.begin(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant));
+        this.graphics.begin('ground, perspective', fullScreenVertex, groundFragment(true));
+        this.lines.prepare();
     }
 }
 

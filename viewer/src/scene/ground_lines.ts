@@ -1,6 +1,6 @@
 // Lines and cities of the map, on the plane of a grid: what lies within reach of the picture.
 
-import { MapLines } from '../renderer/renderer';
+import { MapLines } from '../renderer/line_pass';
 import { Units, ringSpacingM } from '../tables/units';
 import { City, MapAnswer, MapLine } from '../wire/api';
 import { Site } from '../wire/packed_grid';
