@@ -185,10 +185,8 @@ uniform vec3 hazeColor, foldedColor;
 const int steps = 192;
 void main() {
     vec3 start = rayStart(), along = rayStep();
-    vec3 safe = mix(vec3(1e-12), along, step(1e-12, abs(along)));
-    vec3 a = (boxLow - start) / safe, b = (boxHigh - start) / safe;
-    vec3 lows = min(a, b), highs = max(a, b);
-    float enter = max(max(lows.x, lows.y), lows.z), leave = min(min(highs.x, highs.y), highs.z);
+    vec2 depths = depthsInBox(start, along);
+    float enter = depths.x, leave = depths.y;
     float whole = slices * stepM, each = whole / float(steps);
     vec2 way = vec2(0.0);
     int first = int(max(0.0, floor((enter - near) / each)));
@@ -272,11 +270,8 @@ vec3 outwardAt(vec3 p) {
 }
 void main() {
     vec3 start = rayStart(), along = rayStep();
-    vec3 safe = mix(vec3(1e-12), along, step(1e-12, abs(along)));
-    vec3 a = (boxLow - start) / safe, b = (boxHigh - start) / safe;
-    vec3 lows = min(a, b), highs = max(a, b);
-    float enter = max(max(lows.x, lows.y), max(lows.z, near));
-    float leave = min(min(highs.x, highs.y), min(highs.z, near + slices * stepM));
+    vec2 depths = depthsInBox(start, along);
+    float enter = depths.x, leave = depths.y;
     if (!(enter < leave)) discard;
     float k = max(0.0, floor((enter - near) / stepM));
     float last = min(slices, ceil((leave - near) / stepM));

@@ -92,6 +92,14 @@ vec3 cellOf(vec3 p) {
     vec2 across = p.xy / cellSize + 0.5 * (cells.xy - 1.0);
     return clamp(vec3(across, levelOf(p.z)), vec3(0.0), cells - 1.0);
 }
+// The depths between which a ray is in the box, as far as the slices go; the first is not the smaller one
+// of a ray that misses it.
+vec2 depthsInBox(vec3 start, vec3 along) {
+    vec3 safe = mix(vec3(1e-12), along, step(1e-12, abs(along)));
+    vec3 a = (boxLow - start) / safe, b = (boxHigh - start) / safe;
+    vec3 lows = min(a, b), highs = max(a, b);
+    return vec2(max(max(lows.x, lows.y), max(lows.z, near)), min(min(highs.x, highs.y), min(highs.z, near + slices * stepM)));
+}
 bool isEmpty(uint entry) { return (entry & 0x1FFFFFu) == 0u; }
 // Eight cells of the atlas: code times share, and share.
 vec2 fetchAt(vec3 cell, ivec3 brick, uint entry) {
@@ -175,11 +183,8 @@ ${isLit ? litText : ''}
 void main() {
     color = vec4(0.0);
     vec3 start = rayStart(), along = rayStep();
-    vec3 safe = mix(vec3(1e-12), along, step(1e-12, abs(along)));
-    vec3 a = (boxLow - start) / safe, b = (boxHigh - start) / safe;
-    vec3 lows = min(a, b), highs = max(a, b);
-    float enter = max(max(lows.x, lows.y), max(lows.z, near));
-    float leave = min(min(highs.x, highs.y), min(highs.z, near + slices * stepM));
+    vec2 depths = depthsInBox(start, along);
+    float enter = depths.x, leave = depths.y;
 ${endsAtSolids ? '    leave = min(leave, solidAt());' : ''}
     if (!(enter < leave)) discard;
     float lengthOfStep = depthScale * length(along);
