@@ -136,6 +136,25 @@ TEST_F(Region, TakesVolumesNearTheInstantAlone) {
     EXPECT_EQ(late.error().code, ErrorCode::not_found);
 }
 
+// The plan goes by the newest grids; an older one had fewer levels.
+TEST_F(Region, LeavesOutAnOlderGridOfOtherLevels) {
+    const UtcTime earlier = testing::noon - std::chrono::hours{3};
+    grid::Grid low = grid_of("KBGM", value_of_kbgm, earlier);
+    low.spec.levels_m = {1000};
+    low.values.resize(low.spec.cell_count());
+    low.status.resize(low.spec.cell_count());
+    commit(low);
+    grids_->refresh();
+    const auto alone = make_region(*grids_, plan(both), earlier);
+    ASSERT_FALSE(alone);
+    EXPECT_EQ(alone.error().code, ErrorCode::not_found);
+    commit(grid_of("KCCX", value_of_kccx, earlier));
+    grids_->refresh();
+    const auto other = make_region(*grids_, plan(both), earlier);
+    ASSERT_TRUE(other) << other.error().message;
+    EXPECT_EQ(other->description.sites.size(), 1u);
+}
+
 TEST_F(Region, LargeOnesAreCoarserAndLargerOnesRefused) {
     EXPECT_EQ(plan({-95, 30, -70, 48}).halvings, 1);
     const auto far_too_large = region_box_of("-100,20,-50,50");

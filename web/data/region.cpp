@@ -101,12 +101,9 @@ Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
 }
 
 // Sites are laid over each other level by level and code by code.
-bool fit_together(const OpenGrid& one, const OpenGrid& other) {
-    const grid::BrickView a = one.file.view(), b = other.file.view();
-    return a.spec->levels_m == b.spec->levels_m &&
-           a.quantization.code_bytes == b.quantization.code_bytes &&
-           a.quantization.first_value == b.quantization.first_value &&
-           a.quantization.step == b.quantization.step;
+bool fits(const OpenGrid& grid, const RegionPlan& plan) {
+    const grid::BrickView view = grid.file.view();
+    return view.spec->levels_m == plan.spec.levels_m && view.quantization == plan.quantization;
 }
 
 // A site's grid on the columns of the region.
@@ -199,14 +196,16 @@ Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box, level2::Momen
     if (!nearby) return pass_on(nearby);
     RegionPlan plan;
     plan.moment = moment;
-    std::shared_ptr<const OpenGrid> first;
     for (const auto& [name, newest] : *nearby) {
         const grid::GridSpec& own = newest->file.description().spec;
-        if (!first) plan.spec = region_spec(box, own.cell_height_m(), own.levels_m);
+        // The first that reaches the box says what the others must be.
+        if (plan.sites.empty()) {
+            plan.spec = region_spec(box, own.cell_height_m(), own.levels_m);
+            plan.quantization = newest->file.view().quantization;
+        }
         const auto& site = newest->file.description().sites.front();
         if (!grid::site_window(plan.spec, site, reach_of_grid(own))) continue;
-        if (!first) first = newest;
-        (fit_together(*first, *newest) ? plan.sites : plan.left_out).push_back(name);
+        (fits(*newest, plan) ? plan.sites : plan.left_out).push_back(name);
     }
     if (plan.sites.empty()) {
         return fail(ErrorCode::not_found, "no site with grids of {} reaches this region",
@@ -251,6 +250,8 @@ Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan, 
         auto source = grids.find(site, plan.moment, *time);
         if (!source && source.error().code == ErrorCode::not_found) continue;
         if (!source) return pass_on(source);
+        // An older one may have been made by another configuration.
+        if (!fits(**source, plan)) continue;
         auto one = laid_grid(std::move(*source), plan);
         if (!one) return pass_on(one);
         if (*one) laid.push_back(std::move(**one));

@@ -37,6 +37,7 @@ inline constexpr std::chrono::minutes region_interval{5};
 struct RegionPlan {
     level2::Moment moment = level2::Moment::ref;
     grid::GridSpec spec;
+    grid::Quantization quantization;
     std::vector<std::string> sites;     // that reach the box, by name
     std::vector<std::string> left_out;  // that would, but whose grids do not fit the others
     int halvings = 0;                   // of the sites' grids
@@ -54,7 +55,8 @@ struct RegionPlan {
 // Returns the instants for which one of the sites has a volume, rising.
 [[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
 
-// Makes the grid for an instant. Errors: not_found if no site has a volume near it; those of
+// Makes the grid for an instant. A site whose grid of that time has other levels or codes than the
+// plan is left out. Errors: not_found if no site has a volume near it that fits; those of
 // Grids::find(), halved() and make_frame().
 [[nodiscard]] Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan,
                                                         UtcTime instant);
