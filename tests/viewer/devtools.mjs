@@ -16,6 +16,8 @@ export class Browser {
   static async start(program = 'chromium') {
     const browser = new Browser();
     browser.profile = mkdtempSync(join(tmpdir(), 'stormcellar-browser-'));
+    // Also when a check throws.
+    process.on('exit', () => rmSync(browser.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 100 }));
     browser.child = spawn(program, [...switches, `--user-data-dir=${browser.profile}`, 'about:blank'], {
       stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'],
     });

@@ -32,6 +32,8 @@ export class Firefox {
   static async start(width, height, program = 'firefox-esr') {
     const browser = new Firefox();
     browser.profile = mkdtempSync(join(tmpdir(), 'stormcellar-firefox-'));
+    // Also when a check throws.
+    process.on('exit', () => rmSync(browser.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 100 }));
     const lines = Object.entries(preferences).map(([name, value]) => `user_pref(${JSON.stringify(name)}, ${JSON.stringify(value)});`);
     writeFileSync(join(browser.profile, 'user.js'), lines.join('\n'));
     browser.child = spawn(
