@@ -58,8 +58,8 @@ class StationDatabase {
     static Result<std::unique_ptr<SQLite::Database>> open_connection(
         const std::filesystem::path& path);
 
-    // Returns true if it was opened as a file that nobody writes: later writes are not seen by this
-    // object.
+    // Returns true if this object does not see later writes: it was opened as a file that nobody
+    // writes, or before its writer had made the tables.
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
     // From now on a new row is only written while the database takes less than this, or if rows of
@@ -109,6 +109,8 @@ class StationDatabase {
 
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
+    // Returns what a reader sees of a database whose writer has yet to make its tables.
+    static std::unique_ptr<StationDatabase> empty_snapshot(const std::string& station);
 
     // Returns the statement of that text, which must live as long as the program.
     LentStatement prepared(const char* sql);

@@ -68,14 +68,16 @@ Status check_regular(const fs::path& path) {
     return {};
 }
 
-// Checks that the database is ours and of a version that we know. An empty one may be filled.
-Status check_identity(SQLite::Database& database, const fs::path& path) {
+enum class Contents { none, ours };
+
+// Checks that the database is ours and of a version that we know. One without tables is being made.
+Result<Contents> identify(SQLite::Database& database, const fs::path& path) {
     // One snapshot, because another process may be making the tables.
     const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
     const int tables = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt();
-    if (tables == 0) return {};
+    if (tables == 0) return Contents::none;
     const bool ours = database
                           .execAndGet(
                               "SELECT count(*) = 3 FROM sqlite_schema WHERE type = 'table' "
@@ -94,7 +96,7 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
         return fail(ErrorCode::corrupt, "{}: tables are missing or their numbers are wrong",
                     path.native());
     }
-    return {};
+    return Contents::ours;
 }
 
 // Here, unlike everywhere else, SQLite does not wait for others.
@@ -180,7 +182,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         std::unique_ptr<StationDatabase> opened(new StationDatabase(
             uri_of(path, ""), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, std::move(station)));
         SQLite::Database& database = opened->database_;
-        if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
+        if (const auto contents = identify(database, path); !contents) return pass_on(contents);
         enter_wal(database);
         database.exec("PRAGMA synchronous = FULL");
         // Each open station has a log of its own, so none may grow to SQLite's default of 4 MB.
@@ -195,13 +197,23 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
     }
 }
 
+std::unique_ptr<StationDatabase> StationDatabase::empty_snapshot(const std::string& station) {
+    std::unique_ptr<StationDatabase> made(new StationDatabase(
+        "file::memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, station));
+    made->database_.exec(create_version_1);
+    made->is_snapshot_ = true;
+    return made;
+}
+
 Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(
     const fs::path& path, const std::string& station) {
     using Opened = Result<std::unique_ptr<StationDatabase>>;
     return try_to_read(path, [&](const std::string& uri) -> Opened {
         std::unique_ptr<StationDatabase> opened(
             new StationDatabase(uri, SQLite::OPEN_READONLY, station));
-        if (Status ours = check_identity(opened->database_, path); !ours) return pass_on(ours);
+        const auto contents = identify(opened->database_, path);
+        if (!contents) return pass_on(contents);
+        if (*contents == Contents::none) return empty_snapshot(station);
         opened->database_.exec(fmt::format("PRAGMA cache_size = -{}", most_cached_by_reader_kib));
         opened->is_snapshot_ = uri.ends_with("immutable=1");
         return opened;

@@ -40,6 +40,28 @@ TEST_F(CatalogTest, WhatCouldOnlyBeOpenedForReadingIsOpenedAgain) {
     EXPECT_EQ(second.list("KTLX", {})->size(), 2U);
 }
 
+// 2026-11-27: a server that lists while a station's first file is registered answered with 500.
+TEST_F(CatalogTest, ToReadersADatabaseThatIsJustBeingMadeIsEmptyAndFullSoonAfter) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
+    const CatalogReader reader = *CatalogReader::open(directory_ / "catalog");
+    const std::filesystem::path path = directory_ / "catalog" / "KLBB.sqlite";
+    ASSERT_TRUE(std::filesystem::exists(directory_ / "catalog" / "KTLX.sqlite"));
+    {
+        SQLite::Database made(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        made.exec("PRAGMA journal_mode = WAL");
+        const auto listed = reader.list("KLBB", {});
+        ASSERT_TRUE(listed) << listed.error().message;
+        EXPECT_TRUE(listed->empty());
+        const auto latest = reader.latest("KLBB");
+        ASSERT_TRUE(latest) << latest.error().message;
+        EXPECT_FALSE(latest->has_value());
+    }
+    ASSERT_TRUE(catalog_.register_file(file("/d/b", {volume("2022-03-17T00:10")}, "KLBB")));
+    const auto listed = reader.list("KLBB", {});
+    ASSERT_TRUE(listed) << listed.error().message;
+    EXPECT_EQ(listed->size(), 1U);
+}
+
 TEST_F(CatalogTest, GoneFilesStayAndAreMarkedOnce) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     EXPECT_EQ(*catalog_.mark_gone("/d/a"), 1);
