@@ -5,7 +5,6 @@ import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { MadeColumn } from '../atlas/brick_store';
 import { Pyramid } from '../atlas/pyramid';
 import { ViewGeometry, heightRange } from '../camera/geometry';
-import { Air } from '../fields/air';
 import { croppedBox } from '../scene/layers';
 import { cellSizeM } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
@@ -340,7 +339,7 @@ export class Renderer {
         this.tiles.draw(view, tilesOf(view, loaded.atlas, brickEnds(grid, geometry), leastShown), at);
     }
 
-    private drawAir(frame: Frame, layers: DrawnLayers, air: Air): void {
+    private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
         const { geometry } = frame;
         const variant: AirVariant = {
             isPerspective: geometry.isPerspective,
@@ -350,6 +349,9 @@ export class Renderer {
         };
         const at = this.graphics.use(this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
         this.bindGrid(this.uploaded!, frame, at);
+        // How dense a veil is depends on the whole depth of the grid.
+        this.gl.uniform1f(at('near'), geometry.nearM);
+        this.gl.uniform1f(at('stepM'), (geometry.farM - geometry.nearM) / frame.slices);
         this.passes.bindAir(4, air, layers, at);
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
@@ -364,7 +366,7 @@ export class Renderer {
         }
         const surface = of ? this.other! : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
-        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, isBelow, hasOther: of !== null };
+        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, hasHalved: surface.loaded.stream !== null, isBelow, hasOther: of !== null };
         const at = this.graphics.use(this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
         this.bindGrid(surface, frame, at);
         const { grid, atlas } = surface.loaded;
