@@ -75,6 +75,8 @@ export class Loader {
     private kept = new Map<string, LoadedGrid>(); // the least recently used first
     private loading = new Map<string, Promise<LoadedGrid>>();
 
+    besides: () => number = () => 0; // bytes that the page holds beside whole grids and their atlases
+
     constructor(
         readonly budget: Budget,
         private mostTexels: number,
@@ -136,11 +138,11 @@ export class Loader {
         return { grid, atlas, coverage: coverage!, stream };
     }
 
-    // Bytes that are held, with the texture and the codes of grids in parts.
+    // Bytes that are held, with the texture, the codes and the windows of grids in parts.
     get bytes(): number {
         const all = [...this.kept.values()];
         const parts = all.find(({ stream }) => stream);
-        const pool = parts ? 2 * parts.atlas.size[0] ** 3 + this.budget.mostCells : 0;
+        const pool = parts ? 2 * parts.atlas.size[0] ** 3 + this.budget.mostCells + this.besides() : 0;
         return all.reduce((sum, one) => sum + bytesOf(one), pool);
     }
 

@@ -1,6 +1,5 @@
 // The shaders of what is drawn beside ground and volume. Each is compiled when a layer needs it first.
 
-import { airCellsAcross, airCellsUp } from '../fields/air';
 import { azimuthSteps, noRadial } from '../fields/sweep_cone';
 import { lookColumns, lookCount } from '../tables/looks';
 import { facingText, litColorText } from './light_shader';
@@ -134,7 +133,8 @@ precision highp float;
 ${camera(isPerspective)}
 ${looksText}
 uniform vec3 seenColor, foldedColor;
-uniform vec2 halfSize;
+uniform vec2 halfSize; // of the grid
+uniform vec4 extent; // of the field: west, south, east, north
 uniform float ground;
 ${fieldText}
 out vec4 color;
@@ -142,8 +142,9 @@ void main() {
     vec3 start = rayStart(), along = rayStep();
     float depth = (ground - start.z) / along.z;
     if (along.z > -1e-6 || ${isPerspective ? 'depth <= 0.0' : 'false'}) discard;
-    vec2 place = ((start + depth * along).xy + halfSize) / (2.0 * halfSize);
-    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
+    vec2 on = (start + depth * along).xy;
+    vec2 place = (on - extent.xy) / (extent.zw - extent.xy);
+    if (any(greaterThanEqual(abs(on), halfSize)) || any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
     vec2 found = fieldAt(place * vec2(textureSize(field, 0)));
     int state = int(found.y + 0.5);
     if (state == 2) color = vec4(foldedColor, 1.0);
@@ -181,6 +182,8 @@ export const airName = (variant: AirVariant): string =>
 export function airFragment(variant: AirVariant): string {
     return `${volumeHead(variant)}
 uniform sampler3D air; // shares of not seen and of range folded
+uniform vec2 airFirst; // where it begins, in cells of the grid
+uniform vec2 airCells; // how many of these a coarse cell is wide and high
 uniform vec3 hazeColor, foldedColor;
 const int steps = 192;
 void main() {
@@ -195,8 +198,9 @@ void main() {
     for (int i = first; i < last; ++i) {
         float depth = near + (float(i) + 0.5) * each;
         if (depth < enter || depth > leave) continue;
-        vec3 cell = cellOf(start + depth * along);
-        way += texture(air, floor((cell + 0.5) / vec3(${airCellsAcross}.0, ${airCellsAcross}.0, ${airCellsUp}.0)) / size3 + 0.5 / size3).rg;
+        vec3 at = floor((cellOf(start + depth * along) + 0.5 - vec3(airFirst, 0.0)) / airCells.xxy);
+        if (any(lessThan(at, vec3(0.0))) || any(greaterThanEqual(at, size3))) continue;
+        way += texture(air, (at + 0.5) / size3).rg;
     }
     way = 0.6 * (1.0 - exp(-way * each * length(along) / (0.2 * whole)));
     color = vec4(0.0);
@@ -211,7 +215,7 @@ export interface SurfaceVariant extends VolumeVariant {
 }
 
 export const surfaceName = (variant: SurfaceVariant): string =>
-    ['surface', variant.isPerspective ? 'perspective' : 'parallel', variant.hasUnevenLevels ? 'uneven levels' : '', variant.isBelow ? 'below' : '', variant.hasOther ? 'colored by another' : '']
+    ['surface', variant.isPerspective ? 'perspective' : 'parallel', variant.hasUnevenLevels ? 'uneven levels' : '', variant.hasHalved ? 'halved bricks' : '', variant.isBelow ? 'below' : '', variant.hasOther ? 'colored by another' : '']
         .filter(part => part !== '')
         .join(', ');
 

@@ -5,7 +5,6 @@ import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { MadeColumn } from '../atlas/brick_store';
 import { Pyramid } from '../atlas/pyramid';
 import { Box, ViewGeometry, heightRange } from '../camera/geometry';
-import { Air } from '../fields/air';
 import { croppedBox } from '../scene/layers';
 import { cellSizeM } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
@@ -335,7 +334,7 @@ export class Renderer {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    private drawAir(frame: Frame, layers: DrawnLayers, air: Air): void {
+    private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
         const { geometry } = frame;
         const variant: AirVariant = {
             isPerspective: geometry.isPerspective,
@@ -345,6 +344,9 @@ export class Renderer {
         };
         const at = this.graphics.use(this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
         this.bindGrid(this.uploaded!, frame, at);
+        // How dense a veil is depends on the whole depth of the grid.
+        this.gl.uniform1f(at('near'), geometry.nearM);
+        this.gl.uniform1f(at('stepM'), (geometry.farM - geometry.nearM) / frame.slices);
         this.passes.bindAir(4, air, layers, at);
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
@@ -359,7 +361,7 @@ export class Renderer {
         }
         const surface = of ? this.other! : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
-        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, isBelow, hasOther: of !== null };
+        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, hasHalved: surface.loaded.stream !== null, isBelow, hasOther: of !== null };
         const at = this.graphics.use(this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
         this.bindGrid(surface, frame, at);
         const { grid, atlas } = surface.loaded;

@@ -187,3 +187,9 @@ export function planeOf(grid: GridGeometry): GridPlane {
         toPlace: ([x, y]) => own.toPlace([x + dx, y + dy]),
     };
 }
+
+// Where the middle of a grid is on the plane of another one with the same center, as of a window of a grid.
+export function middleOn(plane: GridGeometry, grid: GridGeometry): Plane {
+    const [whole, own] = [cellSizeM(plane), cellSizeM(grid)];
+    return [grid.offsetCells[0] * own[0] - plane.offsetCells[0] * whole[0], grid.offsetCells[1] * own[1] - plane.offsetCells[1] * whole[1]];
+}
