@@ -225,16 +225,14 @@ const surfaceExposure = 0.86;
 const otherText = `
 uniform sampler3D otherAtlas;
 uniform usampler3D otherIndirection;
-uniform ivec3 otherSlots;
-uniform vec3 otherAtlasSize;
+uniform vec3 otherSlots;
+uniform vec3 otherPerTexel;
 // The code by which the surface is colored; less than 0 where there is none.
 float otherCode(vec3 cell) {
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(otherIndirection, brick, 0).r;
     if (isEmpty(entry)) return -1.0;
-    int slot = int(entry & 0x1FFFFFu) - 1;
-    ivec3 place = ivec3(slot % otherSlots.x, (slot / otherSlots.x) % otherSlots.y, slot / (otherSlots.x * otherSlots.y));
-    vec2 found = texture(otherAtlas, (vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5) / otherAtlasSize).rg;
+    vec2 found = texture(otherAtlas, (cell + placeOf(brick, entry, otherSlots).xyz) * otherPerTexel).rg;
     return found.g < 0.1 ? -1.0 : 255.0 * found.r / found.g;
 }`;
 
@@ -255,7 +253,7 @@ vec2 codeAt(vec3 p) {
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(indirection, brick, 0).r;
     if (isEmpty(entry)) return vec2(0.0);
-    vec2 found = fetchAt(cell, brick, entry);
+    vec2 found = fetchAt(cell, placeOf(brick, entry, slots), perTexel);
     return found.g < 0.002 ? vec2(0.0) : vec2(255.0 * found.r / found.g, found.g);
 }
 bool insideAt(vec3 p) {
@@ -279,6 +277,7 @@ void main() {
     if (!(enter < leave)) discard;
     float k = max(0.0, floor((enter - near) / stepM));
     float last = min(slices, ceil((leave - near) / stepM));
+    Ray ray = rayOf(start, along);
     float outside = enter, hit = -1.0;
     bool isCut = insideAt(start + enter * along);
     if (isCut) hit = enter;
@@ -290,7 +289,7 @@ void main() {
         uint entry = texelFetch(indirection, brick, 0).r;
         if (isEmpty(entry) || (entry >> 24) < leastShown) {
             outside = depth;
-            k = max(k + 1.0, floor((min(leaves(start, along, brick, entry), leave) - near) / stepM));
+            k = max(k + 1.0, floor((min(leaves(ray, brick, entry), leave) - near) / stepM));
             continue;
         }
         if (insideAt(p)) hit = depth;
