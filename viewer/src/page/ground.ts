@@ -2,11 +2,13 @@
 
 import { Renderer } from '../renderer/renderer';
 import { boxOf } from '../scene/grid_box';
-import { Mark, cityMarks, mapLines, ringLines } from '../scene/ground_lines';
+import { Mark, cityMarks, mapLines, projected, ringLines } from '../scene/ground_lines';
 import { planeOf } from '../scene/projection';
+import { ringsOf } from '../scene/water';
 import { MapAnswer, map } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 import { App, Shown } from './app';
+import { waterMask } from './water_mask';
 
 // A margin, since the map is seen beyond the grid.
 const widerThanGrid = 1.4;
@@ -64,8 +66,10 @@ export class Ground {
         const plane = planeOf(grid);
         const { halfXM, halfYM } = boxOf(grid);
         const rings = ringLines(grid.sites, plane, halfXM, halfYM, this.app.state.units);
-        const lines = found ? mapLines(found, plane, Math.max(halfXM, halfYM)) : [];
-        this.renderer.showLines([...lines, ...rings.lines]);
+        const all = found ? projected(found, plane) : [];
+        this.renderer.showLines([...mapLines(all, Math.max(halfXM, halfYM)), ...rings.lines]);
+        const reach = [halfXM, halfYM].map(half => widerThanGrid * half) as [number, number];
+        this.renderer.showWater(found && waterMask(ringsOf(all, 'coast', plane), ringsOf(all, 'lake', plane), ...reach));
         this.marks = [...rings.marks, ...(found ? cityMarks(found.cities, plane, halfXM, halfYM) : [])];
     }
 }
