@@ -2,12 +2,15 @@
 
 import { MapLines } from '../renderer/line_pass';
 import { Renderer } from '../renderer/renderer';
+import { WaterMask } from '../renderer/water_texture';
 import { boxOf } from '../scene/grid_box';
-import { Mark, cityMarks, mapLines, ringLines } from '../scene/ground_lines';
+import { Mark, cityMarks, mapLines, projected, ringLines } from '../scene/ground_lines';
 import { halfWidthsM, planeOf } from '../scene/projection';
+import { ringsOf } from '../scene/water';
 import { MapAnswer, map } from '../wire/api';
 import { GridPlace, PackedGrid } from '../wire/packed_grid';
 import { App, Shown } from './app';
+import { waterMask } from './water_mask';
 
 // A margin, since the map is seen beyond the grid.
 const widerThanGrid = 1.4;
@@ -29,6 +32,7 @@ async function mapAround(place: GridPlace): Promise<MapAnswer> {
 
 interface MapOnPlane {
     lines: MapLines[];
+    water: WaterMask;
     cities: Mark[];
 }
 
@@ -36,7 +40,12 @@ async function projectedMap(place: GridPlace): Promise<MapOnPlane> {
     const found = await mapAround(place);
     const plane = planeOf(place);
     const [halfXM, halfYM] = halfWidthsM(place);
-    return { lines: mapLines(found, plane, Math.max(halfXM, halfYM)), cities: cityMarks(found.cities, plane, halfXM, halfYM) };
+    const all = projected(found, plane);
+    return {
+        lines: mapLines(all, Math.max(halfXM, halfYM)),
+        water: waterMask(ringsOf(all, 'coast', plane), ringsOf(all, 'lake', plane), widerThanGrid * halfXM, widerThanGrid * halfYM),
+        cities: cityMarks(found.cities, plane, halfXM, halfYM),
+    };
 }
 
 const keyOf = (domain: string, { nx, ny, spacing, centerDeg, offsetCells }: GridPlace): string => `${domain} ${nx} ${ny} ${spacing} ${centerDeg.join()} ${offsetCells.join()}`;
@@ -90,6 +99,7 @@ export class Ground {
         const { halfXM, halfYM } = boxOf(grid);
         const rings = ringLines(grid.sites, planeOf(grid), halfXM, halfYM, this.app.state.units);
         this.renderer.showLines([...(found?.lines ?? []), ...rings.lines]);
+        this.renderer.showWater(found?.water ?? null);
         this.marks = [...rings.marks, ...(found?.cities ?? [])];
     }
 }

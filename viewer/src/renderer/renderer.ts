@@ -18,6 +18,7 @@ import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
 import { LinePass, MapLines } from './line_pass';
 import { VolumeVariant, fullScreenVertex, groundFragment, tileVertex, variantName, volumeFragment } from './shaders';
 import { shades } from './shades';
+import { WaterMask, WaterTexture } from './water_texture';
 
 // What a grid needs in the memory of the graphics processor.
 export interface LoadedGrid {
@@ -81,6 +82,7 @@ export class Renderer {
     private passes: LayerPasses;
     private exposure: Exposure;
     private lines: LinePass;
+    private water: WaterTexture;
     private tiles: TilePass;
     private transferTexture: WebGLTexture | null = null;
     private transfer: { made: Transfer; stepM: number; key: TransferKey } | null = null;
@@ -92,6 +94,7 @@ export class Renderer {
         this.graphics = new Graphics(gl);
         this.passes = new LayerPasses(this.graphics);
         this.lines = new LinePass(this.graphics);
+        this.water = new WaterTexture(this.graphics);
         this.tiles = new TilePass(gl);
         this.exposure = new Exposure(gl);
         canvas.addEventListener('webglcontextlost', event => event.preventDefault());
@@ -108,6 +111,7 @@ export class Renderer {
     forget(): void {
         this.graphics.forget();
         this.lines.forget();
+        this.water.forget();
         this.tiles.forget();
         this.uploaded = this.other = null;
         this.passes.forget();
@@ -256,9 +260,14 @@ export class Renderer {
         gl.uniform1f(at('columnsATexel'), 2 ** (stream?.level ?? 0));
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
-        for (const uniform of ['page', 'beyond', 'notSeen', 'seenAloft', 'seen', 'hatch'] as const) color(uniform, shades[uniform]);
-        // Haze says from how low the air was seen.
-        if (hasHaze) color('seenAloft', shades.seen);
+        color('page', shades.page);
+        color('hatch', shades.hatch);
+        for (const [name, own] of [['land', shades], ['water', shades.water]] as const) {
+            // Haze says from how low the air was seen.
+            const colors = [own.notSeen, hasHaze ? own.seen : own.seenAloft, own.seen, own.beyond];
+            gl.uniform3fv(at(`${name}Shades`), colors.flat().map(one => one / 255));
+        }
+        this.water.bind(1, at);
         gl.uniform1f(at('hatchScale'), 1 / grain);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
@@ -390,6 +399,9 @@ export class Renderer {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
+    showWater(mask: WaterMask | null): void {
+        this.water.show(mask);
+    }
     showLines(all: MapLines[]): void {
         this.lines.show(all);
     }

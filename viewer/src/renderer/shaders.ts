@@ -254,7 +254,8 @@ ${variant.countsFetches ? putFetches : variant.measuresLight ? putMeasured : isL
 }`;
 }
 
-// Land as it was seen: light from low down, darker from high up only, hatched where it was not seen.
+// The ground as it was seen: light from low down, darker from high up only, hatched where it was not seen;
+// land and water each in their own shades.
 export function groundFragment(isPerspective: boolean): string {
     return `#version 300 es
 precision highp float;
@@ -264,7 +265,10 @@ uniform vec2 columns; // of the grid
 uniform float columnsATexel; // along each side
 uniform vec2 halfSize; // of the grid, in meters
 uniform float ground; // drawn height
-uniform vec3 page, beyond, notSeen, seenAloft, seen, hatch;
+uniform vec3 page, hatch;
+uniform vec3 landShades[4], waterShades[4]; // not seen, seen from high up only, seen from low down, beyond the grid
+uniform sampler2D water; // its share
+uniform vec2 waterHalf; // how far that reaches from the middle
 uniform float hatchScale;
 out vec4 color;
 ${camera(isPerspective)}
@@ -277,13 +281,16 @@ void main() {
     }
     vec2 at = (start + depth * along).xy;
     vec2 place = (at + halfSize) / (2.0 * halfSize);
+    // A shore is as sharp as a pixel, however near it is.
+    float share = texture(water, 0.5 + vec2(0.5, -0.5) * at / waterHalf).r - 0.5;
+    float isWater = clamp(0.5 + share / max(fwidth(share), 1e-3), 0.0, 1.0);
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) {
         float away = length(max(abs(at) - halfSize, 0.0)) / max(halfSize.x, halfSize.y);
-        color = vec4(mix(beyond, page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
+        color = vec4(mix(mix(landShades[3], waterShades[3], isWater), page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
         return;
     }
     uint state = texelFetch(coverage, ivec2(place * columns / columnsATexel), 0).r;
-    vec3 shade = state == 2u ? seen : state == 1u ? seenAloft : notSeen;
+    vec3 shade = mix(landShades[state], waterShades[state], isWater);
     if (state == 0u) {
         vec2 p = floor(pixel());
         float period = 9.0 * hatchScale;
