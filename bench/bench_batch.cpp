@@ -56,9 +56,9 @@ struct Case {
 
 int mosaic_once(char** words) {
     keep_freed_memory();
-    const auto run =
-        run_mosaic(static_cast<int>(number_in(words[0])), static_cast<int>(number_in(words[1])),
-                   words[2], words[3], hours(number_in(words[4])), FeedFiles::every_hour);
+    const auto run = run_mosaic(static_cast<int>(number_in(words[0])),
+                                static_cast<int>(number_in(words[1])), words[2], words[3],
+                                hours(number_in(words[4])), FeedFiles::every_hour, Beside::nothing);
     if (!run) {
         fmt::print(stderr, "bench_batch: {}\n", run.error().message);
         return 1;
@@ -148,12 +148,18 @@ std::optional<BatchOnce> run_batch(const Case& a_case, const fs::path& directory
 
 bool add_row(const Case& a_case, Table& table) {
     const fs::path directory = a_case.work / fmt::format("plan-{}", ::getpid());
+    const auto failed = [](const char* what) {
+        fmt::print(stderr, "bench_batch: {} failed\n", what);
+        return false;
+    };
     const auto plan_s = plan(a_case, directory);
-    const auto batch = plan_s ? run_batch(a_case, directory) : std::nullopt;
+    if (!plan_s) return failed("batch plan");
+    const auto batch = run_batch(a_case, directory);
     std::error_code ignored;
     fs::remove_all(directory, ignored);
-    const auto mosaic = batch ? run_mosaic_once(a_case) : std::nullopt;
-    if (!mosaic) return false;
+    if (!batch) return failed("the batch");
+    const auto mosaic = run_mosaic_once(a_case);
+    if (!mosaic) return failed("the one process");
     const double idle_s = batch->total_s * a_case.threads - batch->inside_s;
     table.add({{"engine", a_case.engine},
                {"sites", a_case.sites},
@@ -222,7 +228,6 @@ int run(int argc, char** argv) {
         a_case->threads = threads;
         for (int turn = 0; turn < request->runs; ++turn) {
             if (add_row(*a_case, table)) continue;
-            fmt::print(stderr, "bench_batch: the batch or the one process failed\n");
             return 1;
         }
     }

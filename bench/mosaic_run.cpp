@@ -41,9 +41,10 @@ pipeline::PartialOptions partial_options(const grid::GridSpec& domain, const std
 
 class Runner {
   public:
-    Runner(int sites, int threads, cache::StoreWriter store)
+    Runner(int sites, int threads, Beside beside, cache::StoreWriter store)
         : domain_(feed_domain(sites)),
           threads_(threads),
+          beside_(beside),
           store_(std::move(store)),
           geometries_(2 * static_cast<std::size_t>(sites)) {}
 
@@ -65,6 +66,7 @@ class Runner {
 
     const grid::GridSpec domain_;
     const int threads_;
+    const Beside beside_;
     cache::StoreWriter store_;
     pipeline::GeometryCache geometries_;
     std::list<pipeline::MadePartial> partials_;
@@ -161,7 +163,8 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
         const auto here = volumes.subspan(first, last - first);
         first = last;
         const double before_s = cpu_s();
-        done_.libbz2_s += seconds_of([&] { decompress_alone(here); });
+        if (beside_ == Beside::libbz2)
+            done_.libbz2_s += seconds_of([&] { decompress_alone(here); });
         const double between_s = cpu_s();
         done_.libbz2_cpu_s += between_s - before_s;
         Status status;
@@ -187,10 +190,10 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
 }  // namespace
 
 Result<MosaicRun> run_mosaic(int sites, int threads, const fs::path& feed, const fs::path& cache,
-                             std::chrono::hours hours, FeedFiles files) {
+                             std::chrono::hours hours, FeedFiles files, Beside beside) {
     auto store = cache::StoreWriter::open(real_file_system(), cache, false);
     if (!store) return pass_on(store);
-    Runner runner(sites, threads, std::move(*store));
+    Runner runner(sites, threads, beside, std::move(*store));
     const std::vector<FeedVolume> volumes = feed_of(sites, feed, hours, files);
     if (Status run = runner.run(volumes, feed_start() + hours); !run) return pass_on(run);
     return runner.done();

@@ -33,11 +33,14 @@ struct MosaicRun {
     FeedSize size;
 };
 
+enum class Beside { libbz2, nothing };  // what is timed beside
+
 // `cache` must be empty or missing; it has the frames afterward.
 [[nodiscard]] Result<MosaicRun> run_mosaic(int sites, int threads,
                                            const std::filesystem::path& feed,
                                            const std::filesystem::path& cache,
                                            std::chrono::hours hours = feed_length,
-                                           FeedFiles files = FeedFiles::first_hour);
+                                           FeedFiles files = FeedFiles::first_hour,
+                                           Beside beside = Beside::libbz2);
 
 }  // namespace stormcellar::bench
