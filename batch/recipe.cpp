@@ -92,7 +92,10 @@ Recipe read_recipe(const Json& json) {
     if (recipe.moments.empty()) throw std::domain_error("it has no moment");
     if (json.contains("domain")) {
         recipe.domain = domain_of(json.at("domain"), recipe.moments);
-        recipe.statistics = json.at("statistics");
+        if (json.at("statistics")) {
+            recipe.statistics = json.at("cell_statistics") ? grid::Tallied::columns_and_cells
+                                                           : grid::Tallied::columns;
+        }
         return recipe;
     }
     const Json& own = json.at("own_grids");
@@ -139,7 +142,8 @@ Json json_of(const Recipe& recipe) {
               {"moments", moments}};
     if (recipe.domain) {
         json["domain"] = json_of_domain(*recipe.domain);
-        json["statistics"] = recipe.statistics;
+        json["statistics"] = recipe.statistics.has_value();
+        json["cell_statistics"] = recipe.statistics == grid::Tallied::columns_and_cells;
     } else {
         json["own_grids"] = {{"spacing_m", recipe.spacing_m},
                              {"nx", recipe.nx},

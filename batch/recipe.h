@@ -14,6 +14,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "grid/cells/grid_tally.h"
 #include "pipeline/care/archive_fill.h"
 #include "pipeline/options/domain.h"
 #include "stormcellar/base/result.h"
@@ -26,8 +27,8 @@ struct Recipe {
     std::filesystem::path cache;  // where the grids are kept
     UtcTime from, to;             // of the frames, else of the starts of the volumes; inclusive
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    bool statistics = false;                 // of the domain's frames
-    std::optional<pipeline::Domain> domain;  // none: own grids of the stations, of this shape
+    std::optional<grid::Tallied> statistics;  // of the domain's frames; none: no statistics
+    std::optional<pipeline::Domain> domain;   // none: own grids of the stations, of this shape
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32

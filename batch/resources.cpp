@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "batch/source.h"
-#include "grid/cells/column_tally.h"
+#include "grid/cells/grid_tally.h"
 #include "pipeline/care/archive_fill.h"
 #include "pipeline/options/ingest_options.h"
 #include "stormcellar/grid/grid_window.h"
@@ -70,11 +70,19 @@ Resources resources_of_frames(const Plan& plan, int threads) {
     return needed;
 }
 
+std::uint64_t bytes_of_counts(const Plan& plan) {
+    const Recipe& recipe = plan.recipe();
+    if (!recipe.statistics) return 0;
+    return grid::GridTally::bytes_of(recipe.domain->spec, *recipe.statistics) *
+           plan.facts().statistics_tasks;
+}
+
 Resources resources_of_statistics(const Plan& plan) {
     Resources needed;
     if (!plan.recipe().statistics) return needed;
     // The counts, their bytes, and these packed.
-    const std::uint64_t counts = grid::ColumnTally::bytes_of(plan.recipe().domain->spec);
+    const std::uint64_t counts =
+        grid::GridTally::bytes_of(plan.recipe().domain->spec, *plan.recipe().statistics);
     needed.memory_bytes = program_bytes + 3 * counts;
     needed.seconds_a_task = margin * plan.facts().largest_cost_s;
     return needed;

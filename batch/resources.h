@@ -25,5 +25,8 @@ struct Resources {
 [[nodiscard]] Resources resources_of_grids(const Plan& plan, int threads);
 [[nodiscard]] Resources resources_of_frames(const Plan& plan, int threads);
 [[nodiscard]] Resources resources_of_statistics(const Plan& plan);
+// Returns what the counts of all months and hours take before they are compressed; 0 without
+// statistics.
+[[nodiscard]] std::uint64_t bytes_of_counts(const Plan& plan);
 
 }  // namespace stormcellar::batch

@@ -50,7 +50,7 @@ std::vector<UtcTime> instants_of(const Recipe& recipe, const MonthHour& part) {
 // Reads the frames that there are. An instant without volumes around it has none.
 Result<std::uint64_t> count_frames(const cache::StoreReader& store, const Recipe& recipe,
                                    const std::vector<UtcTime>& instants, const TaskOptions& options,
-                                   grid::ColumnTally& tally) {
+                                   grid::GridTally& tally) {
     std::uint64_t bytes = 0;
     for (const UtcTime instant : instants) {
         if (options.stop) return fail(ErrorCode::busy, "stopped; the next run begins again");
@@ -103,8 +103,8 @@ Status write_tally(const Plan& plan, const MonthHour& part, const MonthTally& co
     return file->commit();
 }
 
-Status unpack(std::span<const std::byte> packed, grid::ColumnTally& tally) {
-    std::vector<std::byte> bytes(grid::ColumnTally::bytes_of(tally.spec()));
+Status unpack(std::span<const std::byte> packed, grid::GridTally& tally) {
+    std::vector<std::byte> bytes(tally.bytes());
     uLongf size = bytes.size();
     const int done = ::uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
                                   reinterpret_cast<const Bytef*>(packed.data()), packed.size());
@@ -114,8 +114,9 @@ Status unpack(std::span<const std::byte> packed, grid::ColumnTally& tally) {
     return tally.from_bytes(bytes);
 }
 
-grid::ColumnTally empty_tally(const Recipe& recipe) {
-    return {recipe.domain->spec, grid::default_quantization(recipe.moments.front())};
+grid::GridTally empty_tally(const Recipe& recipe) {
+    return {recipe.domain->spec, grid::default_quantization(recipe.moments.front()),
+            recipe.statistics.value_or(grid::Tallied::columns)};
 }
 
 }  // namespace
@@ -166,7 +167,6 @@ Result<TaskOutcome> run_statistics_task(const Plan& plan, const Task& task,
     const Usage usage;
     Record record;
     record.number = task.number;
-    record.kind = task.kind();
     record.kind = task.kind();
     record.plan = plan.facts().hash;
     const auto instants = instants_of(recipe, part);

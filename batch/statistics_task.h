@@ -1,7 +1,7 @@
 // batch/statistics_task.h -- counts what the frames of one month show in one hour of the day.
 //
 // PLAN/statistics/201305-20.tally has the counts of the frames from 20:00 to 21:00 in May 2013
-// (grid/cells/column_tally.h). Its first line is JSON: month, hour, the number of frames, the
+// (grid/cells/grid_tally.h). Its first line is JSON: month, hour, the number of frames, the
 // number of instants at which a frame could be, the checksum and size of what follows, which are
 // the counts, compressed by zlib. Climatologies of hours, months or the whole time are sums of
 // these files.
@@ -15,7 +15,7 @@
 #include <string>
 
 #include "batch/grid_task.h"
-#include "grid/cells/column_tally.h"
+#include "grid/cells/grid_tally.h"
 
 namespace stormcellar::batch {
 
@@ -26,7 +26,7 @@ namespace stormcellar::batch {
 
 // What a file of counts has.
 struct MonthTally {
-    grid::ColumnTally tally;
+    grid::GridTally tally;
     std::uint64_t instants = 0;  // at which a frame could be
 };
 [[nodiscard]] Result<MonthTally> read_tally(const Plan& plan, const MonthHour& part);

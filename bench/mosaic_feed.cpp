@@ -50,17 +50,20 @@ fs::path file_of(const fs::path& directory, const Station& station, UtcTime star
 }
 
 // Returns the missing files by the volume that they are made of.
-std::map<std::string, std::vector<Stamp>> missing_files(int sites, const fs::path& directory) {
+std::map<std::string, std::vector<Stamp>> missing_files(int sites, const fs::path& directory,
+                                                        std::chrono::hours hours) {
     std::map<std::string, std::vector<Stamp>> missing;
     const std::vector<Station> stations = feed_sites(sites);
     for (int site = 0; site < sites; ++site) {
         const Station& station = stations[static_cast<std::size_t>(site)];
-        for (int slot = 0; slot < kind_of(site).volumes_an_hour(); ++slot) {
+        const int an_hour = kind_of(site).volumes_an_hour();
+        for (int slot = 0; slot < an_hour * hours.count(); ++slot) {
             const UtcTime start = start_of(site, slot);
             fs::path file = file_of(directory, station, start);
             std::error_code ignored;
             if (fs::exists(file, ignored)) continue;
-            missing[kind_of(site).volume_at(slot)].push_back({station, start, std::move(file)});
+            missing[kind_of(site).volume_at(slot % an_hour)].push_back(
+                {station, start, std::move(file)});
         }
     }
     return missing;
@@ -91,16 +94,18 @@ std::vector<Station> feed_sites(int count) {
     return sites;
 }
 
-std::vector<FeedVolume> feed_of(int sites, const fs::path& directory, std::chrono::hours hours) {
+std::vector<FeedVolume> feed_of(int sites, const fs::path& directory, std::chrono::hours hours,
+                                FeedFiles files) {
     std::vector<FeedVolume> volumes;
     const std::vector<Station> stations = feed_sites(sites);
     for (int site = 0; site < sites; ++site) {
         const int an_hour = kind_of(site).volumes_an_hour();
         for (int slot = 0; slot < an_hour * hours.count(); ++slot) {
+            const int written = files == FeedFiles::every_hour ? slot : slot % an_hour;
             volumes.push_back({site, start_of(site, slot),
                                file_of(directory, stations[static_cast<std::size_t>(site)],
-                                       start_of(site, slot % an_hour)),
-                               std::chrono::hours{slot / an_hour}});
+                                       start_of(site, written)),
+                               std::chrono::hours{(slot - written) / an_hour}});
         }
     }
     std::sort(volumes.begin(), volumes.end(), [](const FeedVolume& a, const FeedVolume& b) {
@@ -143,11 +148,12 @@ void FeedSize::add(std::uint64_t compressed_bytes, std::uint64_t uncompressed_by
     if (uncompressed_bytes <= dense_expansion * compressed_bytes) dense += uncompressed_bytes;
 }
 
-Status make_feed(int sites, const fs::path& data, const fs::path& directory, int threads) {
+Status make_feed(int sites, const fs::path& data, const fs::path& directory, int threads,
+                 std::chrono::hours hours) {
     std::error_code failed;
     fs::create_directories(directory, failed);
     if (failed) return fail(ErrorCode::io, "{}: {}", directory.string(), failed.message());
-    for (const auto& missing : missing_files(sites, directory)) {
+    for (const auto& missing : missing_files(sites, directory, hours)) {
         const std::vector<Stamp>& stamps = missing.second;
         const auto volume = feed_volume(missing.first, data);
         if (!volume) return pass_on(volume);

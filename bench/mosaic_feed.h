@@ -6,10 +6,12 @@
 //           simulated line of storms, re-stamped (bench/restamp.h) and written by level2::encode():
 //           every radial has the site's name, position and its own time. Starts are 5 (simulated),
 //           6 or 10 minutes apart, as their patterns take, and no two sites start together.
-// On disk   The files of the first hour, different for each site and start. The files of later
-//           hours are the same: when one is read for hour h, the times of the decoded volume are
-//           moved by h hours (`moved`). So five hours are read, decompressed, decoded, gridded and
-//           merged; only the compression of 27 GB and disk space are saved.
+// On disk   FeedFiles::first_hour: the files of the first hour, different for each site and start.
+//           The files of later hours are the same: when one is read for hour h, the times of the
+//           decoded volume are moved by h hours (`moved`). So five hours are read, decompressed,
+//           decoded, gridded and merged; only the compression of 27 GB and disk space are saved.
+//           FeedFiles::every_hour: all of them, 3.5 GB for 100 sites, for programs that know
+//           nothing of moved times.
 // Threads   Plain data and pure functions; make_feed() starts its own threads.
 #pragma once
 
@@ -30,6 +32,8 @@ inline constexpr std::chrono::hours feed_length{5};
 inline constexpr int most_sites = 100;
 [[nodiscard]] UtcTime feed_start();
 
+enum class FeedFiles { first_hour, every_hour };
+
 struct FeedVolume {
     int site = 0;   // its number
     UtcTime start;  // when it was sent
@@ -40,7 +44,8 @@ struct FeedVolume {
 [[nodiscard]] std::vector<Station> feed_sites(int count);
 // Returns the volumes of the first `hours`, ordered by start, then site. 1 to most_sites sites.
 [[nodiscard]] std::vector<FeedVolume> feed_of(int sites, const std::filesystem::path& directory,
-                                              std::chrono::hours hours = feed_length);
+                                              std::chrono::hours hours = feed_length,
+                                              FeedFiles files = FeedFiles::first_hour);
 // Returns a grid of 256 x 256 columns over the box of the sites' positions and their reach (460
 // km), with 128 levels from 125 m to 16 km. For 100 sites, cells are some 15 km wide.
 [[nodiscard]] grid::GridSpec feed_domain(int sites);
@@ -60,9 +65,10 @@ struct FeedSize {
     void add(std::uint64_t compressed_bytes, std::uint64_t uncompressed_bytes);
 };
 
-// Writes the files that are missing. `data` is the directory of the real volumes. Errors: a real
-// volume is missing or cannot be read; those of encode() and of writing.
+// Writes the files of so many hours that are missing. `data` is the directory of the real volumes.
+// Errors: a real volume is missing or cannot be read; those of encode() and of writing.
 [[nodiscard]] Status make_feed(int sites, const std::filesystem::path& data,
-                               const std::filesystem::path& directory, int threads);
+                               const std::filesystem::path& directory, int threads,
+                               std::chrono::hours hours = std::chrono::hours{1});
 
 }  // namespace stormcellar::bench

@@ -187,11 +187,11 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
 }  // namespace
 
 Result<MosaicRun> run_mosaic(int sites, int threads, const fs::path& feed, const fs::path& cache,
-                             std::chrono::hours hours) {
+                             std::chrono::hours hours, FeedFiles files) {
     auto store = cache::StoreWriter::open(real_file_system(), cache, false);
     if (!store) return pass_on(store);
     Runner runner(sites, threads, std::move(*store));
-    const std::vector<FeedVolume> volumes = feed_of(sites, feed, hours);
+    const std::vector<FeedVolume> volumes = feed_of(sites, feed, hours, files);
     if (Status run = runner.run(volumes, feed_start() + hours); !run) return pass_on(run);
     return runner.done();
 }

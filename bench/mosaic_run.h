@@ -37,6 +37,7 @@ struct MosaicRun {
 [[nodiscard]] Result<MosaicRun> run_mosaic(int sites, int threads,
                                            const std::filesystem::path& feed,
                                            const std::filesystem::path& cache,
-                                           std::chrono::hours hours = feed_length);
+                                           std::chrono::hours hours = feed_length,
+                                           FeedFiles files = FeedFiles::first_hour);
 
 }  // namespace stormcellar::bench

@@ -13,15 +13,25 @@
 namespace stormcellar::netcdf {
 namespace {
 
-using grid::ColumnTally;
+using grid::GridTally;
+using grid::ValueTally;
 
 constexpr float fill = NC_FILL_FLOAT;
 constexpr int deflate_level = 1;
 // The thresholds are the edges of bins from 0 dBZ on.
 constexpr std::size_t first_threshold_bin = 7;
-constexpr std::size_t thresholds = ColumnTally::bins - first_threshold_bin;
+constexpr std::size_t thresholds = ValueTally::bins - first_threshold_bin;
 
-// Writes the variables of a climatology, each over all groups and columns.
+// What is counted: columns with their greatest values, or cells.
+struct Places {
+    const char* prefix;  // of the names of variables
+    const char* place;   // as texts have it
+    const char* value;   // the same
+    const ValueTally& (*of)(const GridTally& tally);
+    std::size_t layers;  // levels of it: 1 for columns
+};
+
+// Writes the variables of a climatology, each over all groups and places.
 class ClimatologyFile {
   public:
     ClimatologyFile(std::span<const TallyGroup> groups, const ClimatologyText& text)
@@ -37,26 +47,24 @@ class ClimatologyFile {
     Result<std::vector<std::byte>> write() {
         write_globals();
         write_axes();
-        write_counts();
-        write_values();
-        write_layers("frequency", threshold_, thresholds,
-                     "share of the frames that saw the column in which its greatest reflectivity "
-                     "reached the threshold",
-                     [](const ColumnTally& tally, std::size_t column, std::size_t at) {
-                         return tally.from_bin_on(column, first_threshold_bin + at);
-                     });
-        write_layers("echo_top_frequency", level_, spec_.levels_m.size(),
-                     "share of the frames that saw the column in which its echo top (18.5 dBZ) was "
-                     "at or above the height",
-                     [](const ColumnTally& tally, std::size_t column, std::size_t at) {
-                         return tally.tops_from(column, at);
-                     });
+        write_frame_counts();
+        const auto of_columns = [](const GridTally& tally) -> const ValueTally& {
+            return tally.columns();
+        };
+        write_places({"", "column", "greatest reflectivity of the column", of_columns, 1});
+        write_echo_tops();
+        if (groups_.front().tally.cells()) {
+            const auto of_cells = [](const GridTally& tally) -> const ValueTally& {
+                return *tally.cells();
+            };
+            write_places(
+                {"cell_", "cell", "reflectivity of the cell", of_cells, spec_.levels_m.size()});
+        }
         return file_.finish();
     }
 
   private:
-    using Statistic = double (*)(const ColumnTally& tally, std::size_t column);
-    using Count = std::uint32_t (*)(const ColumnTally& tally, std::size_t column, std::size_t at);
+    using Statistic = double (*)(const ValueTally& tally, std::size_t place);
 
     void write_globals() {
         file_.text(NetcdfBuilder::file, "Conventions", "CF-1.8");
@@ -68,8 +76,9 @@ class ClimatologyFile {
         file_.text(NetcdfBuilder::file, "time_coverage_end", text_.time_coverage_end);
         file_.text(
             NetcdfBuilder::file, "comment",
-            "Statistics are of the greatest reflectivity of each column, over the frames in "
-            "which the column was seen. Quantiles and means are of the frames with a value.");
+            "Statistics are of the greatest reflectivity of each column, and those named cell_ of "
+            "the cells, over the frames in which the column or cell was seen. Quantiles and means "
+            "are of the frames with a value.");
     }
 
     void write_axes() {
@@ -86,7 +95,7 @@ class ClimatologyFile {
         write_mapping(file_, spec_);
         std::vector<double> edges;
         for (std::size_t i = 0; i < thresholds; ++i)
-            edges.push_back(ColumnTally::edge_dbz(first_threshold_bin + i));
+            edges.push_back(ValueTally::edge_dbz(first_threshold_bin + i));
         file_.write(group, std::span<const int>(numbers));
         file_.write(threshold, std::span<const double>(edges));
         file_.write(level, std::span(spec_.levels_m));
@@ -94,25 +103,66 @@ class ClimatologyFile {
         write_positions(file_, spec_, map_, deflate_level);
     }
 
-    // Counts of frames: all, and for each column those that saw it and those that did not.
-    void write_counts() {
-        std::vector<int> frames, missing, seen, not_seen;
+    void write_frame_counts() {
+        std::vector<int> frames, missing;
         for (const TallyGroup& group : groups_) {
-            const auto count = static_cast<int>(group.tally.grids());
-            frames.push_back(count);
-            missing.push_back(static_cast<int>(group.instants) - count);
-            for (std::size_t column = 0; column < spec_.column_count(); ++column) {
-                seen.push_back(static_cast<int>(group.tally.seen(column)));
-                not_seen.push_back(count - seen.back());
-            }
+            frames.push_back(static_cast<int>(group.tally.grids()));
+            missing.push_back(static_cast<int>(group.instants) - frames.back());
         }
         write_count("frames", {group_}, "frames that were counted", frames);
         write_count("missing_frames", {group_},
                     "instants without a frame, because no radar sent volumes around them", missing);
-        write_count("seen", {group_, map_.y, map_.x},
-                    "frames in which some cell of the column was seen", seen);
-        write_count("not_seen", {group_, map_.y, map_.x},
-                    "frames in which no cell of the column was seen", not_seen);
+    }
+
+    void write_places(const Places& places) {
+        write_seen(places);
+        write_frequency(places);
+        const auto write = [&](const char* name, const char* text, Statistic statistic) {
+            write_value(places, name, fmt::format(fmt::runtime(text), places.value), statistic);
+        };
+        write("maximum", "greatest {}",
+              [](const ValueTally& t, std::size_t at) { return t.greatest_dbz(at); });
+        write("mean_dbz", "mean of the {} in dBZ",
+              [](const ValueTally& t, std::size_t at) { return t.mean_dbz(at); });
+        write("mean_z", "mean of the {} as the factor Z, shown in dBZ",
+              [](const ValueTally& t, std::size_t at) { return t.mean_z_as_dbz(at); });
+        write("median", "median of the {}, to 2.5 dBZ",
+              [](const ValueTally& t, std::size_t at) { return t.quantile_dbz(at, 0.5); });
+        write("quantile_90", "quantile of 90 % of the {}, to 2.5 dBZ",
+              [](const ValueTally& t, std::size_t at) { return t.quantile_dbz(at, 0.9); });
+        write("quantile_99", "quantile of 99 % of the {}, to 2.5 dBZ",
+              [](const ValueTally& t, std::size_t at) { return t.quantile_dbz(at, 0.99); });
+    }
+
+    [[nodiscard]] std::vector<int> dimensions_of(const Places& places) const {
+        if (places.layers == 1) return {group_, map_.y, map_.x};
+        return {group_, level_, map_.y, map_.x};
+    }
+
+    // Calls `work` with each group's tally and the number of each place, as variables have them.
+    template <class Work>
+    void for_each_place(const Places& places, Work work) const {
+        for (const TallyGroup& group : groups_) {
+            for (std::size_t layer = 0; layer < places.layers; ++layer) {
+                for (std::size_t column = 0; column < spec_.column_count(); ++column)
+                    work(group, places.of(group.tally), column * places.layers + layer);
+            }
+        }
+    }
+
+    void write_seen(const Places& places) {
+        std::vector<int> seen, not_seen;
+        for_each_place(places,
+                       [&](const TallyGroup& group, const ValueTally& tally, std::size_t place) {
+                           seen.push_back(static_cast<int>(tally.seen(place)));
+                           not_seen.push_back(static_cast<int>(group.tally.grids()) - seen.back());
+                       });
+        const auto write = [&](const char* name, const char* text, const std::vector<int>& counts) {
+            write_count((places.prefix + std::string{name}).c_str(), dimensions_of(places),
+                        fmt::format(fmt::runtime(text), places.place).c_str(), counts);
+        };
+        write("seen", "frames in which some part of the {} was seen", seen);
+        write("not_seen", "frames in which no part of the {} was seen", not_seen);
     }
 
     void write_count(const char* name, const std::vector<int>& dimensions, const char* long_name,
@@ -127,56 +177,72 @@ class ClimatologyFile {
         file_.write(variable, std::span<const int>(counts));
     }
 
-    void write_values() {
-        write_value("maximum", "greatest reflectivity",
-                    [](const ColumnTally& t, std::size_t c) { return t.greatest_dbz(c); });
-        write_value("mean_dbz", "mean of the reflectivity in dBZ",
-                    [](const ColumnTally& t, std::size_t c) { return t.mean_dbz(c); });
-        write_value("mean_z", "mean of the reflectivity factor Z, shown in dBZ",
-                    [](const ColumnTally& t, std::size_t c) { return t.mean_z_as_dbz(c); });
-        write_value("median", "median of the reflectivity, to 2.5 dBZ",
-                    [](const ColumnTally& t, std::size_t c) { return t.quantile_dbz(c, 0.5); });
-        write_value("quantile_90", "quantile of 90 % of the reflectivity, to 2.5 dBZ",
-                    [](const ColumnTally& t, std::size_t c) { return t.quantile_dbz(c, 0.9); });
-        write_value("quantile_99", "quantile of 99 % of the reflectivity, to 2.5 dBZ",
-                    [](const ColumnTally& t, std::size_t c) { return t.quantile_dbz(c, 0.99); });
-    }
-
-    void write_value(const char* name, const char* long_name, Statistic statistic) {
+    void write_value(const Places& places, const char* name, const std::string& long_name,
+                     Statistic statistic) {
         std::vector<float> values;
-        for (const TallyGroup& group : groups_) {
-            for (std::size_t column = 0; column < spec_.column_count(); ++column) {
-                values.push_back(group.tally.with_value(column) == 0
-                                     ? fill
-                                     : static_cast<float>(statistic(group.tally, column)));
-            }
-        }
-        write_field(name, {group_, map_.y, map_.x}, long_name, "dBZ", values);
+        for_each_place(places, [&](const TallyGroup&, const ValueTally& tally, std::size_t place) {
+            values.push_back(
+                tally.with_value(place) == 0 ? fill : static_cast<float>(statistic(tally, place)));
+        });
+        write_field(places, name, dimensions_of(places), long_name, "dBZ", values);
     }
 
-    void write_layers(const char* name, int dimension, std::size_t layers, const char* long_name,
-                      Count count) {
+    [[nodiscard]] static float share_of(std::uint32_t hits, std::uint32_t seen) {
+        return seen == 0 ? fill : static_cast<float>(hits) / static_cast<float>(seen);
+    }
+
+    // Thresholds come right behind the group, so each group is one block of them.
+    void write_frequency(const Places& places) {
         std::vector<float> shares;
         for (const TallyGroup& group : groups_) {
-            for (std::size_t at = 0; at < layers; ++at) {
-                for (std::size_t column = 0; column < spec_.column_count(); ++column) {
-                    const auto seen = static_cast<float>(group.tally.seen(column));
-                    const auto hits = static_cast<float>(count(group.tally, column, at));
-                    shares.push_back(seen == 0 ? fill : hits / seen);
+            const ValueTally& tally = places.of(group.tally);
+            for (std::size_t bin = first_threshold_bin; bin < ValueTally::bins; ++bin) {
+                for (std::size_t layer = 0; layer < places.layers; ++layer) {
+                    for (std::size_t column = 0; column < spec_.column_count(); ++column) {
+                        const std::size_t place = column * places.layers + layer;
+                        shares.push_back(
+                            share_of(tally.from_bin_on(place, bin), tally.seen(place)));
+                    }
                 }
             }
         }
-        write_field(name, {group_, dimension, map_.y, map_.x}, long_name, "1", shares);
+        std::vector<int> dimensions = dimensions_of(places);
+        dimensions.insert(dimensions.begin() + 1, threshold_);
+        write_field(places, "frequency", dimensions,
+                    fmt::format("share of the frames that saw the {} in which the {} reached the "
+                                "threshold",
+                                places.place, places.value),
+                    "1", shares);
     }
 
-    void write_field(const char* name, const std::vector<int>& dimensions, const char* long_name,
-                     const char* units, const std::vector<float>& values) {
-        const int variable = file_.variable(name, NC_FLOAT, dimensions);
+    void write_echo_tops() {
+        std::vector<float> shares;
+        for (const TallyGroup& group : groups_) {
+            for (std::size_t level = 0; level < spec_.levels_m.size(); ++level) {
+                for (std::size_t column = 0; column < spec_.column_count(); ++column) {
+                    shares.push_back(share_of(group.tally.tops_from(column, level),
+                                              group.tally.columns().seen(column)));
+                }
+            }
+        }
+        write_field({"", "column", "", nullptr, 1}, "echo_top_frequency",
+                    {group_, level_, map_.y, map_.x},
+                    "share of the frames that saw the column in which its echo top (18.5 dBZ) was "
+                    "at or above the height",
+                    "1", shares);
+    }
+
+    void write_field(const Places& places, const char* name, const std::vector<int>& dimensions,
+                     const std::string& long_name, const char* units,
+                     const std::vector<float>& values) {
+        const std::string full = places.prefix + std::string{name};
+        const int variable = file_.variable(full.c_str(), NC_FLOAT, dimensions);
         file_.deflate(variable, deflate_level);
         file_.fill_value(variable, fill);
         file_.text(variable, "long_name", long_name);
         file_.text(variable, "units", units);
-        file_.text(variable, "ancillary_variables", "seen not_seen");
+        file_.text(variable, "ancillary_variables",
+                   fmt::format("{0}seen {0}not_seen", places.prefix));
         refer_to_map(file_, variable, spec_);
         file_.write(variable, std::span<const float>(values));
     }

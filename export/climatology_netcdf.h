@@ -3,8 +3,9 @@
 // Each group (an hour of the day, a month, or the whole time) has counts of frames, of frames in
 // which a column was seen and not seen, and of the columns that were seen: how often the greatest
 // value of the column reached each threshold, its maximum, means and quantiles, and how often the
-// echo top (18.5 dBZ) was at or above each level. Where a column was never seen, or never had a
-// value, the statistics have the fill value.
+// echo top (18.5 dBZ) was at or above each level. If cells were counted, too, variables named cell_
+// have the same of each cell. Where a column or cell was never seen, or never had a value, the
+// statistics have the fill value.
 //
 // Units     As the attributes say.
 // Memory    The counts of all groups, and all variables once more.
@@ -18,7 +19,7 @@
 #include <span>
 #include <string>
 
-#include "grid/cells/column_tally.h"
+#include "grid/cells/grid_tally.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/result.h"
 
@@ -27,7 +28,7 @@ namespace stormcellar::netcdf {
 struct TallyGroup {
     int number = 0;              // the hour, the month, or 0
     std::uint64_t instants = 0;  // at which a frame could be
-    grid::ColumnTally tally;
+    grid::GridTally tally;
 };
 
 // What the groups are.

@@ -18,7 +18,6 @@
 #include "cli/loop/archive_options.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/short_duration.h"
-#include "grid/cells/column_tally.h"
 #include "pipeline/mosaic/domain_frames.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
@@ -37,7 +36,7 @@ struct PlanOptions {
     ArchiveOptions archive;  // stations, bounds, the grid and the overlap
     std::string interval{"300"};
     std::string time_method{grid::time_method_name(grid::TimeMethod::advected)};
-    bool statistics = false;
+    bool statistics = false, cell_statistics = false;
     bool json = false;
 };
 
@@ -188,7 +187,8 @@ Result<SourceListing> take_stations(const PlanOptions& options, Recipe& recipe) 
         if (!domain) return pass_on(domain);
         stations = domain->stations;
         recipe.domain = std::move(*domain);
-        recipe.statistics = options.statistics;
+        if (options.statistics) recipe.statistics = grid::Tallied::columns;
+        if (options.cell_statistics) recipe.statistics = grid::Tallied::columns_and_cells;
     }
     if (is_bucket) return batch::every_day_of(stations, from, to);
     std::erase_if(listing->days, [&](const batch::StationDay& day) {
@@ -211,6 +211,7 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
     const batch::PlanFacts& facts = plan.facts();
     const batch::Resources grids = batch::resources_of_grids(plan, 1);
     const batch::Resources frames = batch::resources_of_frames(plan, 1);
+    const batch::Resources statistics = batch::resources_of_statistics(plan);
     if (options.json) {
         print_json({{"plan", plan.directory().native()},
                     {"cache", plan.recipe().cache.native()},
@@ -224,6 +225,8 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
                     {"cache_bytes", cache_bytes(plan)},
                     {"grid_task_memory_bytes", grids.memory_bytes},
                     {"frame_task_memory_bytes", frames.memory_bytes},
+                    {"statistics_task_memory_bytes", statistics.memory_bytes},
+                    {"count_bytes", batch::bytes_of_counts(plan)},
                     {"scratch_bytes", grids.scratch_bytes}});
         return;
     }
@@ -240,15 +243,19 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
         "$TMPDIR\n",
         short_duration(facts.cost_s), format_byte_size(grids.memory_bytes),
         format_byte_size(frames.memory_bytes), format_byte_size(grids.scratch_bytes));
+    if (!plan.recipe().statistics) return;
+    fmt::print("  statistics need {} of memory a task; all counts take at most {} on disk\n",
+               format_byte_size(statistics.memory_bytes),
+               format_byte_size(batch::bytes_of_counts(plan)));
 }
 
 // Counts are of reflectivity, whose thresholds are in dBZ.
 Status check_statistics(const PlanOptions& options, const Recipe& recipe) {
-    if (!options.statistics) return {};
+    if (!options.statistics && !options.cell_statistics) return {};
     const bool is_reflectivity = recipe.moments == std::vector{level2::Moment::ref};
     if (!options.mosaic.empty() && is_reflectivity) return {};
     return fail(ErrorCode::bad_argument,
-                "--statistics are of the frames of --mosaic, and of the moment REF alone");
+                "statistics are of the frames of --mosaic, and of the moment REF alone");
 }
 
 int run_plan(const PlanOptions& options) {
@@ -319,6 +326,9 @@ Run set_up_batch_plan(CLI::App& command) {
     command.add_flag("--statistics", options->statistics,
                      "Also count the frames of --mosaic, by month and hour of the day, for a "
                      "climatology (batch statistics)");
+    command.add_flag("--cell-statistics", options->cell_statistics,
+                     "The same, and also count each cell, not only the columns with their greatest "
+                     "values: as many times the memory and disk as there are levels");
     command.add_flag("--json", options->json, "Print one JSON document");
     return [options] { return run_plan(*options); };
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/cells/cut_bricks.h"
 #include "grid/mosaic/motion.h"
 #include "grid/sweep/sweep_clock.h"
 #include "stormcellar/grid/gridder.h"
@@ -39,25 +40,6 @@ std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::
         common(about_a->first_y, about_a->end_y(), about_b->first_y, about_b->end_y(), spec.ny);
     if (x1 <= x0 || y1 <= y0) return std::nullopt;
     return GridWindow{x0, y0, x1 - x0, y1 - y0};
-}
-
-grid::BrickGrid bricks_of(const grid::BrickView& view, const grid::GridSpec& spec,
-                          const GridWindow& window) {
-    grid::BrickGrid cut(spec, view.quantization);
-    const grid::BrickView shape = cut.view();
-    grid::BricksWriter writer(cut);
-    const int first_x = window.first_x / grid::brick_edge;
-    const int first_y = window.first_y / grid::brick_edge;
-    for (int bx = 0; bx < shape.bricks_x; ++bx) {
-        for (int by = 0; by < shape.bricks_y; ++by) {
-            for (int bz = 0; bz < shape.bricks_z; ++bz) {
-                writer.copy(shape.brick_index(bx, by, bz), view,
-                            view.brick_index(first_x + bx, first_y + by, bz));
-            }
-        }
-    }
-    cut.finish(std::span(&writer, 1));
-    return cut;
 }
 
 // Returns the ages in seconds after the instant. Without sweeps, the whole partial has the middle
@@ -97,7 +79,7 @@ Result<Cut> cut_out(const PartialView& partial, const GridWindow& window, UtcTim
     const grid::GridSpec spec = grid::window_spec(*partial.view.spec, window);
     auto ages = ages_of(partial, spec, instant);
     if (!ages) return pass_on(ages);
-    return Cut{bricks_of(partial.view, spec, window), std::move(*ages)};
+    return Cut{grid::cut_bricks(partial.view, window), std::move(*ages)};
 }
 
 bool is_known(const grid::Estimate& estimate) {

@@ -206,7 +206,7 @@ TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
 // The counts of a month and hour are those of its frames, whichever task counts first.
 TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
     Recipe counted = recipe("one");
-    counted.statistics = true;
+    counted.statistics = grid::Tallied::columns_and_cells;
     const Plan plan = plan_of(counted, "plan-one");
     ASSERT_EQ(plan.facts().statistics_tasks, 2U);  // hours 2 and 3
     EXPECT_EQ(run(plan, 3).error().code, ErrorCode::unmet);
@@ -220,7 +220,8 @@ TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
                                     at("2005-08-22T02:59:59Z"));
     EXPECT_EQ(tally->tally.grids(), frames->size());
     EXPECT_EQ(tally->instants, 15U) << "02:45 to 02:59";
-    grid::ColumnTally again(counted.domain->spec, grid::default_quantization(level2::Moment::ref));
+    grid::GridTally again(counted.domain->spec, grid::default_quantization(level2::Moment::ref),
+                          grid::Tallied::columns_and_cells);
     for (auto frame = frames->rbegin(); frame != frames->rend(); ++frame)
         ASSERT_TRUE(again.add(cache::GridFile::open(frame->path)->view()));
     EXPECT_EQ(again.to_bytes(), tally->tally.to_bytes());

@@ -60,8 +60,8 @@ TEST_P(EachBenchmark, SaysThatADirectoryIsMissing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EachBenchmark,
-                         ::testing::Values("bench_beam", "bench_decode", "bench_feed",
-                                           "bench_frame", "bench_grid", "bench_merge",
+                         ::testing::Values("bench_batch", "bench_beam", "bench_decode",
+                                           "bench_feed", "bench_frame", "bench_grid", "bench_merge",
                                            "bench_mosaic", "bench_plan", "bench_sweep"));
 
 TEST(Benchmark, WithoutVolumesThereIsNothingToMeasure) {
@@ -111,6 +111,35 @@ TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
         head += (head.empty() ? "" : "\t") + key;
     EXPECT_EQ(text.out.substr(0, text.out.find('\n')), head);
     EXPECT_EQ(rows[0]["threads"], 1);
+}
+
+// What tasks make of one site's hour, and one process of the same files.
+TEST(BenchBatch, TasksMakeTheFramesOfAnHourBesideOneProcess) {
+    STORMCELLAR_NEED_DATA();
+    EXPECT_EQ(run_program(bench("bench_batch"), {"--engine", "condor"}).status, 2);
+    EXPECT_EQ(run_program(bench("bench_batch"), {"--only", "101"}).status, 2);
+    const testing::TemporaryDirectory work;
+    const auto said = run_program(
+        bench("bench_batch"),
+        {"--json", "--threads", "2", "--runs", "1", "--only", "1", "--hours", "1", "--data",
+         testing::data_directory()->string(), "--work", work.path().string()});
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto rows = nlohmann::json::parse(said.out)["rows"];
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0]["frames"], 10) << "an archive's frames end with its volumes";
+    EXPECT_EQ(rows[0]["tasks"], 3) << "a station's day and two hours of frames";
+    EXPECT_GT(rows[0]["ratio"], 0.0);
+    EXPECT_NE(said.err.find(", 12 frames"), std::string::npos) << said.err;
+}
+
+TEST(BenchRecords, ReadsSumsAndRecordsOfAllTasks) {
+    const testing::TemporaryDirectory work;
+    EXPECT_EQ(run_program(bench("bench_records"), {"--tasks", "0"}).status, 2);
+    const auto said = run_program(bench("bench_records"),
+                                  {"--json", "--tasks", "2345", "--work", work.path().string()});
+    ASSERT_EQ(said.status, 0) << said.err;
+    EXPECT_EQ(nlohmann::json::parse(said.out)["rows"][0]["tasks"], 2345);
+    EXPECT_TRUE(std::filesystem::is_empty(work.path())) << "removed at the end";
 }
 
 // One site, one thread: the keys of the paper's table.

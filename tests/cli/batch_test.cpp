@@ -170,7 +170,14 @@ TEST_F(Batch, ADryRunPrintsAllAndRunsNothing) {
 }
 
 TEST_F(Batch, WritesTheClimatologyOfItsFrames) {
-    ASSERT_EQ(plan("p", {"--statistics"}).status, 0);
+    const ProgramResult columns = plan("p", {"--statistics"});
+    ASSERT_EQ(columns.status, 0);
+    EXPECT_THAT(columns.out, HasSubstr("; all counts take at most "));
+    const auto count_bytes = [&](const std::string& how) {
+        const ProgramResult made = plan("j" + how, {how, "--json"});
+        return nlohmann::json::parse(made.out)["count_bytes"].get<std::int64_t>();
+    };
+    EXPECT_GT(count_bytes("--cell-statistics"), 2 * count_bytes("--statistics"));
     const std::string file = place("c.nc");
     const ProgramResult early = batch("statistics", "p", {"-o", file});
     EXPECT_EQ(early.status, 1) << "nothing is counted";

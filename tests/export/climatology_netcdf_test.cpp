@@ -29,9 +29,11 @@ grid::BrickGrid echo(float dbz) {
     return grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
 }
 
-TallyGroup hour_of(int number, std::uint64_t instants, const std::vector<float>& echoes) {
-    TallyGroup group{
-        number, instants, {echo(0).spec(), grid::default_quantization(level2::Moment::ref)}};
+TallyGroup hour_of(int number, std::uint64_t instants, const std::vector<float>& echoes,
+                   grid::Tallied tallied = grid::Tallied::columns) {
+    TallyGroup group{number,
+                     instants,
+                     {echo(0).spec(), grid::default_quantization(level2::Moment::ref), tallied}};
     for (const float dbz : echoes)
         EXPECT_TRUE(group.tally.add(echo(dbz).view()));
     return group;
@@ -70,6 +72,29 @@ TEST(ClimatologyNetcdf, SaysWhatWasSeenAndHowOftenItRained) {
     EXPECT_THAT(file.text("maximum", "ancillary_variables"), HasSubstr("not_seen"));
     EXPECT_EQ(write_climatology(real_file_system(), directory / "d.nc", {}, {}).error().code,
               ErrorCode::bad_argument);
+}
+
+// Level, then column: the cells of the first column at 1000 and 2000 m, and the blind one's.
+TEST(ClimatologyNetcdf, HasEachCellWhereTheyWereCounted) {
+    const testing::TemporaryDirectory directory;
+    const std::vector<TallyGroup> groups{
+        hour_of(20, 5, {10, 50}, grid::Tallied::columns_and_cells)};
+    ASSERT_TRUE(write_climatology(real_file_system(), directory / "c.nc", groups,
+                                  {"all", "2013-05-01T00:00:00Z", "2013-05-31T23:59:59Z", "/a"}));
+    Reader file(directory / "c.nc");
+    EXPECT_THAT(file.values("seen", 2), ElementsAre(2, 0));
+    EXPECT_THAT(file.values("cell_seen", 4), ElementsAre(2, 0, 2, 0));
+    EXPECT_THAT(file.values("cell_not_seen", 4), ElementsAre(0, 2, 0, 2));
+    const double fill = file.number("cell_mean_dbz", "_FillValue");
+    EXPECT_THAT(file.values("cell_mean_dbz", 4), ElementsAre(fill, fill, 30, fill));
+    EXPECT_THAT(file.values("cell_maximum", 4), ElementsAre(fill, fill, 50, fill));
+    const std::size_t thresholds = file.length("threshold");
+    const auto frequency = file.values("cell_frequency", 4 * thresholds);
+    EXPECT_EQ(frequency.at(0), 0) << "seen at 1000 m, and never an echo";
+    EXPECT_EQ(frequency.at(1), fill);
+    EXPECT_EQ(frequency.at(2), 1) << "0 dBZ at 2000 m in both frames";
+    EXPECT_EQ(frequency.at(4 * 10 + 2), 0.5) << "50 dBZ in one";
+    EXPECT_THAT(file.text("cell_maximum", "ancillary_variables"), HasSubstr("cell_not_seen"));
 }
 
 }  // namespace

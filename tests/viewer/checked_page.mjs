@@ -1,6 +1,6 @@
 // The viewer's page in a browser, and what checks of it share.
 import { execFileSync } from 'node:child_process';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 // The largest difference that the page may have from the slicer: CIEDE2000, 99th percentile of the pixels that show echo.
@@ -74,6 +74,33 @@ export class CheckedPage {
 }
 
 export const shadesOf = (ppm) => new Set(Array.from({ length: Math.floor((ppm.length - 15) / 3) }, (_, i) => ppm.readUIntBE(15 + 3 * i, 3)));
+
+// A portable pixmap as pixels.
+export function image(ppm) {
+  const [, w, h] = ppm.toString('latin1', 0, 40).match(/^P6\n(\d+) (\d+)\n255\n/).map(Number);
+  const from = ppm.length - 3 * w * h;
+  return { width: w, height: h, at: (x, y) => [...ppm.subarray(from + 3 * (y * w + x), from + 3 * (y * w + x) + 3)] };
+}
+
+// The picture of `stormcellar frame`, which the browser reads.
+export async function pictureOf(page, program, words, w, h, directory) {
+  const file = join(directory, 'frame.png');
+  execFileSync(program, ['frame', ...words, '--width', String(w), '--height', String(h), '-o', file], { stdio: 'ignore' });
+  const text = await page.evaluate(`(async () => {
+    const picture = new Image();
+    picture.src = 'data:image/png;base64,${readFileSync(file).toString('base64')}';
+    await picture.decode();
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [picture.width, picture.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let text = '';
+    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+    return btoa(text);
+  })()`);
+  return image(Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(text, 'base64')]));
+}
 
 // The grids of some stations, once there are some; the server may still be making them.
 export async function gridsOf(address, stations) {

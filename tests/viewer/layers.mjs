@@ -1,11 +1,10 @@
 // What the layers of the viewer show, in Chromium (scripts/check-viewer): flat ones against the pictures of
 // `stormcellar frame`, which cut the same grid by themselves, and what mouse and keys do to them.
 //   node layers.mjs ADDRESS STATION VOLUME PROGRAM DIFFERENCE DIRECTORY
-import { execFileSync } from 'node:child_process';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { CheckedPage, Slicer, check, gridsOf, mostDifference, shadesOf, viewOf } from './checked_page.mjs';
+import { CheckedPage, Slicer, check, gridsOf, image, mostDifference, pictureOf, shadesOf, viewOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
 const [address, station, volume, program, difference, directory] = process.argv.slice(2);
@@ -22,32 +21,7 @@ const quiet = [[40, 44, 50], [29, 32, 37], [23, 25, 29], [78, 82, 92], [120, 130
 const isNear = (a, b, most) => a.every((one, c) => Math.abs(one - b[c]) <= most);
 const isQuiet = (color) => quiet.some((one) => isNear(color, one, 1));
 
-// A portable pixmap as pixels.
-function image(ppm) {
-  const [, w, h] = ppm.toString('latin1', 0, 40).match(/^P6\n(\d+) (\d+)\n255\n/).map(Number);
-  const from = ppm.length - 3 * w * h;
-  return { width: w, height: h, at: (x, y) => [...ppm.subarray(from + 3 * (y * w + x), from + 3 * (y * w + x) + 3)] };
-}
-
-// The picture of `stormcellar frame`, which the browser reads.
-async function framed(words, w, h) {
-  const file = join(directory, 'frame.png');
-  execFileSync(program, ['frame', volume, ...words, '--no-labels', '--width', String(w), '--height', String(h), '-o', file], { stdio: 'ignore' });
-  const text = await page.evaluate(`(async () => {
-    const picture = new Image();
-    picture.src = 'data:image/png;base64,${readFileSync(file).toString('base64')}';
-    await picture.decode();
-    const copy = document.createElement('canvas');
-    [copy.width, copy.height] = [picture.width, picture.height];
-    const pen = copy.getContext('2d');
-    pen.drawImage(picture, 0, 0);
-    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
-    let text = '';
-    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
-    return btoa(text);
-  })()`);
-  return image(Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(text, 'base64')]));
-}
+const framed = (words, w, h) => pictureOf(page, program, [volume, ...words, '--no-labels'], w, h, directory);
 
 // How many pixels show a value in either picture, and in how many of these the other one has another color.
 // The outermost are left out, where the pictures have a border.

@@ -18,6 +18,40 @@ const scene = { station, moment: 'REF', azimuth: 217, tilt: 60, zoom: 8, field: 
 const otherScene = { ...scene, at: [30, 30, 4], zoom: 12 };
 const inParts = (one) => `memory=${memoryMib}&quality=512%20slices&${viewOf(one)}`;
 
+// A line of 80 km through a place on the plane of the grid.
+async function sectionAbout([eastKm, northKm]) {
+  const { grids } = await (await fetch(`${address}/api/v1/grids?domain=${station}&moment=REF`)).json();
+  const facts = await (await fetch(`${address}${grids[0].path}`)).json();
+  const [latitude, longitude] = facts.center;
+  const at = (x, y) => [latitude + y / 111.1, longitude + x / (111.3 * Math.cos((latitude * Math.PI) / 180))];
+  return [...at(eastKm - 35, northKm - 20), ...at(eastKm + 35, northKm + 20)].map((degrees) => degrees.toFixed(4)).join(',');
+}
+// How many pixels of two pictures differ: edges of colors may lie a pixel aside.
+function differing(one, other) {
+  let [shown, off] = [0, 0];
+  for (let i = one.length % 3; i < one.length; i += 3) {
+    if ([0, 1, 2].some((c) => one[i + c] > 0)) ++shown;
+    if ([0, 1, 2].some((c) => Math.abs(one[i + c] - other[i + c]) > 12)) ++off;
+  }
+  return { shown, off };
+}
+// What the page says of places where the pointer rests, which are not below its controls.
+async function readAt(places) {
+  await viewer.settled(() => page.resize(560, 420));
+  const found = [];
+  for (const [x, y] of places) {
+    await page.evaluate("document.getElementById('hover').hidden = true; undefined");
+    await page.mouse('mouseMoved', x, y);
+    const told = "!document.getElementById('hover').hidden && [...document.querySelectorAll('#hover p')].map((one) => one.textContent).join('\\n')";
+    await page.until(told, 10).catch(() => '');
+    // Beam and error come with the facts of the grid.
+    await page.until("document.getElementById('hover').textContent.includes('RMS')", 2).catch(() => '');
+    found.push((await page.evaluate(told)) || '');
+  }
+  await viewer.settled(() => page.resize(400, 266));
+  return found;
+}
+
 const browser = await Browser.start();
 const page = await browser.page(400, 266);
 const viewer = new CheckedPage(page, address);
@@ -40,6 +74,37 @@ check(`bricks that came in parts: dE ${p99} over ${count} pixels`, p99 <= mostDi
 const held = (await told('held')).match(/\d+/g).map(Number);
 check(`${held[0]} of ${held[1]} MiB are held`, held[0] <= held[1] && held[1] === memoryMib);
 
+// ---- Layers are made of the cells of a window: those of the same grid, where it is there as a whole, are the same
+// A surface is looked for in as many steps between other depths, except from straight above.
+const layers = { plane: 'height-km=3', 'column maximum': 'maximum=1', section: `section=${await sectionAbout(scene.at)}`, surface: 'surface=35&tilt=0&field-of-view=0', haze: 'haze=1' };
+const alone = (layer) => `${layer}&${viewOf(scene)}&volume=0`;
+const ofParts = {};
+for (const [name, layer] of Object.entries(layers)) {
+  await viewer.show(`memory=${memoryMib}&${alone(layer)}`);
+  await complete();
+  ofParts[name] = await viewer.pixels();
+}
+const plotOf = () => page.evaluate("document.getElementById('section-canvas').toDataURL()");
+await viewer.show(`memory=${memoryMib}&${alone(layers.section)}`);
+const plot = await plotOf();
+const windows = page.requests.filter((url) => url.includes('window='));
+check(`${windows.length} windows were asked for, of the grid itself: ${[...new Set(windows.map((url) => url.match(/window=[^&]*/)[0]))].join(' ')}`,
+  windows.length > 0 && windows.every((url) => !url.includes('half=')));
+const lit = join(directory, 'lit-parts.ppm');
+await viewer.show(`${inParts(scene)}&light=gradient`);
+await complete();
+writeFileSync(lit, await viewer.pixels());
+slicer.before = ['--sun', String(scene.azimuth + 65) + ',40'];
+const light = slicer.compare(await slicer.fileOf(station, 'REF'), lit, scene, ['--slices', '2048']);
+check(`light: dE ${light.p99} (mean ${light.mean}, most ${light.most}) over ${light.count} pixels`, light.p99 <= mostDifference && light.count > 300);
+slicer.before = [];
+
+// ---- What is under the pointer
+const resting = [[280, 200], [200, 220], [330, 260], [380, 190], [120, 280]];
+await viewer.show(inParts(scene));
+const ofPointer = await readAt(resting);
+check(`under the pointer: ${ofPointer[0].replaceAll('\n', ', ')}`, ofPointer.filter((text) => /^-?[\d.]+ dBZ at [\d.]+ km\n/.test(text)).length > 1);
+
 // ---- The graphics processor forgets all
 await page.evaluate(`(() => {
   const lost = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context');
@@ -60,4 +125,21 @@ browser.listeners.push(({ method, params }) => {
 await page.evaluate(`location.hash = ${JSON.stringify(inParts(otherScene))}; undefined`);
 const said = await page.until("document.documentElement.dataset.state.includes('any more') && document.documentElement.dataset.state", 20).catch(() => '');
 check(`a grid that was evicted is told: ${said}`, said !== '');
+
+// ---- The same with the grid there as a whole
+page.trouble = page.trouble.filter((one) => !one.includes('410'));
+await page.send('Fetch.disable');
+await page.goto('about:blank');
+await viewer.open(viewOf(otherScene));
+for (const [name, layer] of Object.entries(layers)) {
+  await viewer.show(alone(layer));
+  const { shown, off } = differing(ofParts[name], await viewer.pixels());
+  check(`${name}: ${off} of ${shown} pixels are other than those of the whole grid`, shown > 3000 && off <= 0.005 * shown);
+}
+await viewer.show(alone(layers.section));
+check('the plot of the section is that of the whole grid', plot.length > 3000 && plot === (await plotOf()));
+await viewer.show(viewOf(scene));
+const ofWhole = await readAt(resting);
+check(`of ${ofWhole.length} places the pointer reads what it reads of the whole grid`, JSON.stringify(ofPointer) === JSON.stringify(ofWhole), JSON.stringify([ofPointer, ofWhole]));
+check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
 await browser.end();

@@ -78,7 +78,12 @@ TEST_F(Api, RefusesWhatMakesNoSense) {
                                       grid + "/packed?most=0",
                                       grid + "/packed?most=9&bricks=0-1",
                                       grid + "/packed?codes=x",
-                                      grid + "/packed?codes=values&part=table"}) {
+                                      grid + "/packed?codes=values&part=table",
+                                      grid + "/packed?window=0-1",
+                                      grid + "/packed?window=1-0,0-0",
+                                      grid + "/packed?window=0-3,0-0",
+                                      grid + "/packed?window=0-0,0-2",
+                                      grid + "/packed?window=0-0,0-0&part=table"}) {
         const Answer answer = served_.get(target);
         EXPECT_EQ(answer.status, 400u) << target;
         EXPECT_FALSE(nlohmann::json::parse(body_of(answer))["error"].get<std::string>().empty());
@@ -273,6 +278,53 @@ TEST_F(Api, ThePackedFormHoldsEachCell) {
         }
     }
     EXPECT_GT(values, 100u);
+}
+
+// Compares a window, from a cell of the grid on, with the grid. Returns
+// how many values it has.
+int compare_window(const Unpacked& whole, const Unpacked& cut, int first_x, int first_y) {
+    EXPECT_EQ(cut.u32(160), 0u) << "it is whole by itself";
+    EXPECT_EQ(cut.u32(164), whole.u32(164));
+    // The center is so many columns from the first one.
+    const auto center = [](const Unpacked& grid, std::uint64_t offset, unsigned cells) {
+        return 0.5 * (cells - 1) - grid.number<double>(offset);
+    };
+    EXPECT_EQ(center(cut, 88, cut.u32(36)), center(whole, 88, whole.u32(36)) - first_x);
+    EXPECT_EQ(center(cut, 96, cut.u32(40)), center(whole, 96, whole.u32(40)) - first_y);
+    int values = 0;
+    for (int x = 0; x < static_cast<int>(cut.u32(36)); ++x) {
+        for (int y = 0; y < static_cast<int>(cut.u32(40)); ++y) {
+            for (int z = 0; z < static_cast<int>(cut.u32(44)); ++z) {
+                int state = -1, state_of_whole = -1;
+                const auto code = cut.code(x, y, z, state);
+                EXPECT_EQ(code, whole.code(first_x + x, first_y + y, z, state_of_whole));
+                EXPECT_EQ(state, state_of_whole);
+                values += code.has_value() ? 1 : 0;
+            }
+        }
+    }
+    return values;
+}
+
+TEST_F(Api, AWindowHoldsTheCellsOfTheGridAtTheirPlaces) {
+    const std::string path = std::string(ServedGrids::small_path) + "/packed";
+    for (const std::string query : {"?", "?half=1&by=maximum&"}) {
+        const Unpacked whole(body_of(served_.get(path + query)));
+        const auto columns_x = static_cast<int>(whole.u32(124));
+        const auto columns_y = static_cast<int>(whole.u32(128));
+        int values = 0;
+        for (int x = 0; x < columns_x; ++x) {
+            for (int y = 0; y < columns_y; ++y) {
+                const Unpacked cut(body_of(
+                    served_.get(path + query + fmt::format("window={0}-{0},{1}-{1}", x, y))));
+                values += compare_window(whole, cut, 16 * x, 16 * y);
+            }
+        }
+        const std::string all = fmt::format("window=0-{},0-{}", columns_x - 1, columns_y - 1);
+        const Unpacked same(body_of(served_.get(path + query + all)));
+        EXPECT_EQ(compare_window(whole, same, 0, 0), values);
+        EXPECT_GT(values, 10);
+    }
 }
 
 TEST_F(Api, PackedAnswersAreCompressedAsTheClientTakesThem) {

@@ -23,7 +23,7 @@ test('from straight above, the highest value of the column comes first', () => {
             const pixel = geometry.project([at[0], at[1], 0])!;
             let level = grid.nz - 1;
             while (level >= 0 && codeAt(grid, x, y, level) < firstValueCode) --level;
-            const seen = firstVisible(grid, geometry, box, pixel[0], pixel[1], all);
+            const seen = firstVisible({ grid, middle: [0, 0] }, geometry, box, pixel[0], pixel[1], all);
             assert.equal(seen?.value ?? null, level < 0 ? null : valueOf(grid, codeAt(grid, x, y, level)));
             if (seen) assert.equal(seen.heightM, grid.levelsM[level]);
             if (seen) ++read;
@@ -40,16 +40,16 @@ test('what is not visible, or lies outside of the box, is passed', () => {
         let [passed, cut] = [0, 0];
         for (let x = 10; x < 400; x += 13) {
             for (let y = 10; y < 400; y += 13) {
-                const seen = firstVisible(grid, geometry, box, x, y, all);
-                const strong = firstVisible(grid, geometry, box, x, y, value => value >= least);
+                const seen = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, all);
+                const strong = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, value => value >= least);
                 if (strong) assert.ok(strong.value >= least);
                 if (strong && seen && strong.at[0] !== seen.at[0]) ++passed;
-                const west = firstVisible(grid, geometry, half, x, y, all);
+                const west = firstVisible({ grid, middle: [0, 0] }, geometry, half, x, y, all);
                 if (west) assert.ok(west.at[0] <= 0);
                 if (west && seen && seen.at[0] > 0) ++cut;
             }
         }
         assert.ok(passed > 5 && cut >= 0);
-        assert.equal(firstVisible(grid, geometry, box, -5000, -5000, all), null);
+        assert.equal(firstVisible({ grid, middle: [0, 0] }, geometry, box, -5000, -5000, all), null);
     }
 });

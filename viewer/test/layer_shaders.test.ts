@@ -14,7 +14,9 @@ test('each variant of the volume, of a surface and of veils has a name and a pro
     const volumes: VolumeVariant[] = either.flatMap(isPerspective =>
         either.flatMap(hasUnevenLevels => either.flatMap(endsAtSolids => either.map(isLit => ({ isPerspective, hasUnevenLevels, endsAtSolids, isLit })))),
     );
-    const surfaces: SurfaceVariant[] = either.flatMap(isPerspective => either.flatMap(isBelow => either.map(hasOther => ({ isPerspective, hasUnevenLevels: false, isBelow, hasOther }))));
+    const surfaces: SurfaceVariant[] = either.flatMap(isPerspective =>
+        either.flatMap(hasHalved => either.flatMap(isBelow => either.map(hasOther => ({ isPerspective, hasUnevenLevels: false, hasHalved, isBelow, hasOther })))),
+    );
     const veils: AirVariant[] = either.flatMap(hasHaze => either.map(hasFolded => ({ isPerspective: true, hasUnevenLevels: false, hasHaze, hasFolded })));
     for (const [names, programs] of [
         [volumes.map(variantName), volumes.map(volumeFragment)],

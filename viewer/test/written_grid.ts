@@ -8,6 +8,8 @@ export interface Made {
     firstValue?: number;
     step?: number;
     spacing?: number;
+    offsetCells?: [number, number];
+    halvings?: number;
     // 0 not seen, 1 no echo, 2 range folded, from 3 on a value
     codeOf(x: number, y: number, z: number): number;
 }
@@ -70,6 +72,8 @@ export function packedGrid(made: Made): Uint8Array {
     f64(48, 35.3331);
     f64(56, -97.2777);
     f64(64, made.spacing ?? 1000);
+    (made.offsetCells ?? [0, 0]).forEach((cells, i) => f64(88 + 8 * i, cells));
+    u32(164, made.halvings ?? 0);
     u32(108, codeBytes);
     view.setFloat32(112, made.firstValue ?? -32, true);
     view.setFloat32(116, made.step ?? 0.5, true);

@@ -28,6 +28,9 @@ constexpr std::array packed_parameters{
                  ApiKind::whole},
     ApiParameter{"codes", "all (default), or values: those of values alone, which are fewer bytes"},
     ApiParameter{"bricks", "FIRST-LAST: the codes of these bricks of the table alone"},
+    ApiParameter{"window",
+                 "FIRST-LAST,FIRST-LAST: these columns of bricks, to the east and to the north, as "
+                 "a whole grid"},
     ApiParameter{"half", "how often columns and rows are halved, 0 to 6", ApiKind::whole},
     ApiParameter{"by", "how cells are halved: maximum or mean; required with half"}};
 constexpr std::array probe_parameters{

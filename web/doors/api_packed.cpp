@@ -1,6 +1,7 @@
 // The packed form over HTTP: whole grids, parts of large ones, halved ones, and grids between
 // volumes.
 #include "base/checksum.h"
+#include "grid/cells/cut_bricks.h"
 #include "pipeline/mosaic/between_grids.h"
 #include "web/data/compressed.h"
 #include "web/data/halved_grid.h"
@@ -16,12 +17,18 @@ namespace {
 constexpr std::chrono::seconds a_year{31'536'000};
 constexpr int threads_of_a_computation = 1;
 
+// Columns of bricks, both ends included.
+struct BrickWindow {
+    std::size_t first_x = 0, last_x = 0, first_y = 0, last_y = 0;
+};
+
 // What of a grid is asked for.
 struct PackedRequest {
     PackedPart part = PackedPart::whole;
     std::size_t first = 0, end = 0;     // of `bricks`
     std::optional<std::uint64_t> most;  // bytes of a whole one; its table if it has more
     bool values_alone = false;          // codes of values alone, of a whole one
+    std::optional<BrickWindow> window;  // of the grid, halved or not
     int half = 0;
     std::optional<HalvedBy> by;
     std::optional<std::string> id;
@@ -29,8 +36,12 @@ struct PackedRequest {
 
     // Names the answer among those of the same grid.
     [[nodiscard]] std::string text() const {
-        return fmt::format("{}-{}-{}-{}{}-{}{}{}{}", static_cast<unsigned>(part), first, end,
-                           most.value_or(0), values_alone ? "v" : "", half,
+        const std::string cut = window
+                                    ? fmt::format("-w{}-{}-{}-{}", window->first_x, window->last_x,
+                                                  window->first_y, window->last_y)
+                                    : "";
+        return fmt::format("{}-{}-{}-{}{}{}-{}{}{}{}", static_cast<unsigned>(part), first, end,
+                           most.value_or(0), values_alone ? "v" : "", cut, half,
                            by ? halved_by_name(*by) : "", coding == Coding::identity ? "" : "-",
                            coding_name(coding));
     }
@@ -65,9 +76,31 @@ Status read_part(const ApiCall& call, PackedRequest& wanted) {
     return {};
 }
 
+// "FIRST-LAST,FIRST-LAST" to the east and to the north.
+Status read_window(const ApiCall& call, PackedRequest& wanted) {
+    const auto text = call.request.parameter("window");
+    if (!text) return {};
+    if (wanted.part != PackedPart::whole || wanted.most) {
+        return fail(ErrorCode::bad_argument,
+                    "window is of a whole grid: not of a part, bricks or most");
+    }
+    const std::size_t comma = text->find(',');
+    if (comma == std::string_view::npos) {
+        return fail(ErrorCode::bad_argument, "window: FIRST-LAST,FIRST-LAST, not '{}'",
+                    shown(*text));
+    }
+    const auto x = range_of_text("window", text->substr(0, comma));
+    if (!x) return pass_on(x);
+    const auto y = range_of_text("window", text->substr(comma + 1));
+    if (!y) return pass_on(y);
+    wanted.window = BrickWindow{x->first, x->second, y->first, y->second};
+    return {};
+}
+
 Result<PackedRequest> read_request(const ApiCall& call) {
     PackedRequest wanted;
     if (Status read = read_part(call, wanted); !read) return pass_on(read);
+    if (Status read = read_window(call, wanted); !read) return pass_on(read);
     const auto half = whole_parameter(call, "half", 0, most_halvings, 0);
     if (!half) return pass_on(half);
     wanted.half = static_cast<int>(*half);
@@ -131,6 +164,30 @@ Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,
     return made;
 }
 
+// Errors: bad_argument for a window that is not of the grid, or of more bricks than are sent at
+// once.
+Result<grid::BrickGrid> cut(const grid::BrickView& view, const BrickWindow& window) {
+    const auto columns_x = static_cast<std::size_t>(view.bricks_x);
+    const auto columns_y = static_cast<std::size_t>(view.bricks_y);
+    if (window.last_x >= columns_x || window.last_y >= columns_y) {
+        return fail(ErrorCode::bad_argument, "window: the grid has the columns of bricks 0-{},0-{}",
+                    columns_x - 1, columns_y - 1);
+    }
+    const std::size_t bricks = (window.last_x - window.first_x + 1) *
+                               (window.last_y - window.first_y + 1) *
+                               static_cast<std::size_t>(view.bricks_z);
+    if (bricks > most_bricks_of_a_range) {
+        return fail(ErrorCode::bad_argument,
+                    "window: at most {} bricks are sent at once, not {}: ask for half=1 or more",
+                    most_bricks_of_a_range, bricks);
+    }
+    const auto cell = [](std::size_t brick) { return static_cast<int>(brick) * grid::brick_edge; };
+    const int first_x = cell(window.first_x), first_y = cell(window.first_y);
+    return grid::cut_bricks(
+        view, {first_x, first_y, std::min(view.spec->nx, cell(window.last_x + 1)) - first_x,
+               std::min(view.spec->ny, cell(window.last_y + 1)) - first_y});
+}
+
 Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequest& wanted) {
     PackedSource source{&grid.file.description(), grid.file.view(), grid.file.checksum()};
     source.values_alone = wanted.values_alone;
@@ -142,6 +199,13 @@ Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequ
         source.view = half->view();
         source.halved = static_cast<std::uint32_t>(wanted.half);
         source.halved_by = static_cast<std::uint32_t>(*wanted.by);
+    }
+    std::optional<grid::BrickGrid> window;
+    if (wanted.window) {
+        auto made = cut(source.view, *wanted.window);
+        if (!made) return pass_on(made);
+        window = std::move(*made);
+        source.view = window->view();
     }
     const auto bytes = pack(source, wanted);
     // Codes that were cut meanwhile read as zeros, which are not seen.

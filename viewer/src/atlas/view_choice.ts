@@ -21,7 +21,7 @@ export interface Placed {
 }
 
 // How wide a cell may be in the picture, in pixels, before cells half as wide are wanted.
-const finestPixels = 1.5;
+export const finestPixels = 1.5;
 
 interface Extent {
     isSeen: boolean;
@@ -55,11 +55,11 @@ function extentOf(placed: Placed, level: number, x: number, y: number): Extent {
     return { isSeen, pixelsACell: Math.max(...cellSizeM) / metersPerPixel, away };
 }
 
-function collect(placed: Placed, pyramid: Pyramid, [finest, coarsest]: [number, number], mostPixels: number): WantedColumn[] {
+function collect(placed: Placed, pyramid: Pyramid, [finest, coarsest]: [number, number], mostPixels: number, isWanted: (level: number, x: number, y: number) => boolean): WantedColumn[] {
     const found: WantedColumn[] = [];
     const visit = (level: number, x: number, y: number): void => {
-        const { columns, shown } = pyramid.levels[level]!;
-        if (x >= columns[0] || y >= columns[1] || shown[x * columns[1] + y] === 0) return;
+        const { columns } = pyramid.levels[level]!;
+        if (x >= columns[0] || y >= columns[1] || !isWanted(level, x, y)) return;
         const extent = extentOf(placed, level, x, y);
         if (!extent.isSeen) return;
         if (level <= finest || extent.pixelsACell * 2 ** level <= mostPixels) {
@@ -77,12 +77,21 @@ function collect(placed: Placed, pyramid: Pyramid, [finest, coarsest]: [number, 
 // outward. `room`: how many bricks it may be. Coarser cells are taken until it is no more.
 export function wantedColumns(placed: Placed, pyramid: Pyramid, levels: [number, number], room: number): WantedColumn[] {
     const coarsest = levels[1];
+    const hasShown = (level: number, x: number, y: number): boolean => {
+        const { columns, shown } = pyramid.levels[level]!;
+        return shown[x * columns[1] + y]! > 0;
+    };
     for (let mostPixels = finestPixels; ; mostPixels *= Math.SQRT2) {
-        const found = collect(placed, pyramid, levels, mostPixels);
+        const found = collect(placed, pyramid, levels, mostPixels, hasShown);
         const bricks = found.reduce((sum, { level, x, y }) => {
             const { columns, shown } = pyramid.levels[level]!;
             return sum + (level === coarsest ? 0 : shown[x * columns[1] + y]!);
         }, 0);
         if (bricks <= room) return found.sort((one, other) => one.away - other.away);
     }
+}
+
+// All columns that a view shows, with echo or without, each of the level at which it is worth it.
+export function seenColumns(placed: Placed, pyramid: Pyramid, mostPixels: number): WantedColumn[] {
+    return collect(placed, pyramid, [0, pyramid.levels.length - 1], mostPixels, () => true);
 }

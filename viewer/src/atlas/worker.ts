@@ -3,7 +3,7 @@
 import { BrickStore, MadeColumn } from './brick_store';
 import { Atlas, ShownCodes, coverageOf, histogramOf, makeAtlas, rangeOfCodes, shownCodes } from './atlas';
 import { Pyramid, pyramidOf } from './pyramid';
-import { PackedGrid, readGridOrTable, readPackedBricks } from '../wire/packed_grid';
+import { PackedGrid, readGridOrTable, readPackedBricks, readPackedGrid } from '../wire/packed_grid';
 
 interface Column {
     level: number;
@@ -13,14 +13,15 @@ interface Column {
 
 // 'grid': a grid, or the table of one that is too large, of which `key` then names the store; 'level': a
 // halved grid of it or the table of one; 'bricks': some of a level's; 'make': columns of texels; 'drop':
-// columns whose codes are not needed; 'forget': the whole store.
+// columns whose codes are not needed; 'forget': the whole store; 'cells': a grid of which no atlas is wanted.
 export type WorkerRequest =
     | { kind: 'grid'; key: string; bytes: ArrayBuffer; mostTexels: number }
     | { kind: 'level'; key: string; bytes: ArrayBuffer }
     | { kind: 'bricks'; key: string; bytes: ArrayBuffer }
     | { kind: 'make'; key: string; columns: Column[] }
     | { kind: 'drop'; key: string; columns: Column[] }
-    | { kind: 'forget'; key: string };
+    | { kind: 'forget'; key: string }
+    | { kind: 'cells'; bytes: ArrayBuffer };
 
 export interface WorkerAnswer {
     grid?: PackedGrid;
@@ -63,6 +64,7 @@ function takeLevel(store: BrickStore, bytes: ArrayBuffer): WorkerAnswer {
 
 function answerTo(request: WorkerRequest): WorkerAnswer {
     if (request.kind === 'grid') return takeGrid(request.key, request.bytes, request.mostTexels);
+    if (request.kind === 'cells') return { grid: readPackedGrid(new Uint8Array(request.bytes)) };
     const store = stores.get(request.key);
     if (!store) throw new Error('the grid is not there any more');
     switch (request.kind) {
@@ -85,7 +87,8 @@ function answerTo(request: WorkerRequest): WorkerAnswer {
 // What the page gets without a copy. The same buffer may hold codes and states.
 function buffersOf(answer: WorkerAnswer): ArrayBufferLike[] {
     const arrays: Uint8Array[] = (answer.columns ?? []).map(column => column.texels);
-    if (answer.atlas) arrays.push(answer.atlas.texels, answer.grid!.states, answer.grid!.codes as Uint8Array);
+    if (answer.atlas) arrays.push(answer.atlas.texels);
+    if (answer.grid) arrays.push(answer.grid.states, answer.grid.codes as Uint8Array);
     if (answer.coverage) arrays.push(answer.coverage);
     return [...new Set(arrays.map(array => array.buffer))];
 }

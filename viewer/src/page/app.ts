@@ -23,8 +23,8 @@ const newOfRegion = 4; // instants that a volume of a site may change
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
 // where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
-// 'map': the map of all stations is opened or left.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map';
+// 'map': the map of all stations is opened or left; 'cells': more of a grid in parts is there.
+export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells';
 
 export interface Shown {
     key: string;
@@ -85,6 +85,9 @@ export class App {
     changed(): void {
         this.remember();
         this.tell('view');
+    }
+    cellsCame(): void {
+        this.tell('cells');
     }
     useUnits(units: Units): void {
         this.state.units = units;

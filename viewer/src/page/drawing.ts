@@ -14,6 +14,7 @@ import { LayerMaker } from './layer_maker';
 import { clearLabels, drawLabels } from './labels';
 import { Streaming } from './streaming';
 import { texts } from './texts';
+import { Windows } from './windows';
 
 const movingFrameMs = 50;
 const mostMovingDE = 20;
@@ -30,6 +31,7 @@ export class Drawing {
     readonly renderer = new Renderer(this.picture);
     private overlays: Overlay[] = [];
     layers: LayerMaker | null = null;
+    windows: Windows | null = null;
     private ground: Ground | null = null;
     private app: App | null = null;
     private streaming: Streaming | null = null;
@@ -47,6 +49,7 @@ export class Drawing {
         this.app = app;
         this.renderer.prepare();
         this.ground = new Ground(app, this.renderer, () => this.draw());
+        app.loader.onPlace = (domain, place) => this.ground!.expect(domain, place);
         this.streaming = new Streaming(
             this.renderer,
             app.loader.decoder,
@@ -54,7 +57,11 @@ export class Drawing {
             () => this.drawLater(),
             error => app.fail(error),
         );
-        this.layers = new LayerMaker(app, () => this.draw());
+        const { loader } = app;
+        this.windows = new Windows(loader.decoder, loader.budget.bytes, () => app.cellsCame(), error => app.fail(error));
+        loader.besides = () => this.windows!.bytes;
+        this.layers = new LayerMaker(app, this.windows, () => this.draw());
+        app.on('cells', () => this.draw());
         app.on('shown', () => {
             this.renderer.show(app.shown!.loaded);
             this.streaming!.show(app.shown!.loaded);
@@ -156,7 +163,7 @@ export class Drawing {
             leastValue: state.least ?? -1e9,
             hasVolume: state.layers.hasVolume,
             hasGround: state.hasGround,
-            layers: this.layers!.make(),
+            layers: this.layers!.make(geometry, isMoving),
             keepsExposure: isMoving,
         };
         const fetches = state.countsFetches && !isMoving ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
@@ -174,7 +181,12 @@ export class Drawing {
         } else if (!this.isFinal && !this.layers!.isWaiting && !this.ground!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
             this.isFinal = true;
             const detail = this.streaming!.detail;
-            const said = [texts.drawn(ms, rung, fetches), detail && texts.detail(detail.coarsest, detail.missing), this.layers!.isLeftOut && texts.layersLeftOut];
+            const said = [
+                texts.drawn(ms, rung, fetches),
+                detail && texts.detail(detail.coarsest, detail.missing),
+                this.windows!.coarsest !== (detail?.coarsest ?? 0) && texts.detailOfLayers(this.windows!.coarsest),
+                this.layers!.isLeftOut && texts.surfaceLeftOut,
+            ];
             app.say(said.filter(Boolean).join(' · '), false);
             const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
             element('held').textContent = held;

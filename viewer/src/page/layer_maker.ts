@@ -1,8 +1,9 @@
 // Makes of the view's layers what the renderer draws: cuts of the grid that is shown, the grid of another
 // moment, the sweep of its volume. What was made is kept as long as it is the same.
 
-import { Air, airOf } from '../fields/air';
-import { Falls, fallsOf } from '../fields/falls';
+import { ViewGeometry } from '../camera/geometry';
+import { airOf } from '../fields/air';
+import { fallsOf } from '../fields/falls';
 import { maximumField, planeField } from '../fields/flat_field';
 import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
@@ -10,8 +11,9 @@ import { nearestSite, nearestSweep } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
-import { Layers, isBelow, layersAddress, usualLayers } from '../scene/layers';
-import { Place, planeOf } from '../scene/projection';
+import { Cells, extentOf, placingOf } from '../scene/grid_box';
+import { Layers, isBelow, usualLayers } from '../scene/layers';
+import { Place, Plane, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
@@ -20,6 +22,7 @@ import { PackedGrid } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
 import { texts } from './texts';
+import { Windows } from './windows';
 
 const sectionColumns = 480;
 const sectionRows = 192;
@@ -73,10 +76,9 @@ class Asked<T> {
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
 
-// Layers are cut from a grid that is there as a whole: one in parts has the box and a sweep, which is not of the grid.
-function nothing(table: ColorTable): Omit<DrawnLayers, 'crop' | 'sweep' | 'looks'> {
-    const none = { plane: null, section: null, surface: null, maximum: null, falls: null, air: null };
-    return { ...none, hasHaze: false, hasFolded: false, mixes: false, folded: table.range_folded };
+// The section, on the plane of the grid that is shown.
+function movedBy(section: Section, [x, y]: Plane): Section {
+    return { ...section, ends: section.ends.map(([east, north]): Plane => [east + x, north + y]) };
 }
 
 export class LayerMaker {
@@ -89,6 +91,7 @@ export class LayerMaker {
 
     constructor(
         private app: App,
+        private windows: Windows,
         came: () => void,
     ) {
         const failed = (error: unknown) => app.fail(error);
@@ -102,32 +105,31 @@ export class LayerMaker {
 
     // Something that is wanted has not come yet.
     get isWaiting(): boolean {
-        return this.other.isWaiting || this.rows.isWaiting || this.sweep.isWaiting;
+        return this.other.isWaiting || this.rows.isWaiting || this.sweep.isWaiting || this.windows.isWaiting;
     }
 
-    // Null if nothing is to be drawn but the volume as it always was.
-    make(): DrawnLayers | null {
+    // Null if nothing is to be drawn but the volume as it always was. While the view moves, no other part of a
+    // grid is asked for.
+    make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
         this.isLeftOut = false;
         const { shown, table, state } = this.app;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
-        if (!shown || !table || isUsual) return null;
-        const { grid, stream } = shown.loaded;
-        const sweep = layers.sweepDeg === null ? null : this.sweepOf(shown, layers.sweepDeg);
-        if (stream) {
-            const { hasVolume, crop, sweepDeg } = layers;
-            this.isLeftOut = layersAddress(layers).length > layersAddress({ ...usualLayers, hasVolume, crop, sweepDeg }).length;
-            return { ...nothing(table), crop, sweep, looks: this.looksOf(table, state.least) };
-        }
+        if (!shown || !table || isUsual) return this.nothing();
+        const { loaded } = shown;
+        const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || layers.hasFolded;
+        const seen = this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving));
+        const lit = this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving));
+        const crossed = this.needed('section', layers.section !== null, () => this.windows.along(loaded, layers.section!));
         return {
-            plane: this.planeOf(grid, shown.moment, layers.planeM),
-            section: layers.section && this.sectionOf(grid, shown.moment, layers.section),
+            plane: seen && this.planeOf(seen, shown.moment, layers.planeM),
+            section: crossed && this.sectionOf(crossed, shown.moment, layers.section!),
             surface: this.surfaceOf(shown, layers),
-            maximum: layers.hasMaximum ? this.kept.take('maximum', [grid], () => maximumField(grid)) : null,
-            sweep,
+            maximum: seen && layers.hasMaximum ? this.maximumOf(seen) : null,
+            sweep: layers.sweepDeg === null ? null : this.sweepOf(shown, layers.sweepDeg),
             crop: layers.crop,
-            falls: layers.isLit ? this.fallsOf(grid, shown.moment, table) : null,
-            air: layers.hasHaze || layers.hasFolded ? this.airOf(grid) : null,
+            falls: lit && this.fallsOf(lit, shown, table),
+            air: seen && (layers.hasHaze || layers.hasFolded) ? this.airOf(seen, shown) : null,
             hasHaze: layers.hasHaze,
             hasFolded: layers.hasFolded,
             mixes: mixingOf(shown.moment) === 'mean',
@@ -136,19 +138,33 @@ export class LayerMaker {
         };
     }
 
-    private planeOf(grid: PackedGrid, moment: string, heightM: number | null): DrawnLayers['plane'] {
+    private nothing(): null {
+        for (const purpose of ['layers', 'light', 'section'] as const) this.windows.release(purpose);
+        return null;
+    }
+    private needed(purpose: 'layers' | 'light' | 'section', isNeeded: boolean, find: () => Cells | null): Cells | null {
+        if (isNeeded) return find();
+        this.windows.release(purpose);
+        return null;
+    }
+
+    private planeOf(cells: Cells, moment: string, heightM: number | null): DrawnLayers['plane'] {
         if (heightM === null) return null;
-        const field = this.kept.take('plane', [grid, heightM], () => planeField(grid, moment, heightM));
-        return field && this.kept.take('drawn plane', [field], () => ({ field, heightM }));
+        const field = this.kept.take('plane', [cells.grid, heightM], () => planeField(cells.grid, moment, heightM));
+        return field && this.kept.take('drawn plane', [field], () => ({ field, heightM, extent: extentOf(cells) }));
     }
-    private sectionOf(grid: PackedGrid, moment: string, ends: readonly [Place, Place]): Section {
-        return this.kept.take('section', [grid, ends[0], ends[1]], () => cutSection(grid, moment, ends[0], ends[1], sectionColumns, sectionRows));
+    private maximumOf(cells: Cells): DrawnLayers['maximum'] {
+        return this.kept.take('maximum', [cells.grid], () => ({ field: maximumField(cells.grid), extent: extentOf(cells) }));
     }
-    private airOf(grid: PackedGrid): Air {
-        return this.kept.take('air', [grid], () => airOf(grid));
+    private sectionOf({ grid, middle }: Cells, moment: string, ends: readonly [Place, Place]): Section {
+        return this.kept.take('section', [grid, ends[0], ends[1]], () => movedBy(cutSection(grid, moment, ends[0], ends[1], sectionColumns, sectionRows), middle));
     }
-    private fallsOf(grid: PackedGrid, moment: string, table: ColorTable): Falls {
-        return this.kept.take('falls', [grid, table], () => fallsOf(grid, moment, table.stops[0]!.from));
+    private airOf(cells: Cells, shown: Shown): DrawnLayers['air'] {
+        return this.kept.take('air', [cells.grid], () => ({ ...airOf(cells.grid), placing: placingOf(cells, shown.loaded.grid) }));
+    }
+    private fallsOf(cells: Cells, shown: Shown, table: ColorTable): DrawnLayers['falls'] {
+        const make = () => ({ ...fallsOf(cells.grid, shown.moment, table.stops[0]!.from), placing: placingOf(cells, shown.loaded.grid) });
+        return this.kept.take('falls', [cells.grid, table], make);
     }
     private looksOf(table: ColorTable, least: number | null): Looks {
         return this.kept.take('looks', [table, least], () => looksOf(table, least ?? -1e9));
@@ -159,6 +175,9 @@ export class LayerMaker {
         const moment = surface.moment || shown.moment;
         const drawn = { value: surface.value, isBelow: isBelow(moment, surface.value) };
         if (moment === shown.moment) return { ...drawn, of: null };
+        // It would need the bricks of two grids at once.
+        this.isLeftOut = shown.loaded.stream !== null;
+        if (this.isLeftOut) return null;
         const key = `${shown.domain} ${moment} ${shown.time}`;
         const of = this.other.take(key, () => this.app.loader.load(shown.domain, moment, shown.time, this.app.isBetween(shown.time)));
         if (!of) return null;

@@ -7,6 +7,8 @@ function age(seconds: number): string {
     return days < 730 ? `${Math.round(days)} days ago` : `${Math.round(days / 365.25)} years ago`;
 }
 
+const greatestOf = (halvings: number): string => `greatest of ${2 ** halvings} x ${2 ** halvings} cells`;
+
 export const texts = {
     title: 'stormcellar',
     loading: 'Loading',
@@ -108,9 +110,10 @@ export const texts = {
     asTimeAllows: 'as time allows',
     rung: (name: string, dE: number) => `${name}: dE ${dE}`,
     held: (bytes: number, most: number) => `Grids take ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
-    layersLeftOut: 'this grid is too large for layers other than a sweep and the box',
+    surfaceLeftOut: 'this grid is too large for the surface of another moment',
+    detailOfLayers: (halvings: number) => (halvings > 0 ? `layers: ${greatestOf(halvings)}` : ''),
     detail: (halvings: number, missing: number) => {
-        const cells = halvings > 0 ? `greatest of ${2 ** halvings} x ${2 ** halvings} cells` : '';
+        const cells = halvings > 0 ? greatestOf(halvings) : '';
         return missing > 0 ? `coarse: ${cells}, finer ones are loading` : cells;
     },
     drawn: (ms: number, how: { name: string; dE: number }, fetches: number | null) =>
@@ -159,6 +162,7 @@ export const texts = {
         error: (error: string) => `off by ${error} (RMS of its gates)`,
         ground: (status: string) => `Lowest level: ${status}`,
         hidden: 'echo that is not shown',
+        greatestOf: (halvings: number) => `the ${greatestOf(halvings)}`,
     },
     tools: {
         name: 'Tools',

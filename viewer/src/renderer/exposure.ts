@@ -2,6 +2,7 @@
 // (render/volume/lit_layer.h). It is found from a small picture.
 
 import { ViewGeometry } from '../camera/geometry';
+import { RayView } from './echo_tiles';
 
 const stride = 5; // pixels along each side that one of the small picture stands for
 const [leastExposure, mostExposure] = [0.7, 1.4];
@@ -31,6 +32,17 @@ export function exposureOf(pixels: Uint8Array): number {
     return isEmpty ? 1 : 0.5 * (low + high);
 }
 
+function smallView(geometry: ViewGeometry): RayView {
+    const { width, height, eye, right, up, forward, focalPixels, metersPerPixel, isPerspective } = geometry;
+    return {
+        width: width / stride,
+        height: height / stride,
+        focalPixels: focalPixels / stride,
+        metersPerPixel: metersPerPixel * stride,
+        eye, right, up, forward, isPerspective,
+    };
+}
+
 export class Exposure {
     value = 1;
     private target: { framebuffer: WebGLFramebuffer; texture: WebGLTexture; width: number; height: number } | null = null;
@@ -58,24 +70,19 @@ export class Exposure {
         return framebuffer;
     }
 
-    // `draw` draws what is measured.
-    measure(geometry: ViewGeometry, draw: () => void): void {
+    // `draw` draws what is measured, as a small picture.
+    measure(geometry: ViewGeometry, draw: (small: RayView) => void): void {
         const { gl } = this;
-        const [width, height] = [Math.ceil(geometry.width / stride), Math.ceil(geometry.height / stride)];
+        const small = smallView(geometry);
+        const [width, height] = [Math.ceil(small.width), Math.ceil(small.height)];
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.targetOf(width, height));
         gl.viewport(0, 0, width, height);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT);
-        draw();
+        draw(small);
         const pixels = new Uint8Array(4 * width * height);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
         this.value = exposureOf(pixels);
-    }
-
-    // The camera of the small picture.
-    shrink(geometry: ViewGeometry, at: (name: string) => WebGLUniformLocation | null): void {
-        this.gl.uniform2f(at('size'), geometry.width / stride, geometry.height / stride);
-        this.gl.uniform1f(at('scale'), geometry.isPerspective ? geometry.focalPixels / stride : geometry.metersPerPixel * stride);
     }
 }

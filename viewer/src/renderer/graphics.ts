@@ -1,6 +1,6 @@
 // What the passes of a picture use in common of WebGL: programs by name, textures, and the camera.
 
-import { ViewGeometry } from '../camera/geometry';
+import type { RayView } from './echo_tiles';
 
 // No program reads from it, so that an upload changes nothing that is bound.
 const unitOfUploads = 15;
@@ -87,7 +87,7 @@ export class Graphics {
     }
 
     // Takes a program into use, gives it the camera, and tells where its uniforms are.
-    use(program: WebGLProgram, geometry: ViewGeometry): (name: string) => WebGLUniformLocation | null {
+    use(program: WebGLProgram, geometry: RayView): (name: string) => WebGLUniformLocation | null {
         const gl = this.gl;
         gl.useProgram(program);
         const at = (name: string) => gl.getUniformLocation(program, name);

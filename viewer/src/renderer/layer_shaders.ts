@@ -1,6 +1,5 @@
 // The shaders of what is drawn beside ground and volume. Each is compiled when a layer needs it first.
 
-import { airCellsAcross, airCellsUp } from '../fields/air';
 import { azimuthSteps, noRadial } from '../fields/sweep_cone';
 import { lookColumns, lookCount } from '../tables/looks';
 import { facingText, litColorText } from './light_shader';
@@ -134,7 +133,8 @@ precision highp float;
 ${camera(isPerspective)}
 ${looksText}
 uniform vec3 seenColor, foldedColor;
-uniform vec2 halfSize;
+uniform vec2 halfSize; // of the grid
+uniform vec4 extent; // of the field: west, south, east, north
 uniform float ground;
 ${fieldText}
 out vec4 color;
@@ -142,8 +142,9 @@ void main() {
     vec3 start = rayStart(), along = rayStep();
     float depth = (ground - start.z) / along.z;
     if (along.z > -1e-6 || ${isPerspective ? 'depth <= 0.0' : 'false'}) discard;
-    vec2 place = ((start + depth * along).xy + halfSize) / (2.0 * halfSize);
-    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
+    vec2 on = (start + depth * along).xy;
+    vec2 place = (on - extent.xy) / (extent.zw - extent.xy);
+    if (any(greaterThanEqual(abs(on), halfSize)) || any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
     vec2 found = fieldAt(place * vec2(textureSize(field, 0)));
     int state = int(found.y + 0.5);
     if (state == 2) color = vec4(foldedColor, 1.0);
@@ -181,6 +182,8 @@ export const airName = (variant: AirVariant): string =>
 export function airFragment(variant: AirVariant): string {
     return `${volumeHead(variant)}
 uniform sampler3D air; // shares of not seen and of range folded
+uniform vec2 airFirst; // where it begins, in cells of the grid
+uniform vec2 airCells; // how many of these a coarse cell is wide and high
 uniform vec3 hazeColor, foldedColor;
 const int steps = 192;
 void main() {
@@ -195,8 +198,9 @@ void main() {
     for (int i = first; i < last; ++i) {
         float depth = near + (float(i) + 0.5) * each;
         if (depth < enter || depth > leave) continue;
-        vec3 cell = cellOf(start + depth * along);
-        way += texture(air, floor((cell + 0.5) / vec3(${airCellsAcross}.0, ${airCellsAcross}.0, ${airCellsUp}.0)) / size3 + 0.5 / size3).rg;
+        vec3 at = floor((cellOf(start + depth * along) + 0.5 - vec3(airFirst, 0.0)) / airCells.xxy);
+        if (any(lessThan(at, vec3(0.0))) || any(greaterThanEqual(at, size3))) continue;
+        way += texture(air, (at + 0.5) / size3).rg;
     }
     way = 0.6 * (1.0 - exp(-way * each * length(along) / (0.2 * whole)));
     color = vec4(0.0);
@@ -211,7 +215,7 @@ export interface SurfaceVariant extends VolumeVariant {
 }
 
 export const surfaceName = (variant: SurfaceVariant): string =>
-    ['surface', variant.isPerspective ? 'perspective' : 'parallel', variant.hasUnevenLevels ? 'uneven levels' : '', variant.isBelow ? 'below' : '', variant.hasOther ? 'colored by another' : '']
+    ['surface', variant.isPerspective ? 'perspective' : 'parallel', variant.hasUnevenLevels ? 'uneven levels' : '', variant.hasHalved ? 'halved bricks' : '', variant.isBelow ? 'below' : '', variant.hasOther ? 'colored by another' : '']
         .filter(part => part !== '')
         .join(', ');
 
@@ -221,16 +225,14 @@ const surfaceExposure = 0.86;
 const otherText = `
 uniform sampler3D otherAtlas;
 uniform usampler3D otherIndirection;
-uniform ivec3 otherSlots;
-uniform vec3 otherAtlasSize;
+uniform vec3 otherSlots;
+uniform vec3 otherPerTexel;
 // The code by which the surface is colored; less than 0 where there is none.
 float otherCode(vec3 cell) {
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(otherIndirection, brick, 0).r;
     if (isEmpty(entry)) return -1.0;
-    int slot = int(entry & 0x1FFFFFu) - 1;
-    ivec3 place = ivec3(slot % otherSlots.x, (slot / otherSlots.x) % otherSlots.y, slot / (otherSlots.x * otherSlots.y));
-    vec2 found = texture(otherAtlas, (vec3(place) * padded + (cell - vec3(brick) * edge) + 1.5) / otherAtlasSize).rg;
+    vec2 found = texture(otherAtlas, (cell + placeOf(brick, entry, otherSlots).xyz) * otherPerTexel).rg;
     return found.g < 0.1 ? -1.0 : 255.0 * found.r / found.g;
 }`;
 
@@ -251,7 +253,7 @@ vec2 codeAt(vec3 p) {
     ivec3 brick = ivec3(cell / edge);
     uint entry = texelFetch(indirection, brick, 0).r;
     if (isEmpty(entry)) return vec2(0.0);
-    vec2 found = fetchAt(cell, brick, entry);
+    vec2 found = fetchAt(cell, placeOf(brick, entry, slots), perTexel);
     return found.g < 0.002 ? vec2(0.0) : vec2(255.0 * found.r / found.g, found.g);
 }
 bool insideAt(vec3 p) {
@@ -275,6 +277,7 @@ void main() {
     if (!(enter < leave)) discard;
     float k = max(0.0, floor((enter - near) / stepM));
     float last = min(slices, ceil((leave - near) / stepM));
+    Ray ray = rayOf(start, along);
     float outside = enter, hit = -1.0;
     bool isCut = insideAt(start + enter * along);
     if (isCut) hit = enter;
@@ -286,7 +289,7 @@ void main() {
         uint entry = texelFetch(indirection, brick, 0).r;
         if (isEmpty(entry) || (entry >> 24) < leastShown) {
             outside = depth;
-            k = max(k + 1.0, floor((min(leaves(start, along, brick, entry), leave) - near) / stepM));
+            k = max(k + 1.0, floor((min(leaves(ray, brick, entry), leave) - near) / stepM));
             continue;
         }
         if (insideAt(p)) hit = depth;

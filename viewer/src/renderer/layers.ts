@@ -2,11 +2,12 @@
 // ground, veils of air. A layer that is off has no program, no texture and no pass.
 
 import { Vec3, ViewGeometry } from '../camera/geometry';
-import { Air } from '../fields/air';
-import { Falls } from '../fields/falls';
+import { Air, airCellsAcross, airCellsUp } from '../fields/air';
+import { Falls, fallCellsAcross } from '../fields/falls';
 import { FlatField } from '../fields/flat_field';
 import { Section } from '../fields/section';
 import { Cone } from '../fields/sweep_cone';
+import { Extent, Placing } from '../scene/grid_box';
 import { Crop, sunAsideDeg, sunElevationDeg } from '../scene/layers';
 import { Looks, lookColumns, lookCount } from '../tables/looks';
 import { PackedSweep } from '../wire/packed_sweep';
@@ -29,16 +30,21 @@ export interface DrawnSurface {
     of: LoadedGrid | null; // whose surface it is; null: of the grid that is shown
 }
 
+export interface PlacedField {
+    field: FlatField;
+    extent: Extent;
+}
+
 // What is drawn, made of the scene's layers and a grid.
 export interface DrawnLayers {
-    plane: { field: FlatField; heightM: number } | null;
+    plane: PlacedField & { heightM: number } | null;
     section: Section | null;
     surface: DrawnSurface | null;
-    maximum: FlatField | null;
+    maximum: PlacedField | null;
     sweep: DrawnSweep | null;
     crop: Crop | null;
-    falls: Falls | null; // the volume is lit
-    air: Air | null;
+    falls: (Falls & { placing: Placing }) | null; // the volume is lit
+    air: (Air & { placing: Placing }) | null;
     hasHaze: boolean;
     hasFolded: boolean;
     mixes: boolean; // values between places may be averaged
@@ -169,12 +175,17 @@ export class LayerPasses {
         this.graphics.gl.uniform1i(at('mixes'), mixes ? 1 : 0);
     }
 
-    private drawPlane(geometry: ViewGeometry, layers: DrawnLayers, { field, heightM }: { field: FlatField; heightM: number }): void {
+    private drawPlane(geometry: ViewGeometry, layers: DrawnLayers, { field, heightM, extent }: PlacedField & { heightM: number }): void {
         const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
         this.bindField(at, this.fieldTexture('plane', field, null), layers);
-        const { halfXM: x, halfYM: y } = geometry.box;
-        const [w, h] = [field.width, field.height];
-        this.drawMesh(new Float32Array([-x, -y, heightM, 0, 0, x, -y, heightM, w, 0, -x, y, heightM, 0, h, x, y, heightM, w, h]), null);
+        // Cells of a halved grid may reach beyond the grid.
+        const { halfXM, halfYM } = geometry.box;
+        const [west, east] = [Math.max(-halfXM, extent.westM), Math.min(halfXM, extent.eastM)];
+        const [south, north] = [Math.max(-halfYM, extent.southM), Math.min(halfYM, extent.northM)];
+        const column = (x: number) => (field.width * (x - extent.westM)) / (extent.eastM - extent.westM);
+        const row = (y: number) => (field.height * (y - extent.southM)) / (extent.northM - extent.southM);
+        const corner = (x: number, y: number) => [x, y, heightM, column(x), row(y)];
+        this.drawMesh(new Float32Array([...corner(west, south), ...corner(east, south), ...corner(west, north), ...corner(east, north)]), null);
     }
 
     private drawSection(geometry: ViewGeometry, layers: DrawnLayers, section: Section): void {
@@ -227,7 +238,7 @@ export class LayerPasses {
         this.graphics.gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
     }
 
-    drawMaximum(geometry: ViewGeometry, layers: DrawnLayers, field: FlatField): void {
+    drawMaximum(geometry: ViewGeometry, layers: DrawnLayers, { field, extent }: PlacedField): void {
         const { gl } = this.graphics;
         const name = `maximum, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
         const at = this.graphics.use(this.graphics.program(name, fullScreenVertex, drapeFragment(geometry.isPerspective)), geometry);
@@ -236,27 +247,32 @@ export class LayerPasses {
         this.color(at('seenColor'), shades.seen);
         this.color(at('foldedColor'), layers.folded);
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
+        gl.uniform4f(at('extent'), extent.westM, extent.southM, extent.eastM, extent.northM);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    bindAir(unit: number, air: Air, layers: DrawnLayers, at: (name: string) => WebGLUniformLocation | null): void {
+    bindAir(unit: number, air: Air & { placing: Placing }, layers: DrawnLayers, at: (name: string) => WebGLUniformLocation | null): void {
         const { gl } = this.graphics;
         const texture = this.shelf.take('air', air, () => this.graphics.texture3d(gl.RG8, gl.RG, air.size, air.shares, gl.NEAREST));
         this.graphics.bind(unit, gl.TEXTURE_3D, texture, at('air'));
+        gl.uniform2fv(at('airFirst'), air.placing.first);
+        gl.uniform2f(at('airCells'), airCellsAcross * 2 ** air.placing.halvings, airCellsUp);
         this.color(at('hazeColor'), shades.haze);
         this.color(at('foldedColor'), layers.folded);
     }
 
     // The light of a volume: where its values fall, and the sun.
-    bindLight(unit: number, falls: Falls, geometry: ViewGeometry, cellM: readonly [number, number], levelM: number, at: (name: string) => WebGLUniformLocation | null): void {
+    bindLight(unit: number, falls: Falls & { placing: Placing }, geometry: ViewGeometry, cellM: readonly [number, number], levelM: number, at: (name: string) => WebGLUniformLocation | null): void {
         const { gl } = this.graphics;
         const [nx, ny, nz] = falls.size;
         const texture = this.shelf.take('falls', falls, () => this.graphics.texture3d(gl.RGBA8, gl.RGBA, [nz, ny, nx], falls.bytes, gl.LINEAR));
         this.graphics.bind(unit, gl.TEXTURE_3D, texture, at('falls'));
-        gl.uniform2f(at('coarseCells'), nx, ny);
+        const cells = fallCellsAcross * 2 ** falls.placing.halvings; // of the grid, in a coarse one
+        gl.uniform2fv(at('fallsFirst'), falls.placing.first);
+        gl.uniform2f(at('fallsCells'), cells * nx, cells * ny);
         // Falls reach from the coarse cell before to the one after.
-        gl.uniform3f(at('perM'), 0.25 / cellM[0], 0.25 / cellM[1], 0.5 / (levelM * geometry.exaggeration));
+        gl.uniform3f(at('perM'), 0.5 / (cells * cellM[0]), 0.5 / (cells * cellM[1]), 0.5 / (levelM * geometry.exaggeration));
         this.bindSun(geometry, at);
     }
 }

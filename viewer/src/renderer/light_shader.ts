@@ -67,10 +67,10 @@ float facing(vec3 slope, float share, vec3 looks) {
 // The factor of the light at a cell of the grid, from the texture of falls.
 export const lightAtText = `
 uniform sampler3D falls; // along z, y, x
-uniform vec2 coarseCells; // along x and y
+uniform vec2 fallsFirst, fallsCells; // where it begins, and how far it reaches, in cells of the grid
 uniform vec3 perM; // of drawn space
 float lightAt(vec3 cell, vec3 looks) {
-    vec2 across = 0.5 * (cell.xy + 0.5) / coarseCells;
+    vec2 across = (cell.xy + 0.5 - fallsFirst) / fallsCells;
     vec4 found = texture(falls, vec3((cell.z + 0.5) / cells.z, across.y, across.x));
     vec3 root = (255.0 * found.xyz - 128.0) / 127.0;
     vec3 slope = root * abs(root) * ${steepestFall.toFixed(1)} * perM;

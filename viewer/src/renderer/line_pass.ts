@@ -13,12 +13,26 @@ export interface MapLines {
 interface UploadedLines {
     lines: MapLines;
     array: WebGLVertexArrayObject;
-    buffer: WebGLBuffer;
-    count: number;
+    buffers: WebGLBuffer[];
+    count: number; // of vertices that are drawn
 }
 
 // In pixels.
 const widths: Record<MapLines['kind'], number> = { county: 0.7, state: 1.3, lake: 1, country: 1.6, coast: 1.3, ring: 1, border: 1 };
+
+// Each corner of a segment's strip knows both ends. An instance for each segment would be smaller, but where a processor
+// draws, it takes as long to begin one as to draw hundreds of corners.
+const cornersASegment = 4;
+const triangles = [0, 1, 2, 1, 3, 2];
+
+export function cornersOf(segments: Float32Array): Float32Array {
+    const corners = new Float32Array(cornersASegment * segments.length);
+    for (let i = 0; i < corners.length; ++i) corners[i] = segments[4 * Math.floor(i / (4 * cornersASegment)) + (i % 4)]!;
+    return corners;
+}
+export function trianglesOf(segmentCount: number): Uint32Array {
+    return Uint32Array.from({ length: triangles.length * segmentCount }, (_, i) => cornersASegment * Math.floor(i / triangles.length) + triangles[i % triangles.length]!);
+}
 
 export class LinePass {
     private uploaded: UploadedLines[] = [];
@@ -36,21 +50,23 @@ export class LinePass {
     // Takes other lines; those before are given back.
     show(all: MapLines[]): void {
         const { gl } = this.graphics;
-        for (const { array, buffer } of this.uploaded) {
+        for (const { array, buffers } of this.uploaded) {
             gl.deleteVertexArray(array);
-            gl.deleteBuffer(buffer);
+            for (const buffer of buffers) gl.deleteBuffer(buffer);
         }
         this.uploaded = all.map(lines => {
             const array = gl.createVertexArray()!;
-            const buffer = gl.createBuffer()!;
+            const buffers = [gl.createBuffer()!, gl.createBuffer()!];
+            const indices = trianglesOf(lines.segments.length / 4);
             gl.bindVertexArray(array);
-            gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-            gl.bufferData(gl.ARRAY_BUFFER, lines.segments, gl.STATIC_DRAW);
+            gl.bindBuffer(gl.ARRAY_BUFFER, buffers[0]!);
+            gl.bufferData(gl.ARRAY_BUFFER, cornersOf(lines.segments), gl.STATIC_DRAW);
             gl.enableVertexAttribArray(0);
             gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
-            gl.vertexAttribDivisor(0, 1);
+            gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers[1]!);
+            gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
             gl.bindVertexArray(null);
-            return { lines, array, buffer, count: lines.segments.length / 4 };
+            return { lines, array, buffers, count: indices.length };
         });
     }
 
@@ -66,7 +82,7 @@ export class LinePass {
             gl.uniform4f(at('look'), rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255);
             gl.uniform1f(at('width'), widths[lines.kind] / grain);
             gl.bindVertexArray(array);
-            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+            gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
         }
         gl.bindVertexArray(null);
     }

@@ -4,20 +4,21 @@
 import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { MadeColumn } from '../atlas/brick_store';
 import { Pyramid } from '../atlas/pyramid';
-import { Box, ViewGeometry, heightRange } from '../camera/geometry';
-import { Air } from '../fields/air';
+import { ViewGeometry, heightRange } from '../camera/geometry';
 import { croppedBox } from '../scene/layers';
 import { cellSizeM } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { Transfer, makeTransfer } from '../tables/transfer';
 import { PackedGrid } from '../wire/packed_grid';
+import { RayView, TilePass, brickEnds, tilesOf } from './echo_tiles';
 import { Exposure } from './exposure';
 import { Graphics } from './graphics';
 import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
 import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
 import { LinePass, MapLines } from './line_pass';
-import { VolumeVariant, fullScreenVertex, groundFragment, variantName, volumeFragment } from './shaders';
+import { VolumeVariant, fullScreenVertex, groundFragment, tileVertex, variantName, volumeFragment } from './shaders';
 import { shades } from './shades';
+import { WaterMask, WaterTexture } from './water_texture';
 
 // What a grid needs in the memory of the graphics processor.
 export interface LoadedGrid {
@@ -81,6 +82,8 @@ export class Renderer {
     private passes: LayerPasses;
     private exposure: Exposure;
     private lines: LinePass;
+    private water: WaterTexture;
+    private tiles: TilePass;
     private transferTexture: WebGLTexture | null = null;
     private transfer: { made: Transfer; stepM: number; key: TransferKey } | null = null;
 
@@ -91,6 +94,8 @@ export class Renderer {
         this.graphics = new Graphics(gl);
         this.passes = new LayerPasses(this.graphics);
         this.lines = new LinePass(this.graphics);
+        this.water = new WaterTexture(this.graphics);
+        this.tiles = new TilePass(gl);
         this.exposure = new Exposure(gl);
         canvas.addEventListener('webglcontextlost', event => event.preventDefault());
     }
@@ -106,6 +111,8 @@ export class Renderer {
     forget(): void {
         this.graphics.forget();
         this.lines.forget();
+        this.water.forget();
+        this.tiles.forget();
         this.uploaded = this.other = null;
         this.passes.forget();
         this.exposure.forget();
@@ -235,9 +242,9 @@ export class Renderer {
     // The exposure by which the lit echo is as light as without light, from every fifth pixel.
     private measureLight(frame: Frame): void {
         const { gl } = this;
-        this.exposure.measure(frame.geometry, () => {
+        this.exposure.measure(frame.geometry, small => {
             gl.disable(gl.BLEND);
-            this.drawVolume(frame, { isLit: true, measuresLight: true });
+            this.drawVolume(frame, { isLit: true, measuresLight: true }, small);
         });
         gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
     }
@@ -253,9 +260,14 @@ export class Renderer {
         gl.uniform1f(at('columnsATexel'), 2 ** (stream?.level ?? 0));
         gl.uniform2f(at('halfSize'), geometry.box.halfXM, geometry.box.halfYM);
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
-        for (const uniform of ['page', 'beyond', 'notSeen', 'seenAloft', 'seen', 'hatch'] as const) color(uniform, shades[uniform]);
-        // Haze says from how low the air was seen.
-        if (hasHaze) color('seenAloft', shades.seen);
+        color('page', shades.page);
+        color('hatch', shades.hatch);
+        for (const [name, own] of [['land', shades], ['water', shades.water]] as const) {
+            // Haze says from how low the air was seen.
+            const colors = [own.notSeen, hasHaze ? own.seen : own.seenAloft, own.seen, own.beyond];
+            gl.uniform3fv(at(`${name}Shades`), colors.flat().map(one => one / 255));
+        }
+        this.water.bind(1, at);
         gl.uniform1f(at('hatchScale'), 1 / grain);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
@@ -299,24 +311,25 @@ export class Renderer {
         const inside = croppedBox(whole, frame.layers?.crop ?? null);
         gl.uniform3f(at('boxLow'), inside.westM, inside.southM, inside.bottomM * exaggeration);
         gl.uniform3f(at('boxHigh'), inside.eastM, inside.northM, inside.topM * exaggeration);
-        gl.uniform1fv(at('brickHeights'), brickHeights(grid, box, exaggeration));
+        gl.uniform1fv(at('brickHeights'), brickEnds(grid, frame.geometry).z);
         gl.uniform3f(at('cells'), grid.nx, grid.ny, grid.nz);
-        gl.uniform2f(at('cellSize'), cellWidth, cellHeight);
-        gl.uniform3iv(at('slots'), loaded.atlas.slots);
-        gl.uniform3fv(at('atlasSize'), loaded.atlas.size);
+        gl.uniform2f(at('perCell'), 1 / cellWidth, 1 / cellHeight);
+        gl.uniform3fv(at('slots'), slotStrides(loaded.atlas));
+        gl.uniform3fv(at('perTexel'), perTexel(loaded.atlas));
         gl.uniform1f(at('near'), nearM);
         gl.uniform1f(at('stepM'), (farM - nearM) / frame.slices);
         gl.uniform1f(at('slices'), frame.slices);
     }
 
-    private drawVolume(frame: Frame, wanted: WantedOfVolume): void {
+    // `view` is the picture, or a small one of the same view.
+    private drawVolume(frame: Frame, wanted: WantedOfVolume, view: RayView = frame.geometry): void {
         const gl = this.gl;
         const { geometry, layers } = frame;
         const { loaded, levels } = this.uploaded!;
         const { grid } = loaded;
         if (loaded.atlas.brickCount === 0) return;
         const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null, hasHalved: loaded.stream !== null, ...wanted };
-        const at = this.graphics.use(this.graphics.program(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant)), geometry);
+        const at = this.graphics.use(this.graphics.program(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant)), view);
         const [nearM, farM] = slicedDepths(loaded, geometry);
         const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
@@ -324,18 +337,18 @@ export class Renderer {
         this.graphics.bind(2, gl.TEXTURE_2D, this.transferTexture, at('transfer'));
         const { codeScale, codeOffset } = loaded.atlas;
         gl.uniform2f(at('binLine'), made.binOffset + made.binSlope * codeOffset, made.binSlope * codeScale);
-        gl.uniform1ui(at('leastShown'), Math.min(255, Math.max(1, Math.floor((made.leastVisibleCode - codeOffset) / codeScale))));
+        const leastShown = Math.min(255, Math.max(1, Math.floor((made.leastVisibleCode - codeOffset) / codeScale)));
+        gl.uniform1ui(at('leastShown'), leastShown);
         gl.uniform1f(at('depthScale'), scale);
         if (variant.endsAtSolids) this.passes.bindSolidDepth(4, at, geometry);
         if (variant.isLit) {
             this.passes.bindLight(5, layers!.falls!, geometry, cellSizeM(grid), levelSpacingM(grid), at);
             gl.uniform1f(at('exposure'), this.exposure.value);
         }
-        if (variant.measuresLight) this.exposure.shrink(geometry, at);
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
+        this.tiles.draw(view, tilesOf(view, loaded.atlas, brickEnds(grid, geometry), leastShown), at);
     }
 
-    private drawAir(frame: Frame, layers: DrawnLayers, air: Air): void {
+    private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
         const { geometry } = frame;
         const variant: AirVariant = {
             isPerspective: geometry.isPerspective,
@@ -345,6 +358,9 @@ export class Renderer {
         };
         const at = this.graphics.use(this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
         this.bindGrid(this.uploaded!, frame, at);
+        // How dense a veil is depends on the whole depth of the grid.
+        this.gl.uniform1f(at('near'), geometry.nearM);
+        this.gl.uniform1f(at('stepM'), (geometry.farM - geometry.nearM) / frame.slices);
         this.passes.bindAir(4, air, layers, at);
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
@@ -359,7 +375,7 @@ export class Renderer {
         }
         const surface = of ? this.other! : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
-        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, isBelow, hasOther: of !== null };
+        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, hasHalved: surface.loaded.stream !== null, isBelow, hasOther: of !== null };
         const at = this.graphics.use(this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
         this.bindGrid(surface, frame, at);
         const { grid, atlas } = surface.loaded;
@@ -373,8 +389,8 @@ export class Renderer {
         if (of) {
             this.graphics.bind(4, gl.TEXTURE_3D, shown.atlas, at('otherAtlas'));
             this.graphics.bind(5, gl.TEXTURE_3D, shown.indirection, at('otherIndirection'));
-            gl.uniform3iv(at('otherSlots'), shown.loaded.atlas.slots);
-            gl.uniform3fv(at('otherAtlasSize'), shown.loaded.atlas.size);
+            gl.uniform3fv(at('otherSlots'), slotStrides(shown.loaded.atlas));
+            gl.uniform3fv(at('otherPerTexel'), perTexel(shown.loaded.atlas));
         }
         // value = firstValue + step * (code - 3), code = codeOffset + codeScale * shown code
         const colored = shown.loaded;
@@ -383,6 +399,9 @@ export class Renderer {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
+    showWater(mask: WaterMask | null): void {
+        this.water.show(mask);
+    }
     showLines(all: MapLines[]): void {
         this.lines.show(all);
     }
@@ -394,7 +413,7 @@ export class Renderer {
     // Begins to compile what the first picture needs, while its data are still on their way.
     prepare(): void {
         const variant: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };
-        this.graphics.begin(`volume, ${variantName(variant)}`, fullScreenVertex, volumeFragment(variant));
+        this.graphics.begin(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant));
         this.graphics.begin('ground, perspective', fullScreenVertex, groundFragment(true));
         this.lines.prepare();
     }
@@ -411,15 +430,11 @@ function levelSpacingM({ levelsM }: PackedGrid): number {
     return Math.max(1, (levelsM[last]! - levelsM[0]!) / Math.max(1, last));
 }
 
-// A sample belongs to the layer of bricks of the level below it.
-function brickHeights(grid: PackedGrid, box: Box, exaggeration: number): Float32Array {
-    const heights = new Float32Array(66);
-    for (let layer = 0; layer < heights.length; ++layer) {
-        const level = layer * grid.brickEdge;
-        const height = layer === 0 ? box.bottomM - 1 : level < grid.nz ? grid.levelsM[level]! : box.topM + 1;
-        heights[layer] = height * exaggeration;
-    }
-    return heights;
+function slotStrides({ slots }: Atlas): [number, number, number] {
+    return [slots[0], slots[1], slots[0] * slots[1]];
+}
+function perTexel({ size }: Atlas): [number, number, number] {
+    return [1 / size[0], 1 / size[1], 1 / size[2]];
 }
 
 function hasUnevenLevels(grid: PackedGrid): boolean {

@@ -44,16 +44,32 @@ vec3 rayStep() { vec2 a = aside() / scale; return forward + a.x * right + a.y * 
 vec3 rayStep() { return forward; }`
 }`;
 
-// Where a cell of the grid is in the brick of a halved grid. Cell j of a grid that was halved n times
-// stands for the cells from j 2^n on, whose middle is at (j + 1/2) 2^n - 1/2.
-const halvedCell = `
-    int halvings = int((entry >> 21) & 7u);
-    cell.xy = (cell.xy + 0.5) * exp2(-float(halvings)) - 0.5;
-    corner = ivec3(brick.xy >> halvings, brick.z);`;
+// The volume is drawn as points, each a square of the picture (echo_tiles.ts).
+export const tileVertex = `#version 300 es
+layout(location = 0) in vec4 tile; // its middle, and between which depths its rays may meet what shows
+uniform float side; // in pixels
+flat out vec2 reach;
+void main() {
+    reach = tile.zw;
+    gl_Position = vec4(tile.xy, 0.0, 1.0);
+    gl_PointSize = side;
+}`;
 
-// Where a ray meets the cells of a grid. A ray asks for a brick's entry once.
+// Cell j of a grid that was halved n times stands for the cells from j 2^n on, whose middle is at
+// (j + 1/2) 2^n - 1/2.
+const halvedPlace = `
+    int halvings = int((entry >> 21) & 7u);
+    place.w = exp2(-float(halvings));
+    place.xy += 0.5 * place.w - 0.5;
+    brick.xy >>= halvings;`;
+
+// Where a ray meets the cells of a grid.
+//
+// Programs that are run by a processor check each reading of a uniform, and go through all sides of a condition: what
+// loops need is read before them, and they have few conditions.
 export function volumeHead(variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels' | 'hasHalved' | 'countsFetches'>): string {
     const counted = variant.countsFetches ? ' ++fetches;' : '';
+    const { hasUnevenLevels } = variant;
     return `#version 300 es
 precision highp float;
 precision highp int;
@@ -62,35 +78,54 @@ precision highp usampler3D;
 uniform sampler3D atlas;
 uniform usampler3D indirection;
 uniform sampler2D transfer;
-${variant.hasUnevenLevels ? 'uniform sampler2D levels;\nuniform vec2 levelRange; // of drawn heights' : 'uniform vec2 levelLine; // level = x + y * drawn height'}
+${hasUnevenLevels ? 'uniform sampler2D levels;\nuniform vec2 levelRange; // of drawn heights' : 'uniform vec2 levelLine; // level = x + y * drawn height'}
 uniform vec3 boxLow, boxHigh;
 uniform float brickHeights[66]; // drawn, of the lower ends of layers of bricks and of the last one's upper end
 uniform vec3 cells;
-uniform vec2 cellSize;
-uniform ivec3 slots;
-uniform vec3 atlasSize;
+uniform vec2 perCell; // cells a meter
+uniform vec3 slots; // along x, along y, and both multiplied
+uniform vec3 perTexel; // of the atlas
 uniform vec2 binLine; // bin = x + y * shown code
 uniform uint leastShown; // shown code
 uniform float near, stepM, slices, depthScale;
 out vec4 color;
 ${camera(variant.isPerspective)}
 const float edge = 16.0, padded = 18.0, enough = 0.001;
-
 ${variant.countsFetches ? 'int fetches = 0;' : ''}
-ivec3 held = ivec3(-1); // the brick whose entry the ray has
-uint heldEntry = 0u;
 
-float levelOf(float height) {${variant.hasUnevenLevels ? counted : ''}
+float levelOf(float height) {${hasUnevenLevels ? counted : ''}
 ${
-    variant.hasUnevenLevels
+    hasUnevenLevels
         ? `    float place = (height - levelRange.x) / (levelRange.y - levelRange.x);
     return texture(levels, vec2(place, 0.5)).r;`
         : '    return levelLine.x + levelLine.y * height;'
 }
 }
-vec3 cellOf(vec3 p) {
-    vec2 across = p.xy / cellSize + 0.5 * (cells.xy - 1.0);
-    return clamp(vec3(across, levelOf(p.z)), vec3(0.0), cells - 1.0);
+// Not yet within the grid.
+vec3 placeInCells(vec3 p) { return vec3(p.xy * perCell + 0.5 * (cells.xy - 1.0), levelOf(p.z)); }
+vec3 cellOf(vec3 p) { return clamp(placeInCells(p), vec3(0.0), cells - 1.0); }
+
+// A ray in cells. How far it went counts in any unit.
+struct Ray {
+    vec3 start, along, perCell;
+    vec3 ahead; // 1 along the axes on which it rises
+    vec3 last; // cell
+${hasUnevenLevels ? '    vec2 height; // drawn: at the start, and by how much it rises' : ''}
+};
+Ray rayOf(vec3 start, vec3 along) {
+    Ray ray;
+    ray.start = placeInCells(start);
+    ray.along = vec3(along.xy * perCell, ${hasUnevenLevels ? 'along.z' : 'levelLine.y * along.z'});
+    ray.ahead = step(0.0, ray.along);
+    ray.perCell = 1.0 / mix(vec3(1e-20), ray.along, step(1e-20, abs(ray.along)));
+    ray.last = cells - 1.0;
+${hasUnevenLevels ? '    ray.height = vec2(start.z, along.z);' : ''}
+    return ray;
+}
+vec3 cellAt(Ray ray, float far) {
+    vec3 place = ray.start + far * ray.along;
+${hasUnevenLevels ? '    place.z = levelOf(ray.height.x + far * ray.height.y);' : ''}
+    return clamp(place, vec3(0.0), ray.last);
 }
 // The depths between which a ray is in the box, as far as the slices go; the first is not the smaller one
 // of a ray that misses it.
@@ -101,43 +136,29 @@ vec2 depthsInBox(vec3 start, vec3 along) {
     return vec2(max(max(lows.x, lows.y), max(lows.z, near)), min(min(highs.x, highs.y), min(highs.z, near + slices * stepM)));
 }
 bool isEmpty(uint entry) { return (entry & 0x1FFFFFu) == 0u; }
+// What leads from cells to texels in a brick: an offset, and by what columns and rows are multiplied. Of a
+// slot and a half, no quotient is so near to a whole number that rounding matters.
+vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
+    float slot = float(entry & 0x1FFFFFu) - 1.0;
+    float z = floor((slot + 0.5) / slots.z);
+    float y = floor((slot - z * slots.z + 0.5) / slots.x);
+    vec4 place = vec4(vec3(slot - z * slots.z - y * slots.x, y, z) * padded + 1.5, 1.0);${variant.hasHalved ? halvedPlace : ''}
+    place.xyz -= vec3(brick) * edge;
+    return place;
+}
 // Eight cells of the atlas: code times share, and share.
-vec2 fetchAt(vec3 cell, ivec3 brick, uint entry) {
-    int slot = int(entry & 0x1FFFFFu) - 1;
-    ivec3 place = ivec3(slot % slots.x, (slot / slots.x) % slots.y, slot / (slots.x * slots.y));
-    ivec3 corner = brick;${variant.hasHalved ? halvedCell : ''}
-    vec3 at = vec3(place) * padded + (cell - vec3(corner) * edge) + 1.5;${counted}
-    return texture(atlas, at / atlasSize).rg;
+vec2 fetchAt(vec3 cell, vec4 place, vec3 perTexel) {${counted}
+    return texture(atlas, (${variant.hasHalved ? 'vec3(cell.xy * place.w, cell.z)' : 'cell'} + place.xyz) * perTexel).rg;
 }
-// The bin and the share of cells with values; 'skip' is set in a brick that shows nothing.
-vec2 sampleAt(vec3 p, out ivec3 brick, out bool skip) {
-    vec3 cell = cellOf(p);
-    brick = ivec3(cell / edge);
-    if (brick != held) {
-        heldEntry = texelFetch(indirection, brick, 0).r;${counted}
-        held = brick;
-    }
-    skip = isEmpty(heldEntry) || (heldEntry >> 24) < leastShown;
-    if (skip) return vec2(0.0);
-    vec2 found = fetchAt(cell, brick, heldEntry);
-    if (found.g < 0.002) return vec2(0.0);
-    float code = 255.0 * found.r / found.g;
-    return vec2(clamp(floor(binLine.x + binLine.y * code), 0.0, 255.0), found.g);
-}
-// The depth at which the ray leaves a brick. From a brick above which there is nothing it leaves all
+// How far the ray has gone when it leaves a brick. From a brick above which there is nothing it leaves all
 // columns of bricks about it that are as empty.
-float leaves(vec3 start, vec3 along, ivec3 brick, uint entry) {
+float leaves(Ray ray, ivec3 brick, uint entry) {
     float reach = isEmpty(entry) ? float((entry >> 21) & 7u) : 0.0;
     float beside = max(reach - 1.0, 0.0);
-    vec2 low = ((vec2(brick.xy) - beside) * edge - 0.5 * (cells.xy - 1.0)) * cellSize;
-    vec2 high = low + (2.0 * beside + 1.0) * edge * cellSize;
-    vec2 ahead = mix(low, high, step(0.0, along.xy));
-    vec2 depth = (ahead - start.xy) / along.xy;
-    float first = 1e30;
-    if (abs(along.x) > 1e-9) first = min(first, depth.x);
-    if (abs(along.y) > 1e-9) first = min(first, depth.y);
-    if (reach == 0.0 && abs(along.z) > 1e-9) first = min(first, (brickHeights[along.z > 0.0 ? brick.z + 1 : brick.z] - start.z) / along.z);
-    return first;
+    vec3 bounds = (vec3(brick) + vec3(mix(vec2(-beside), vec2(beside + 1.0), ray.ahead.xy), ray.ahead.z)) * edge;
+    vec3 far = (bounds - ray.start) * ray.perCell;
+${hasUnevenLevels ? '    far.z = (brickHeights[brick.z + int(ray.ahead.z)] - ray.height.x) * ray.perCell.z;' : ''}
+    return min(min(far.x, far.y), reach == 0.0 ? far.z : far.x);
 }`;
 }
 
@@ -157,9 +178,11 @@ ${lightAtText}`;
 
 // The light of two steps is that between them, but a step that shows much has its own.
 const stepLit = `
+        if (seen > 0.0) {
             bool isOwn = frontLight < 0.0 || seen > 0.02;
-            if (isOwn || mod(k, 2.0) < 0.5) frontLight = lightAt(cellOf(start + clamp(isOwn ? depth - 0.5 * stepM : depth, enter, leave) * along), looks);
-            lit += seen * frontLight;`;
+            if (isOwn || mod(k, 2.0) < 0.5) frontLight = lightAt(cellAt(ray, clamp(isOwn ? k + 0.5 : k + 1.0, first, end)), looks);
+            lit += seen * frontLight;
+        } else frontLight = -1.0;`;
 
 // What the ray has gathered, lit.
 const putLit = `
@@ -180,6 +203,7 @@ export function volumeFragment(variant: VolumeVariant): string {
     return `${volumeHead(variant)}
 ${endsAtSolids ? solidsText : ''}
 ${isLit ? litText : ''}
+flat in vec2 reach;
 void main() {
     color = vec4(0.0);
     vec3 start = rayStart(), along = rayStep();
@@ -187,44 +211,51 @@ void main() {
     float enter = depths.x, leave = depths.y;
 ${endsAtSolids ? '    leave = min(leave, solidAt());' : ''}
     if (!(enter < leave)) discard;
-    float lengthOfStep = depthScale * length(along);
-    float k = max(0.0, floor((enter - near) / stepM));
-    float last = min(slices, ceil((leave - near) / stepM));
-    ivec3 brick;
-    bool skip;
+    // From here on the ray goes from slice to slice.
+    float first = (enter - near) / stepM, end = (leave - near) / stepM;
+    float last = min(slices, ceil(min(end, (reach.y - near) / stepM)));
+    Ray ray = rayOf(start + near * along, stepM * along);
+    float depthOfHalf = 0.5 * depthScale * length(along);
+    vec3 slotsHere = slots, perTexelHere = perTexel;
+    vec2 binLineHere = vec2(binLine.x, 255.0 * binLine.y);
+    uint leastShownHere = leastShown;
     vec3 light = vec3(0.0);
     float through = 1.0;
-    vec2 front = sampleAt(start + clamp(near + k * stepM, enter, leave) * along, brick, skip);
+    vec2 front = vec2(0.0); // bin, and share of cells with values
+    ivec3 held = ivec3(-1); // the brick whose entry the ray has
+    uint entry = 0u;
 ${isLit ? '    float lit = 0.0, frontLight = -1.0;\n    vec3 looks = normalize(along);' : ''}
-    for (int guard = 0; guard < 8192; ++guard) {
-        if (k >= last || through < enough) break;
-        if (skip) {
-            float exit = min(leaves(start, along, brick, heldEntry), leave);
-            float ahead = floor((exit - near) / stepM);
-            if (ahead > k) { k = min(ahead, last); front = vec2(0.0);${isLit ? ' frontLight = -1.0;' : ''} if (k >= last) break; }
+    // The first step ends where the ray enters: it shows nothing.
+    for (float k = max(0.0, floor(max(first, (reach.x - near) / stepM))) - 1.0; k < last && through >= enough;) {
+        vec3 cell = cellAt(ray, clamp(k + 1.0, first, end));
+        ivec3 brick = ivec3(cell * (1.0 / edge));
+        for (; brick != held; held = brick) {
+            entry = texelFetch(indirection, brick, 0).r;${counted}
         }
-        float depth = near + (k + 1.0) * stepM;
-        vec2 back = sampleAt(start + clamp(depth, enter, leave) * along, brick, skip);
-        float share = 0.5 * (front.y + back.y);
+        bool isClear = (entry >> 24) < leastShownHere;
+        vec2 found = vec2(0.0);
+        if (!isClear) found = fetchAt(cell, placeOf(brick, entry, slotsHere), perTexelHere);
+        found.y = found.y < 0.002 ? 0.0 : found.y;
+        vec2 back = vec2(found.y > 0.0 ? clamp(floor(binLineHere.x + binLineHere.y * (found.x / found.y)), 0.0, 255.0) : 0.0, found.y);
+        vec4 look = vec4(0.0);
         // Bin 0 is clear: between two ends in it there is nothing to see.
-        if (share > 0.0 && front.x + back.x > 0.0) {
-            float one = front.y > 0.0 ? front.x : back.x;
-            float other = back.y > 0.0 ? back.x : front.x;
-            vec4 look = texelFetch(transfer, ivec2(int(other), int(one)), 0);${counted}
-            float inside = (min(depth, leave) - max(depth - stepM, enter)) / stepM;
-            float seen = through * (1.0 - exp(-look.a * lengthOfStep * share * max(inside, 0.0)));
-            light += seen * look.rgb;
-            through -= seen;
+        if (front.x + back.x > 0.0) {
+            look = texelFetch(transfer, ivec2(int(back.y > 0.0 ? back.x : front.x), int(front.y > 0.0 ? front.x : back.x)), 0);${counted}
+        }
+        float inside = max(0.0, min(k + 1.0, end) - max(k, first));
+        float seen = through * (1.0 - exp(-look.a * depthOfHalf * (front.y + back.y) * inside));
+        light += seen * look.rgb;
+        through -= seen;
 ${isLit ? stepLit : ''}
-        }${isLit ? ' else frontLight = -1.0;' : ''}
         front = back;
-        k += 1.0;
+        k = isClear ? max(k + 1.0, floor(leaves(ray, brick, entry))) : k + 1.0;
     }
 ${variant.countsFetches ? putFetches : variant.measuresLight ? putMeasured : isLit ? putLit : '    color = vec4(light, 1.0 - through);'}
 }`;
 }
 
-// Land as it was seen: light from low down, darker from high up only, hatched where it was not seen.
+// The ground as it was seen: light from low down, darker from high up only, hatched where it was not seen;
+// land and water each in their own shades.
 export function groundFragment(isPerspective: boolean): string {
     return `#version 300 es
 precision highp float;
@@ -234,7 +265,10 @@ uniform vec2 columns; // of the grid
 uniform float columnsATexel; // along each side
 uniform vec2 halfSize; // of the grid, in meters
 uniform float ground; // drawn height
-uniform vec3 page, beyond, notSeen, seenAloft, seen, hatch;
+uniform vec3 page, hatch;
+uniform vec3 landShades[4], waterShades[4]; // not seen, seen from high up only, seen from low down, beyond the grid
+uniform sampler2D water; // its share
+uniform vec2 waterHalf; // how far that reaches from the middle
 uniform float hatchScale;
 out vec4 color;
 ${camera(isPerspective)}
@@ -247,13 +281,16 @@ void main() {
     }
     vec2 at = (start + depth * along).xy;
     vec2 place = (at + halfSize) / (2.0 * halfSize);
+    // A shore is as sharp as a pixel, however near it is.
+    float share = texture(water, 0.5 + vec2(0.5, -0.5) * at / waterHalf).r - 0.5;
+    float isWater = clamp(0.5 + share / max(fwidth(share), 1e-3), 0.0, 1.0);
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) {
         float away = length(max(abs(at) - halfSize, 0.0)) / max(halfSize.x, halfSize.y);
-        color = vec4(mix(beyond, page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
+        color = vec4(mix(mix(landShades[3], waterShades[3], isWater), page, clamp(away / 1.5, 0.0, 1.0)), 1.0);
         return;
     }
     uint state = texelFetch(coverage, ivec2(place * columns / columnsATexel), 0).r;
-    vec3 shade = state == 2u ? seen : state == 1u ? seenAloft : notSeen;
+    vec3 shade = mix(landShades[state], waterShades[state], isWater);
     if (state == 0u) {
         vec2 p = floor(pixel());
         float period = 9.0 * hatchScale;
@@ -285,7 +322,7 @@ void main() {
     vec2 way = b.xy - a.xy;
     vec2 unit = length(way) > 1e-4 ? normalize(way) : vec2(1.0, 0.0);
     float side = float(gl_VertexID & 1) * 2.0 - 1.0;
-    bool isEnd = gl_VertexID >> 1 == 1;
+    bool isEnd = (gl_VertexID & 2) == 2;
     float half_ = 0.5 * width + 0.7;
     vec2 at = (isEnd ? b.xy + 0.3 * unit : a.xy - 0.3 * unit) + side * half_ * vec2(-unit.y, unit.x);
     off = side * half_;

@@ -6,6 +6,7 @@ export const shades = {
     seenAloft: [29, 32, 37],
     notSeen: [23, 25, 29],
     beyond: [25, 28, 33],
+    water: { seen: [22, 31, 46], seenAloft: [17, 24, 36], notSeen: [15, 20, 28], beyond: [14, 19, 29] },
     hatch: [78, 82, 92],
     haze: [104, 110, 122],
     ring: [160, 174, 194, 110],

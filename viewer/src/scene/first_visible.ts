@@ -2,6 +2,7 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { Cells } from './grid_box';
 import { Crop } from './layers';
 import { Plane, cellSizeM } from './projection';
 
@@ -40,8 +41,18 @@ function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): 
     return near < far ? [near, far] : null;
 }
 
+// Where the ray through a pixel enters and leaves a box, on the plane; null where it passes by.
+export function wayWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [Plane, Plane] | null {
+    const depths = depthsWithin(geometry, box, x, y);
+    const start = geometry.point(x, y, 0);
+    const way = geometry.along(x, y);
+    const at = (depth: number): Plane => [start[0] + depth * way[0], start[1] + depth * way[1]];
+    return depths && [at(depths[0]), at(depths[1])];
+}
+
 // The first cell along the ray through a pixel whose value is visible, within a box; null if there is none.
-export function firstVisible(grid: PackedGrid, geometry: ViewGeometry, box: Crop, x: number, y: number, isVisible: (value: number) => boolean): Seen | null {
+// `cells` is a grid, and where its middle is on the plane of the view.
+export function firstVisible({ grid, middle }: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, isVisible: (value: number) => boolean): Seen | null {
     const depths = depthsWithin(geometry, box, x, y);
     if (!depths) return null;
     const [width, height] = cellSizeM(grid);
@@ -55,7 +66,7 @@ export function firstVisible(grid: PackedGrid, geometry: ViewGeometry, box: Crop
     for (let depth = depths[0] + step / 2; depth < depths[1]; depth += step) {
         const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
         const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
-        const [column, row] = [Math.floor(at[0] / width + 0.5 * grid.nx), Math.floor(at[1] / height + 0.5 * grid.ny)];
+        const [column, row] = [Math.floor((at[0] - middle[0]) / width + 0.5 * grid.nx), Math.floor((at[1] - middle[1]) / height + 0.5 * grid.ny)];
         if (column < 0 || row < 0 || column >= grid.nx || row >= grid.ny) continue;
         const level = levelAt(grid, heightM);
         const code = codeAt(grid, column, row, level);

@@ -2,9 +2,39 @@
 
 import { Box, heightRange } from '../camera/geometry';
 import { PackedGrid } from '../wire/packed_grid';
-import { cellSizeM } from './projection';
+import { Plane, cellSizeM, halfWidthsM } from './projection';
 
 export function boxOf(grid: PackedGrid): Box {
-    const [width, height] = cellSizeM(grid);
-    return { halfXM: 0.5 * grid.nx * width, halfYM: 0.5 * grid.ny * height, ...heightRange(grid.levelsM) };
+    const [halfXM, halfYM] = halfWidthsM(grid);
+    return { halfXM, halfYM, ...heightRange(grid.levelsM) };
+}
+
+// A grid, and where its middle is on the plane of the one that is shown.
+export interface Cells {
+    grid: PackedGrid;
+    middle: Plane;
+}
+
+// Where the cells of a grid lie on a plane.
+export interface Extent {
+    westM: number;
+    southM: number;
+    eastM: number;
+    northM: number;
+}
+
+export function extentOf({ grid, middle }: Cells): Extent {
+    const { halfXM, halfYM } = boxOf(grid);
+    return { westM: middle[0] - halfXM, southM: middle[1] - halfYM, eastM: middle[0] + halfXM, northM: middle[1] + halfYM };
+}
+
+// The first cell of a grid in cells of the one that is shown, and how often it was halved.
+export interface Placing {
+    first: [number, number];
+    halvings: number;
+}
+export function placingOf(cells: Cells, shown: PackedGrid): Placing {
+    const [width, height] = cellSizeM(shown);
+    const { westM, southM } = extentOf(cells);
+    return { first: [westM / width + 0.5 * shown.nx, southM / height + 0.5 * shown.ny], halvings: cells.grid.halvings };
 }

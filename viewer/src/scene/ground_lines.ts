@@ -19,47 +19,54 @@ const reach = 2.2;
 const ringRank = 1e8;
 const siteRank = 1e9;
 
-function segmentsOf(lines: (Plane | null)[][], halfM: number): Float32Array {
+function segmentsOf(lines: (Plane | null)[][], halfM: number, isDrawn = (_line: number, _point: number) => true): Float32Array {
     const ends: number[] = [];
     const isNear = (p: Plane) => Math.abs(p[0]) < reach * halfM && Math.abs(p[1]) < reach * halfM;
-    for (const line of lines) {
+    lines.forEach((line, number) => {
         for (let i = 1; i < line.length; ++i) {
             const [a, b] = [line[i - 1]!, line[i]!];
-            if (a && b && (isNear(a) || isNear(b))) ends.push(a[0], a[1], b[0], b[1]);
+            if (a && b && (isNear(a) || isNear(b)) && isDrawn(number, i)) ends.push(a[0], a[1], b[0], b[1]);
         }
-    }
+    });
     return new Float32Array(ends);
 }
 
-// Areas are cut along meridians and parallels; these cuts are no coasts.
+// A line of the map, and its points on a plane; null where the plane has no place for one.
+export interface ProjectedLine {
+    line: MapLine;
+    points: (Plane | null)[];
+}
+export function projected(map: MapAnswer, plane: GridPlane): ProjectedLine[] {
+    return map.lines.map(line => ({ line, points: line.points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg })) }));
+}
+
+// Areas are cut along the edges of tiles of 2 by 2 degrees; these cuts are no coasts.
+const tileDeg = 2;
+export function isCut({ is_area, points }: MapLine, point: number): boolean {
+    const [from, to] = [points[point - 1]!, points[point]!];
+    return is_area && [0, 1].some(axis => from[axis] === to[axis] && from[axis]! % tileDeg === 0);
+}
 export function withoutCuts(line: MapLine): [number, number][][] {
-    if (!line.is_area) return [line.points];
     const pieces: [number, number][][] = [];
     let piece: [number, number][] = [];
-    for (const point of line.points) {
-        const last = piece[piece.length - 1];
-        if (last && (last[0] === point[0] || last[1] === point[1])) {
+    line.points.forEach((point, i) => {
+        if (i > 0 && isCut(line, i)) {
             pieces.push(piece);
             piece = [];
         }
         piece.push(point);
-    }
+    });
     pieces.push(piece);
     return pieces.filter(one => one.length > 1);
 }
 
-export function mapLines(map: MapAnswer, plane: GridPlane, halfM: number): MapLines[] {
+export function mapLines(all: ProjectedLine[], halfM: number): MapLines[] {
     const kinds = ['county', 'lake', 'state', 'coast', 'country'] as const;
-    return kinds.map(kind => ({
-        kind,
-        segments: segmentsOf(
-            map.lines
-                .filter(line => line.kind === kind)
-                .flatMap(withoutCuts)
-                .map(points => points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg }))),
-            halfM,
-        ),
-    }));
+    return kinds.map(kind => {
+        const own = all.filter(({ line }) => line.kind === kind);
+        const isDrawn = (number: number, point: number) => !isCut(own[number]!.line, point);
+        return { kind, segments: segmentsOf(own.map(({ points }) => points), halfM, isDrawn) };
+    });
 }
 
 // Rings about the first site, and the border of the grid.

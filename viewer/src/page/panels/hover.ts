@@ -25,7 +25,7 @@ export class Hover {
 
     begin(): void {
         for (const happening of ['choices', 'camera', 'map'] as const) this.app.on(happening, () => this.hide());
-        this.app.on('shown', () => this.put());
+        for (const happening of ['shown', 'cells'] as const) this.app.on(happening, () => this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
     }
@@ -45,8 +45,7 @@ export class Hover {
 
     private put(): void {
         if (!this.at) return;
-        const picked = pick(this.app, this.drawing, ...this.at);
-        // The codes of a grid that comes in parts are read by a click.
+        const picked = pick(this.app, this.drawing, ...this.at, true);
         if (!picked || (picked.value === null && picked.groundCode === null)) return;
         // The beam and the error come once the server has told them.
         if (!this.facts.known) this.facts.ask().then(() => this.put(), () => undefined);
@@ -64,6 +63,7 @@ export class Hover {
         const { units } = this.app.state;
         if (picked.value === null) return [texts.hover.ground(this.statusText(picked.groundCode!))];
         const lines = [texts.hover.value(valueText(picked.value, this.app.unit, units, mostDigits), heightText(picked.heightM, units))];
+        if (picked.halvings > 0) lines.push(texts.hover.greatestOf(picked.halvings));
         const { grid } = this.app.shown!.loaded;
         const { known } = this.facts;
         const beam = beamReading(grid.sites, known, picked.place, picked.heightM);

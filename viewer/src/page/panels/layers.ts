@@ -62,7 +62,7 @@ export class LayersPanel {
         this.addLayers();
         this.addKeys(keys);
         addMarks(this.app, this.drawing);
-        new SectionPlot(this.app);
+        new SectionPlot(this.app, this.drawing.windows!);
         for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
         this.drawing.layers!.rowsCame = () => this.put();
     }

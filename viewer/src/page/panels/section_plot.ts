@@ -9,6 +9,7 @@ import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
 import { fontOf, textScale } from '../dom';
 import { texts } from '../texts';
+import { Windows } from '../windows';
 
 const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pixels of the page
 const keyStep = 4;
@@ -49,7 +50,10 @@ export class SectionPlot {
     private cursor: [number, number] | null = null; // in pixels of the plot
     private drawn: readonly unknown[] = [];
 
-    constructor(private app: App) {
+    constructor(
+        private app: App,
+        private windows: Windows,
+    ) {
         this.box.id = 'section-plot';
         this.box.hidden = true;
         this.canvas.id = 'section-canvas';
@@ -64,7 +68,7 @@ export class SectionPlot {
         this.canvas.addEventListener('keydown', event => this.press(event));
         this.canvas.addEventListener('blur', () => this.point(null));
         window.addEventListener('resize', () => this.put());
-        for (const happening of ['view', 'shown', 'units'] as const) app.on(happening, () => this.put());
+        for (const happening of ['view', 'shown', 'units', 'cells'] as const) app.on(happening, () => this.put());
     }
 
     // In pixels that are larger on large screens.
@@ -77,18 +81,18 @@ export class SectionPlot {
         const { shown, table, state } = this.app;
         const ends = state.layers.section;
         const hasBeenHidden = this.box.hidden;
-        const isThere = shown !== null && shown.loaded.stream === null; // as a whole, from which can be cut
-        this.box.hidden = !ends || !isThere || !table;
-        if (!ends || !isThere || !table) {
+        const cells = shown && ends && this.windows.along(shown.loaded, ends);
+        this.box.hidden = !cells || !table;
+        if (!cells || !table || !ends || !shown) {
             this.drawn = [];
             return;
         }
         const [width, height] = this.size;
-        const now = [ends, shown.loaded, table, state.least, state.units, width, height];
+        const now = [ends, cells, table, state.least, state.units, width, height];
         if (!hasBeenHidden && now.every((part, i) => part === this.drawn[i])) return;
         this.drawn = now;
         const ratio = (window.devicePixelRatio || 1) * textScale();
-        this.section = cutSection(shown.loaded.grid, shown.moment, ends[0], ends[1], Math.round(width * ratio), Math.round(height * ratio));
+        this.section = cutSection(cells.grid, shown.moment, ends[0], ends[1], Math.round(width * ratio), Math.round(height * ratio));
         this.draw();
         this.say();
     }

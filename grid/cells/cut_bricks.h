@@ -1,0 +1,15 @@
+// grid/cells/cut_bricks.h -- a window of a quantized grid as a grid of its own.
+//
+// Threads   Pure function.
+// Errors    None: the window must lie within the grid and hold whole bricks (is_whole_bricks).
+// Accuracy  State and code of every cell are those of the grid.
+#pragma once
+
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid_window.h"
+
+namespace stormcellar::grid {
+
+[[nodiscard]] BrickGrid cut_bricks(const BrickView& view, const GridWindow& window);
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,72 @@
+// grid/cells/grid_tally.h -- counts what many grids of one shape show, for statistics over months
+// and years: of each column its greatest value and its echo top, and, where asked, each cell.
+//
+// What was not seen is counted apart from what had no echo, so that a blind region is not taken for
+// a dry one. Tallies of parts of a time, added in any order, are to the bit the tally of the whole
+// (grid/cells/value_tally.h, with units and accuracy).
+//
+// Range     2^32 grids.
+// Threads   Plain data; one thread at a time changes it.
+// Errors    bad_argument for grids of another shape or quantization.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "grid/cells/value_tally.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/grid/grid_spec.h"
+
+namespace stormcellar::grid {
+
+enum class Tallied { columns, columns_and_cells };
+
+class GridTally {
+  public:
+    static constexpr double echo_top_dbz = 18.5;
+
+    GridTally(GridSpec spec, Quantization quantization, Tallied tallied = Tallied::columns);
+
+    // Counts one grid: of each column whether any cell was seen, its greatest value, and the
+    // highest level with 18.5 dBZ.
+    [[nodiscard]] Status add(const BrickView& grid);
+    [[nodiscard]] Status add(const GridTally& more);
+
+    [[nodiscard]] const GridSpec& spec() const { return spec_; }
+    [[nodiscard]] const Quantization& quantization() const { return quantization_; }
+    [[nodiscard]] std::uint64_t grids() const { return grids_; }
+    // By iy * nx + ix.
+    [[nodiscard]] const ValueTally& columns() const { return columns_; }
+    // By GridSpec::index(); none if they are not counted.
+    [[nodiscard]] const std::optional<ValueTally>& cells() const { return cells_; }
+    [[nodiscard]] std::uint32_t tops_from(std::size_t column, std::size_t level) const;
+
+    // Returns all counts and sums as bytes() bytes, and takes them back. Errors: truncated,
+    // corrupt.
+    [[nodiscard]] std::vector<std::byte> to_bytes() const;
+    [[nodiscard]] Status from_bytes(std::span<const std::byte> bytes);
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_of(spec_, tallied()); }
+    [[nodiscard]] static std::uint64_t bytes_of(const GridSpec& spec, Tallied tallied);
+
+  private:
+    void count_column(const BrickView& grid, int ix, int iy);
+    void count_cells(const BrickView& grid, int ix, int iy);
+    [[nodiscard]] Status check_shape(const BrickView& grid) const;
+    [[nodiscard]] Tallied tallied() const {
+        return cells_ ? Tallied::columns_and_cells : Tallied::columns;
+    }
+
+    GridSpec spec_;
+    Quantization quantization_;
+    std::uint64_t grids_ = 0;
+    ValueTally columns_;
+    std::optional<ValueTally> cells_;
+    std::vector<std::uint32_t> tops_;  // by column, then level
+    std::uint16_t top_code_ = 0;       // the first that counts for the echo top
+};
+
+}  // namespace stormcellar::grid

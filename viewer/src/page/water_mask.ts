@@ -1,0 +1,41 @@
+// The share of water of each part of the ground, painted from the rings of coasts and lakes.
+
+import { WaterMask } from '../renderer/water_texture';
+import { Plane } from '../scene/projection';
+
+const cellsAcross = 1024;
+const farthest = 1e5; // in cells: what lies farther away is drawn as if it lay there
+
+// Within so far from the middle to the east and to the north.
+export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, halfYM: number): WaterMask {
+    const cellM = (2 * Math.max(halfXM, halfYM)) / cellsAcross;
+    const picture = document.createElement('canvas');
+    picture.width = Math.ceil((2 * halfXM) / cellM);
+    picture.height = Math.ceil((2 * halfYM) / cellM);
+    const pen = picture.getContext('2d', { alpha: false, willReadFrequently: true })!;
+    const bounded = (cells: number) => Math.min(farthest, Math.max(-farthest, cells));
+    const paint = (rings: Plane[][], color: string) => {
+        pen.beginPath();
+        for (const ring of rings) {
+            ring.forEach(([x, y], i) => {
+                const [column, row] = [bounded((x + halfXM) / cellM), bounded((halfYM - y) / cellM)];
+                if (i === 0) pen.moveTo(column, row);
+                else pen.lineTo(column, row);
+            });
+            pen.closePath();
+        }
+        pen.fillStyle = color;
+        pen.fill('nonzero');
+    };
+    // Where two rings touch, a cell may get a little of what is below, which the picture does not show:
+    // a place is water if half of it is.
+    // Sea, land in it, lakes in that.
+    pen.fillStyle = 'white';
+    pen.fillRect(0, 0, picture.width, picture.height);
+    paint(land, 'black');
+    paint(lakes, 'white');
+    const { data } = pen.getImageData(0, 0, picture.width, picture.height);
+    const shares = new Uint8Array(picture.width * picture.height);
+    for (let i = 0; i < shares.length; ++i) shares[i] = data[4 * i]!;
+    return { shares, width: picture.width, height: picture.height, halfXM, halfYM };
+}

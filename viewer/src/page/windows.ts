@@ -1,0 +1,145 @@
+// The cells of which layers and readings are made. A grid that is there as a whole has them all; of one in
+// parts the server is asked for a window, as fine as it is worth and as there is room for.
+
+import { BrickWindow, WindowLimits, boundsAbout, holds, windowAbout, windowQuery, windowSeen } from '../atlas/window_choice';
+import { Decoder } from '../atlas/decoder';
+import { ViewGeometry } from '../camera/geometry';
+import { GridInParts, LoadedGrid } from '../renderer/renderer';
+import { Cells } from '../scene/grid_box';
+import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } from '../scene/projection';
+import { packed } from '../wire/api';
+import { PackedGrid } from '../wire/packed_grid';
+
+// What a window is for. Of each there is one at a time.
+export type Purpose = 'layers' | 'light' | 'section' | 'ray';
+
+// Shares of the page's memory.
+const bytesOfWindow = 0.06;
+const fieldOfLayers = 0.05;
+const bytesOfFields = 10; // of a column, in two of them
+const fallsOfLight = 0.05;
+const columnsOfSection = 480;
+const pointsOfLine = 32;
+
+interface Held {
+    of: LoadedGrid; // whose window it is
+    asked: BrickWindow | null;
+    has: BrickWindow | null; // the last one that came
+    cells: Cells | null; // of it
+    abort: AbortController | null; // of the request on its way
+}
+
+export class Windows {
+    private held = new Map<Purpose, Held>();
+    private wholes = new WeakMap<PackedGrid, Cells>();
+
+    constructor(
+        private decoder: Decoder,
+        private budgetBytes: number,
+        private came: () => void,
+        private fail: (error: unknown) => void,
+    ) {}
+
+    // Something that layers are made of has not come yet.
+    get isWaiting(): boolean {
+        return [...this.held].some(([purpose, { abort }]) => purpose !== 'ray' && abort !== null);
+    }
+    get bytes(): number {
+        return [...this.held.values()].reduce((sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0), 0);
+    }
+    // How often the coarsest of what layers are made of was halved.
+    get coarsest(): number {
+        return Math.max(0, ...[...this.held].map(([purpose, { cells }]) => (purpose === 'ray' ? 0 : cells?.grid.halvings ?? 0)));
+    }
+
+    // What the view shows. While it moves, what was there before stays; null until something has come.
+    seen(loaded: LoadedGrid, purpose: 'layers' | 'light', geometry: ViewGeometry, isMoving: boolean): Cells | null {
+        const { grid, stream } = loaded;
+        if (!stream) return this.whole(grid);
+        if (isMoving) return this.cellsOf(loaded, purpose);
+        const placed = { geometry, edge: grid.brickEdge, cellSizeM: cellSizeM(grid) };
+        const window = windowSeen(placed, stream.pyramid, grid, this.limitsFor(purpose, grid));
+        return window && this.take(loaded, stream, purpose, window);
+    }
+
+    // What a line between two places crosses, with the cells beside it.
+    along(loaded: LoadedGrid, [from, to]: readonly [Place, Place]): Cells | null {
+        const { grid, stream } = loaded;
+        if (!stream) return this.whole(grid);
+        const way = geodesic(from, to);
+        const plane = planeOf(grid);
+        const points = Array.from({ length: pointsOfLine + 1 }, (_, i) => plane.toPlane(destination(from, way.azimuth, (i / pointsOfLine) * way.distanceM)));
+        // No finer than a plot of the section shows it.
+        const finest = Math.max(0, Math.floor(Math.log2(way.distanceM / columnsOfSection / Math.max(...cellSizeM(grid)))));
+        return this.about(loaded, stream, 'section', points.filter((point): point is Plane => point !== null), finest);
+    }
+
+    // What lies between points, exactly if there is room.
+    ray(loaded: LoadedGrid, points: readonly Plane[]): Cells | null {
+        const { grid, stream } = loaded;
+        return stream ? this.about(loaded, stream, 'ray', points, 0) : this.whole(grid);
+    }
+
+    private about(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, points: readonly Plane[], finest: number): Cells | null {
+        const { grid } = loaded;
+        const bounds = boundsAbout(points, grid);
+        if (!bounds) return null;
+        const level = Math.min(finest, stream.pyramid.levels.length - 1);
+        const window = windowAbout(bounds, level, 1, stream.pyramid, grid, this.limitsFor(purpose, grid));
+        this.take(loaded, stream, purpose, window);
+        const held = this.held.get(purpose)!;
+        return held.has && holds(held.has, window) ? held.cells : null;
+    }
+
+    private whole(grid: PackedGrid): Cells {
+        let cells = this.wholes.get(grid);
+        if (!cells) this.wholes.set(grid, (cells = { grid, middle: [0, 0] }));
+        return cells;
+    }
+
+    private limitsFor(purpose: Purpose, { nz }: PackedGrid): WindowLimits {
+        const bytes = bytesOfWindow * this.budgetBytes;
+        if (purpose === 'light') return { bytes, columns: (fallsOfLight * this.budgetBytes) / nz };
+        return { bytes, columns: (fieldOfLayers * this.budgetBytes) / bytesOfFields };
+    }
+
+    private cellsOf(loaded: LoadedGrid, purpose: Purpose): Cells | null {
+        const held = this.held.get(purpose);
+        return held?.of === loaded ? held.cells : null;
+    }
+
+    // The window, or until it comes the one before it.
+    private take(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, window: BrickWindow): Cells | null {
+        let held = this.held.get(purpose);
+        if (held?.of !== loaded) {
+            held?.abort?.abort();
+            this.held.set(purpose, (held = { of: loaded, asked: null, has: null, cells: null, abort: null }));
+        }
+        if (!held.asked || !holds(held.asked, window)) void this.fetch(held, loaded, stream, window);
+        return held.cells;
+    }
+
+    private async fetch(held: Held, { grid }: LoadedGrid, { domain, moment, time }: GridInParts, window: BrickWindow): Promise<void> {
+        held.abort?.abort();
+        const abort = (held.abort = new AbortController());
+        held.asked = window;
+        try {
+            const bytes = await packed(domain, moment, time, { ...windowQuery(window), codes: 'values', id: grid.id }, abort.signal);
+            const { grid: cells } = await this.decoder.ask({ kind: 'cells', bytes });
+            if (held.abort !== abort) return;
+            held.cells = { grid: cells!, middle: middleOn(grid, cells!) };
+            held.has = window;
+        } catch (error) {
+            if (held.abort !== abort || abort.signal.aborted) return;
+            this.fail(error);
+        }
+        held.abort = null;
+        this.came();
+    }
+
+    // What no layer and no reading needs is given back.
+    release(purpose: Purpose): void {
+        this.held.get(purpose)?.abort?.abort();
+        this.held.delete(purpose);
+    }
+}

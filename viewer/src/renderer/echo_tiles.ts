@@ -1,0 +1,143 @@
+// Where in the picture rays may meet echo that shows, and between which depths. The volume is drawn in these
+// squares of the picture alone: over most of a usual picture there is clear air.
+
+import { Atlas, slotOf } from '../atlas/atlas';
+import { ViewGeometry } from '../camera/geometry';
+import { cellSizeM } from '../scene/projection';
+import { PackedGrid } from '../wire/packed_grid';
+
+// A picture, or a small one of the same view, whose sides need not be whole pixels.
+export type RayView = Pick<ViewGeometry, 'width' | 'height' | 'eye' | 'right' | 'up' | 'forward' | 'focalPixels' | 'metersPerPixel' | 'isPerspective'>;
+
+// Where bricks begin along each axis, in drawn space, and the last one ends.
+export interface BrickEnds {
+    x: number[];
+    y: number[];
+    z: Float32Array; // as many as shaders take
+}
+
+// A sample belongs to the brick of the cell before it along each axis. Beyond the outermost cells it is as
+// there.
+export function brickEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry): BrickEnds {
+    const [width, height] = cellSizeM(grid);
+    const across = (count: number, cells: number, cellM: number, halfM: number) =>
+        Array.from({ length: count + 1 }, (_, i) => (i === 0 ? -halfM : i === count ? halfM : (i * grid.brickEdge - 0.5 * (cells - 1)) * cellM));
+    const heights = new Float32Array(mostLayers + 2);
+    for (let layer = 0; layer < heights.length; ++layer) {
+        const level = layer * grid.brickEdge;
+        const drawn = layer === 0 ? box.bottomM - 1 : level < grid.nz ? grid.levelsM[level]! : box.topM + 1;
+        heights[layer] = drawn * exaggeration;
+    }
+    return { x: across(grid.bricks[0], grid.nx, width, box.halfXM), y: across(grid.bricks[1], grid.ny, height, box.halfYM), z: heights };
+}
+
+export interface Tiles {
+    side: number; // in pixels
+    columns: number;
+    rows: number; // from the lower edge of the picture
+    points: Float32Array; // of each tile: x and y of its middle, from -1 to 1 over all tiles; least and greatest depth
+}
+
+const mostLayers = 64; // of bricks
+const sides = [16, 32, 64];
+const mostColumns = 64;
+
+// Whether rays stop in a brick: `leastShown` is the least shown code that is not clear.
+const shows = (entry: number, leastShown: number): boolean => slotOf(entry) >= 0 && entry >>> 24 >= leastShown;
+
+// What a box of drawn space covers: pixels from the lower left, and depths.
+interface Extent {
+    left: number;
+    right: number;
+    low: number;
+    high: number;
+    near: number;
+    far: number;
+}
+
+function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], zs: readonly number[]): Extent {
+    const { eye, right, up, forward, width, height } = view;
+    const extent: Extent = { left: Infinity, right: -Infinity, low: Infinity, high: -Infinity, near: Infinity, far: -Infinity };
+    for (let corner = 0; corner < 8; ++corner) {
+        const x = xs[corner & 1]! - eye[0];
+        const y = ys[(corner >> 1) & 1]! - eye[1];
+        const z = zs[corner >> 2]! - eye[2];
+        const depth = x * forward[0] + y * forward[1] + z * forward[2];
+        extent.near = Math.min(extent.near, depth);
+        extent.far = Math.max(extent.far, depth);
+        const scale = view.isPerspective ? view.focalPixels / depth : 1 / view.metersPerPixel;
+        const across = 0.5 * width + scale * (x * right[0] + y * right[1] + z * right[2]);
+        const upward = 0.5 * height + scale * (x * up[0] + y * up[1] + z * up[2]);
+        extent.left = Math.min(extent.left, across);
+        extent.right = Math.max(extent.right, across);
+        extent.low = Math.min(extent.low, upward);
+        extent.high = Math.max(extent.high, upward);
+    }
+    // A box that reaches behind the camera may be anywhere in the picture.
+    if (view.isPerspective && extent.near <= 0) return { left: 0, right: width, low: 0, high: height, near: 0, far: extent.far };
+    return extent;
+}
+
+function eachShownBrick({ bricks, indirection }: Pick<Atlas, 'bricks' | 'indirection'>, leastShown: number, visit: (x: number, y: number, z: number) => void): void {
+    const [bx, by] = bricks;
+    for (let i = 0; i < indirection.length; ++i) {
+        if (shows(indirection[i]!, leastShown)) visit(i % bx, Math.floor(i / bx) % by, Math.floor(i / (bx * by)));
+    }
+}
+
+export function tilesOf(view: RayView, atlas: Pick<Atlas, 'bricks' | 'indirection'>, ends: BrickEnds, leastShown: number): Tiles {
+    const { width, height } = view;
+    const side = sides.find(one => width <= one * mostColumns) ?? sides[sides.length - 1]!;
+    const [columns, rows] = [Math.ceil(width / side), Math.ceil(height / side)];
+    const near = new Float32Array(columns * rows).fill(Infinity);
+    const far = new Float32Array(columns * rows).fill(-Infinity);
+    eachShownBrick(atlas, leastShown, (x, y, z) => {
+        const extent = extentOf(view, ends.x.slice(x, x + 2), ends.y.slice(y, y + 2), [ends.z[z]!, ends.z[z + 1]!]);
+        if (view.isPerspective && extent.far <= 0) return;
+        const lastColumn = Math.min(columns - 1, Math.floor(extent.right / side));
+        const lastRow = Math.min(rows - 1, Math.floor(extent.high / side));
+        for (let row = Math.max(0, Math.floor(extent.low / side)); row <= lastRow; ++row) {
+            for (let column = Math.max(0, Math.floor(extent.left / side)); column <= lastColumn; ++column) {
+                const tile = row * columns + column;
+                near[tile] = Math.min(near[tile]!, extent.near);
+                far[tile] = Math.max(far[tile]!, extent.far);
+            }
+        }
+    });
+    const points: number[] = [];
+    for (let tile = 0; tile < near.length; ++tile) {
+        if (near[tile]! > far[tile]!) continue;
+        points.push((2 * (tile % columns) + 1) / columns - 1, (2 * Math.floor(tile / columns) + 1) / rows - 1, near[tile]!, far[tile]!);
+    }
+    return { side, columns, rows, points: new Float32Array(points) };
+}
+
+// Draws a point for each tile, by the program that is in use.
+export class TilePass {
+    private array: WebGLVertexArrayObject | null = null;
+    private buffer: WebGLBuffer | null = null;
+
+    constructor(private gl: WebGL2RenderingContext) {}
+
+    // After the context came back.
+    forget(): void {
+        this.array = this.buffer = null;
+    }
+
+    // The tiles at the right and the upper edge reach beyond the picture.
+    draw({ width, height }: RayView, tiles: Tiles, at: (name: string) => WebGLUniformLocation | null): void {
+        const { gl } = this;
+        this.array ??= gl.createVertexArray();
+        this.buffer ??= gl.createBuffer();
+        gl.bindVertexArray(this.array);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+        gl.bufferData(gl.ARRAY_BUFFER, tiles.points, gl.STREAM_DRAW);
+        gl.enableVertexAttribArray(0);
+        gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
+        gl.uniform1f(at('side'), tiles.side);
+        gl.viewport(0, 0, tiles.columns * tiles.side, tiles.rows * tiles.side);
+        gl.drawArrays(gl.POINTS, 0, tiles.points.length / 4);
+        gl.viewport(0, 0, Math.ceil(width), Math.ceil(height));
+        gl.bindVertexArray(null);
+    }
+}

@@ -1,0 +1,45 @@
+// Where the ground is water, as a texture.
+
+import { Graphics } from './graphics';
+
+export interface WaterMask {
+    shares: Uint8Array; // of water, of 255; rows from the northwest
+    width: number;
+    height: number;
+    halfXM: number; // how far it reaches from the middle
+    halfYM: number;
+}
+
+export class WaterTexture {
+    private mask: WaterMask | null = null;
+    private texture: WebGLTexture | null = null;
+
+    constructor(private graphics: Graphics) {}
+
+    // After the context came back: the mask is shown again by its owner.
+    forget(): void {
+        this.mask = this.texture = null;
+    }
+
+    // Null: all is land.
+    show(mask: WaterMask | null): void {
+        this.graphics.gl.deleteTexture(this.texture);
+        this.texture = null;
+        this.mask = mask;
+    }
+
+    bind(unit: number, at: (name: string) => WebGLUniformLocation | null): void {
+        const { gl } = this.graphics;
+        this.texture ??= this.upload();
+        this.graphics.bind(unit, gl.TEXTURE_2D, this.texture, at('water'));
+        gl.uniform2f(at('waterHalf'), this.mask?.halfXM ?? 1, this.mask?.halfYM ?? 1);
+    }
+
+    private upload(): WebGLTexture {
+        const { gl } = this.graphics;
+        const { width, height, shares } = this.mask ?? { width: 1, height: 1, shares: new Uint8Array(1) };
+        const texture = this.graphics.texture2d(gl.R8, gl.RED, gl.UNSIGNED_BYTE, width, height, shares);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
+        return texture;
+    }
+}
