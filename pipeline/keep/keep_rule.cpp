@@ -105,7 +105,8 @@ void remove_other_times(cache::StoreWriter& store, const std::string& domain, le
     for (const cache::StoreEntry& entry : *near) {
         if (entry.time == time || entry.pinned) continue;
         const auto file = cache::GridFile::open(entry.path);
-        if (file && times->has(file->description())) (void)store.remove(entry);
+        if (!file || !file->description().provenance.partial) continue;
+        if (times->has(file->description())) (void)store.remove(entry);
     }
 }
 

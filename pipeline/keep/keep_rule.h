@@ -45,8 +45,8 @@ void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& doma
                               level2::Moment moment, UtcTime time);
 
 // Removes grids of the same volume under another time: a volume of chunks is named by its first
-// radial until the chunk with its header comes. A radar makes one volume at a time, so a grid
-// whose radials lie within this volume is of it. A volume without its header removes nothing,
+// radial until the chunk with its header comes. A radar makes one volume at a time, so a partial
+// grid whose radials lie within this volume is of it. A volume without its header removes nothing,
 // since its beginning may have been deleted; nor does one whose source does not have the name of a
 // chunk (stormcellar/level2/chunk_name.h). Pinned grids, and grids that cannot be read or removed,
 // stay.
