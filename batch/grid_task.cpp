@@ -60,7 +60,9 @@ class GridRun {
         pipeline::Ingestor ingestor(*catalog, store_, ingest_options(brought->beneath));
         const auto done = files_done(brought->files);
         if (!done) return pass_on(done);
-        record_.files = brought->files.size();
+        record_.files = brought->files.size() + brought->left_out.size();
+        for (const pipeline::LeftOut& refused : brought->left_out)
+            leave_out(refused.path, refused.reason);
         for (const fs::path& path : brought->files) {
             if (done->contains(path)) {
                 ++record_.taken_by_hour.at(hour_of(path));
@@ -121,9 +123,7 @@ class GridRun {
         const auto size = fs::file_size(path, ignored);
         if (!ignored) record_.bytes_read += size;
         if (outcome->result() != IngestResult::gridded) {
-            record_.left_out.push_back(
-                {name, pipeline::reason_left_out(*outcome, recipe_.moments.front())});
-            ++record_.left_out_by_hour.at(hour_of(path));
+            leave_out(path, pipeline::reason_left_out(*outcome, recipe_.moments.front()));
             return {};
         }
         if (!outcome->reason.empty()) record_.notes.push_back({name, outcome->reason});
@@ -131,6 +131,11 @@ class GridRun {
         count_written(outcome->grids);
         count_written(outcome->partials);
         return {};
+    }
+
+    void leave_out(const fs::path& path, std::string reason) {
+        record_.left_out.push_back({path.filename().native(), std::move(reason)});
+        ++record_.left_out_by_hour.at(hour_of(path));
     }
 
     void count_written(const std::vector<fs::path>& paths) {

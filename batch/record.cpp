@@ -103,6 +103,10 @@ fs::path record_path(const fs::path& plan, std::size_t number) {
            fmt::format("{}.json", number);
 }
 
+std::string text_of(const Record& record) {
+    return json_of(record).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Status write_record(const fs::path& plan, const Record& record) {
     const fs::path path = record_path(plan, record.number);
     std::error_code error;
@@ -110,8 +114,7 @@ Status write_record(const fs::path& plan, const Record& record) {
     if (error) {
         return fail(ErrorCode::io, "{}: {}", path.parent_path().native(), error.message());
     }
-    const std::string text =
-        json_of(record).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string text = text_of(record);
     return write_file_atomically(real_file_system(), path, std::as_bytes(std::span(text)));
 }
 

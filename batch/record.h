@@ -54,6 +54,8 @@ inline constexpr std::size_t records_a_directory = 1000;
 [[nodiscard]] std::filesystem::path record_path(const std::filesystem::path& plan,
                                                 std::size_t number);
 
+// Returns what the file of a record has.
+[[nodiscard]] std::string text_of(const Record& record);
 [[nodiscard]] Status write_record(const std::filesystem::path& plan, const Record& record);
 // Returns none if there is no record, or it is damaged, or of another recipe or another task.
 [[nodiscard]] std::optional<Record> read_record(const Plan& plan, const Task& task);

@@ -212,14 +212,19 @@ Result<BroughtFiles> fetch_files(const Recipe& recipe, const StationDay& what, c
     const auto report = fetch::fetch(request);
     if (!report) return pass_on(report);
     if (report->stopped) return fail(ErrorCode::busy, "stopped while files were fetched");
-    if (!report->failures.empty()) {
-        const fetch::FetchFailure& first = report->failures.front();
-        return fail(ErrorCode::io, "{} of {} files could not be fetched: {}: {}",
-                    report->failures.size(), report->found, first.what, first.reason);
+    // What is listed and refused will not come with another try either. What failed may.
+    std::vector<pipeline::LeftOut> refused;
+    for (const fetch::FetchFailure& failure : report->failures) {
+        if (!failure.is_refused) {
+            return fail(ErrorCode::io, "{} of {} files could not be fetched: {}: {}",
+                        report->failures.size(), report->found, failure.what, failure.reason);
+        }
+        refused.push_back({fs::path(failure.what).filename(), failure.reason});
     }
+    std::ranges::sort(refused, {}, &pipeline::LeftOut::path);
     std::set<fs::path> files;
     if (Status added = add_files(scratch, what, span, files); !added) return pass_on(added);
-    return BroughtFiles{{files.begin(), files.end()}, scratch, {}};
+    return BroughtFiles{{files.begin(), files.end()}, scratch, std::move(refused)};
 }
 
 }  // namespace

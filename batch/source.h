@@ -68,7 +68,8 @@ struct BroughtFiles {
     std::vector<pipeline::LeftOut> left_out;
 };
 // Members of tars and files of a bucket are brought to `scratch`, with the times that they have
-// there. Errors: also io if a file of the bucket could not be fetched, and busy after a stop.
+// there. Files that the bucket lists and refuses to give are left out. Errors: also io if one could
+// not be fetched for another reason, and busy after a stop.
 [[nodiscard]] Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what,
                                          const std::filesystem::path& scratch,
                                          const std::atomic<bool>& stop);

@@ -157,8 +157,9 @@ class Fetching {
         }
         ++report_.found;
         if (object.size_bytes > most_file_bytes) {
-            fail_for_good(object.key, fmt::format("it has {} bytes, more than any volume has",
-                                                  object.size_bytes));
+            fail_for_good(
+                object.key,
+                fmt::format("it has {} bytes, more than any volume has", object.size_bytes), true);
             return;
         }
         auto download = std::make_shared<Download>();
@@ -172,9 +173,9 @@ class Fetching {
         get(download);
     }
 
-    void fail_for_good(const std::string& key, std::string reason) {
+    void fail_for_good(const std::string& key, std::string reason, bool is_refused = false) {
         ++failed_files_;
-        report_.failures.push_back({key, std::move(reason)});
+        report_.failures.push_back({key, std::move(reason), is_refused});
     }
 
     void get(const std::shared_ptr<Download>& download) {
@@ -224,12 +225,14 @@ class Fetching {
         const BucketObject& object = download->object;
         std::string reason = outcome.reason;
         bool again = outcome.may_be_tried_again;
+        bool is_refused = outcome.is_refused;
         std::error_code ignored;
         if (outcome.part_is_useless) fs::remove(download->part, ignored);
         if (std::exchange(download->too_long, false)) {
             reason = fmt::format("it has more than the {} bytes that the listing says",
                                  object.size_bytes);
             again = true;
+            is_refused = false;
             fs::remove(download->part, ignored);
         } else if (const std::string trouble = std::exchange(download->write_error, {});
                    !trouble.empty()) {
@@ -246,7 +249,7 @@ class Fetching {
             get(download);
             return;
         }
-        fail_for_good(object.key, reason);
+        fail_for_good(object.key, reason, is_refused);
     }
 
     void keep(const Download& download, const Transfer::Outcome& outcome) {

@@ -20,6 +20,11 @@ constexpr long http_too_many = 429;
 constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
 
+// Forbidden, not found, gone.
+bool is_for_good(long status) {
+    return status == 403 || status == 404 || status == 410;
+}
+
 // Returns true if the same request may succeed later: for errors of the network or of a busy
 // server.
 bool is_passing(CURLcode code, long status) {
@@ -196,6 +201,7 @@ void Transfers::finish_done() {
             outcome.may_be_tried_again =
                 !running->was_refused && (is_passing(code, status) || status == http_range ||
                                           status == http_changed || running->has_wrong_range);
+            outcome.is_refused = is_for_good(status);
             outcome.part_is_useless =
                 status == http_range || status == http_changed || running->has_wrong_range;
             const char* const text =

@@ -41,7 +41,8 @@ struct Transfer {
         bool may_be_tried_again = false;
         // it cannot continue at from_byte; only the whole object can be had
         bool part_is_useless = false;
-        std::string reason;  // set if it is not good
+        bool is_refused = false;  // the server answered, and will not give it
+        std::string reason;       // set if it is not good
         std::optional<UtcTime> modified;
     };
     // May add further transfers, including this one with another from_byte.

@@ -115,11 +115,21 @@ TEST(Source, ABucketIsFetchedToTheScratchDirectory) {
     // A file that cannot be had now may come with another try.
     fs::remove(brought->files[0]);
     bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
-                     std::vector(6, fetch::MockBucket::Fault::missing));
+                     std::vector(6, fetch::MockBucket::Fault::unavailable));
     const auto failed = bring(recipe, what, scratch.path(), stop);
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().code, ErrorCode::io);
     EXPECT_THAT(failed.error().message, HasSubstr("1 of 2 files could not be fetched"));
+
+    // What the bucket lists and does not give never comes.
+    bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
+                     {fetch::MockBucket::Fault::missing});
+    const auto without = bring(recipe, what, scratch.path(), stop);
+    ASSERT_TRUE(without) << without.error().message;
+    EXPECT_THAT(names_of(*without), ElementsAre("KTLX20170101_030627_V06"));
+    ASSERT_EQ(without->left_out.size(), 1U);
+    EXPECT_EQ(without->left_out[0].path, "KTLX20170101_030027_V06");
+    EXPECT_THAT(without->left_out[0].reason, HasSubstr("404"));
 }
 
 }  // namespace

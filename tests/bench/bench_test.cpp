@@ -132,6 +132,16 @@ TEST(BenchBatch, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     EXPECT_NE(said.err.find(", 12 frames"), std::string::npos) << said.err;
 }
 
+TEST(BenchRecords, ReadsSumsAndRecordsOfAllTasks) {
+    const testing::TemporaryDirectory work;
+    EXPECT_EQ(run_program(bench("bench_records"), {"--tasks", "0"}).status, 2);
+    const auto said = run_program(bench("bench_records"),
+                                  {"--json", "--tasks", "2345", "--work", work.path().string()});
+    ASSERT_EQ(said.status, 0) << said.err;
+    EXPECT_EQ(nlohmann::json::parse(said.out)["rows"][0]["tasks"], 2345);
+    EXPECT_TRUE(std::filesystem::is_empty(work.path())) << "removed at the end";
+}
+
 // One site, one thread: the keys of the paper's table.
 TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     STORMCELLAR_NEED_DATA();

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { PackedError, codeAt, readPackedGrid, valueOf } from '../src/wire/packed_grid';
+import { PackedError, codeAt, readPackedGrid, readPlace, valueOf } from '../src/wire/packed_grid';
 import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 
 // Bricks of each kind: values, mixed states, one state; edges that are no whole brick.
@@ -37,6 +37,14 @@ test('the header says what and where the grid is', () => {
     assert.deepEqual(grid.sites, [{ latitudeDeg: 35.3331, longitudeDeg: -97.2777, altitudeM: 389, icao: 'KTLX' }]);
     assert.equal(valueOf(grid, 3), -32);
     assert.equal(valueOf(grid, 83), 8);
+});
+
+test('where a grid is stands in its header, before it is decoded', () => {
+    const bytes = packedGrid({ ...mixed, spacing: 500 });
+    const place = readPlace(bytes);
+    assert.deepEqual(place, { projection: 0, nx: 49, ny: 21, centerDeg: [35.3331, -97.2777], spacing: 500, parallelsDeg: [0, 0], offsetCells: [0, 0] });
+    const grid: Record<string, unknown> = { ...readPackedGrid(bytes) };
+    for (const [name, value] of Object.entries(place)) assert.deepEqual(grid[name], value, name);
 });
 
 test('a form that is cut or is something else is refused, wherever it is cut', () => {

@@ -21,7 +21,7 @@ enum class Coding { identity, gzip, zstd };
 
 [[nodiscard]] Result<std::string> compressed(std::string_view bytes, Coding coding);
 inline constexpr int gzip_level = 4;
-inline constexpr int zstd_level = 3;
+inline constexpr int zstd_level = 5;
 // The same for what is compressed once and sent often: it takes longer, and is smaller.
 [[nodiscard]] Result<std::string> compressed_once(std::string_view bytes, Coding coding);
 inline constexpr int gzip_once_level = 9;

@@ -49,6 +49,8 @@ struct FetchRequest {
 struct FetchFailure {
     std::string what;  // a key of the bucket, or the listing that failed
     std::string reason;
+    // The server has this object no more, or does not give it to us: another try would fail, too.
+    bool is_refused = false;
 };
 
 struct FetchReport {

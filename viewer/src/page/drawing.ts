@@ -49,6 +49,7 @@ export class Drawing {
         this.app = app;
         this.renderer.prepare();
         this.ground = new Ground(app, this.renderer, () => this.draw());
+        app.loader.onPlace = (domain, place) => this.ground!.expect(domain, place);
         this.streaming = new Streaming(
             this.renderer,
             app.loader.decoder,

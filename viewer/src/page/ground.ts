@@ -1,12 +1,14 @@
 // The map below a grid: lines for the renderer, names for the labels.
 
+import { MapLines } from '../renderer/line_pass';
 import { Renderer } from '../renderer/renderer';
+import { WaterMask } from '../renderer/water_texture';
 import { boxOf } from '../scene/grid_box';
 import { Mark, cityMarks, mapLines, projected, ringLines } from '../scene/ground_lines';
-import { planeOf } from '../scene/projection';
+import { halfWidthsM, planeOf } from '../scene/projection';
 import { ringsOf } from '../scene/water';
 import { MapAnswer, map } from '../wire/api';
-import { PackedGrid } from '../wire/packed_grid';
+import { GridPlace, PackedGrid } from '../wire/packed_grid';
 import { App, Shown } from './app';
 import { waterMask } from './water_mask';
 
@@ -14,9 +16,9 @@ import { waterMask } from './water_mask';
 const widerThanGrid = 1.4;
 const coarseFromM = 6e5;
 
-async function mapAround(grid: PackedGrid): Promise<MapAnswer> {
-    const plane = planeOf(grid);
-    const { halfXM, halfYM } = boxOf(grid);
+async function mapAround(place: GridPlace): Promise<MapAnswer> {
+    const plane = planeOf(place);
+    const [halfXM, halfYM] = halfWidthsM(place);
     const corners = [-1, 0, 1].flatMap(x => [-1, 0, 1].map(y => plane.toPlace([x * widerThanGrid * halfXM, y * widerThanGrid * halfYM])));
     const degrees = (name: 'latitudeDeg' | 'longitudeDeg') => corners.map(corner => corner[name]);
     return map(
@@ -28,10 +30,31 @@ async function mapAround(grid: PackedGrid): Promise<MapAnswer> {
     );
 }
 
+interface MapOnPlane {
+    lines: MapLines[];
+    water: WaterMask;
+    cities: Mark[];
+}
+
+async function projectedMap(place: GridPlace): Promise<MapOnPlane> {
+    const found = await mapAround(place);
+    const plane = planeOf(place);
+    const [halfXM, halfYM] = halfWidthsM(place);
+    const all = projected(found, plane);
+    return {
+        lines: mapLines(all, Math.max(halfXM, halfYM)),
+        water: waterMask(ringsOf(all, 'coast', plane), ringsOf(all, 'lake', plane), widerThanGrid * halfXM, widerThanGrid * halfYM),
+        cities: cityMarks(found.cities, plane, halfXM, halfYM),
+    };
+}
+
+const keyOf = (domain: string, { nx, ny, spacing, centerDeg, offsetCells }: GridPlace): string => `${domain} ${nx} ${ny} ${spacing} ${centerDeg.join()} ${offsetCells.join()}`;
+
 export class Ground {
     marks: Mark[] = [];
     isWaiting = false; // for the map
-    private mapOf = '';
+    private asked: { key: string; found: Promise<MapOnPlane | null> } | null = null;
+    private shownKey = '';
 
     constructor(
         private app: App,
@@ -40,36 +63,43 @@ export class Ground {
     ) {}
 
     forget(): void {
-        this.mapOf = '';
+        this.shownKey = '';
+    }
+
+    // The map of a grid that comes is asked for while the grid is decoded.
+    expect(domain: string, place: GridPlace): void {
+        if (domain === this.app.state.domain) void this.ask(domain, place);
+    }
+
+    // Without a map the grid alone is shown.
+    private ask(domain: string, place: GridPlace): Promise<MapOnPlane | null> {
+        const key = keyOf(domain, place);
+        if (this.asked?.key !== key) this.asked = { key, found: projectedMap(place).catch(() => null) };
+        return this.asked.found;
     }
 
     async show({ domain, loaded }: Shown): Promise<void> {
         const { grid } = loaded;
-        const { units } = this.app.state;
-        const place = `${domain} ${grid.nx} ${grid.ny} ${grid.spacing} ${grid.centerDeg.join()} ${grid.offsetCells.join()}`;
-        const key = `${place} ${units.distance.name}`;
-        if (this.mapOf === key) return;
+        const place = keyOf(domain, grid);
+        const key = `${place} ${this.app.state.units.distance.name}`;
+        if (this.shownKey === key) return;
         // No map of another place lies below the grid.
-        if (!this.mapOf.startsWith(`${place} `)) this.put(loaded.grid, null);
-        this.mapOf = key;
+        if (!this.shownKey.startsWith(`${place} `)) this.put(grid, null);
+        this.shownKey = key;
         this.isWaiting = true;
-        // Without a map the grid alone is shown.
-        const found = await mapAround(grid).catch(() => null);
-        if (this.mapOf !== key) return;
+        const found = await this.ask(domain, grid);
+        if (this.shownKey !== key) return;
         this.isWaiting = false;
         if (found && this.app.state.domain === domain) this.put(grid, found);
         this.redraw();
     }
 
     // The rings need no server.
-    private put(grid: PackedGrid, found: MapAnswer | null): void {
-        const plane = planeOf(grid);
+    private put(grid: PackedGrid, found: MapOnPlane | null): void {
         const { halfXM, halfYM } = boxOf(grid);
-        const rings = ringLines(grid.sites, plane, halfXM, halfYM, this.app.state.units);
-        const all = found ? projected(found, plane) : [];
-        this.renderer.showLines([...mapLines(all, Math.max(halfXM, halfYM)), ...rings.lines]);
-        const reach = [halfXM, halfYM].map(half => widerThanGrid * half) as [number, number];
-        this.renderer.showWater(found && waterMask(ringsOf(all, 'coast', plane), ringsOf(all, 'lake', plane), ...reach));
-        this.marks = [...rings.marks, ...(found ? cityMarks(found.cities, plane, halfXM, halfYM) : [])];
+        const rings = ringLines(grid.sites, planeOf(grid), halfXM, halfYM, this.app.state.units);
+        this.renderer.showLines([...(found?.lines ?? []), ...rings.lines]);
+        this.renderer.showWater(found?.water ?? null);
+        this.marks = [...rings.marks, ...(found?.cities ?? [])];
     }
 }

@@ -9,7 +9,7 @@ import { Decoder } from '../atlas/decoder';
 import { Pyramid, levelWithin } from '../atlas/pyramid';
 import { WorkerAnswer } from '../atlas/worker';
 import { LoadedGrid } from '../renderer/renderer';
-import { PackedGrid } from '../wire/packed_grid';
+import { GridPlace, PackedGrid, readPlace } from '../wire/packed_grid';
 import { isRegion, packed, packedBetween } from '../wire/api';
 
 // How a budget of bytes is divided.
@@ -77,6 +77,9 @@ export class Loader {
 
     besides: () => number = () => 0; // bytes that the page holds beside whole grids and their atlases
 
+    // Hears where a grid lies while it is decoded.
+    onPlace: ((domain: string, place: GridPlace) => void) | null = null;
+
     constructor(
         readonly budget: Budget,
         private mostTexels: number,
@@ -119,7 +122,10 @@ export class Loader {
     private async fetch(domain: string, moment: string, time: string, isBetween: boolean): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
         const bytes = await (isBetween || isRegion(domain) ? packedBetween(domain, moment, time) : packed(domain, moment, time, { most: String(this.budget.mostWhole), codes: 'values' }));
-        const answer = await this.decoder.ask({ kind: 'grid', key, bytes, mostTexels: this.mostTexels });
+        const place = readPlace(new Uint8Array(bytes));
+        const decoded = this.decoder.ask({ kind: 'grid', key, bytes, mostTexels: this.mostTexels });
+        this.onPlace?.(domain, place);
+        const answer = await decoded;
         const { grid, atlas, coverage } = answer;
         const loaded = atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : await this.fetchFirst(domain, moment, time, answer);
         this.keep(key, loaded);

@@ -3,7 +3,7 @@
 import { WaterMask } from '../renderer/water_texture';
 import { Plane } from '../scene/projection';
 
-const cellsAcross = 2048;
+const cellsAcross = 1024;
 const farthest = 1e5; // in cells: what lies farther away is drawn as if it lay there
 
 // Within so far from the middle to the east and to the north.
@@ -12,7 +12,7 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
     const picture = document.createElement('canvas');
     picture.width = Math.ceil((2 * halfXM) / cellM);
     picture.height = Math.ceil((2 * halfYM) / cellM);
-    const pen = picture.getContext('2d', { alpha: false })!;
+    const pen = picture.getContext('2d', { alpha: false, willReadFrequently: true })!;
     const bounded = (cells: number) => Math.min(farthest, Math.max(-farthest, cells));
     const paint = (rings: Plane[][], color: string) => {
         pen.beginPath();
@@ -34,5 +34,8 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
     pen.fillRect(0, 0, picture.width, picture.height);
     paint(land, 'black');
     paint(lakes, 'white');
-    return { picture, halfXM, halfYM };
+    const { data } = pen.getImageData(0, 0, picture.width, picture.height);
+    const shares = new Uint8Array(picture.width * picture.height);
+    for (let i = 0; i < shares.length; ++i) shares[i] = data[4 * i]!;
+    return { shares, width: picture.width, height: picture.height, halfXM, halfYM };
 }

@@ -3,7 +3,9 @@
 import { Graphics } from './graphics';
 
 export interface WaterMask {
-    picture: TexImageSource; // white is water, black is land; from the northwest
+    shares: Uint8Array; // of water, of 255; rows from the northwest
+    width: number;
+    height: number;
     halfXM: number; // how far it reaches from the middle
     halfYM: number;
 }
@@ -35,8 +37,8 @@ export class WaterTexture {
 
     private upload(): WebGLTexture {
         const { gl } = this.graphics;
-        const texture = this.graphics.texture2d(gl.R8, gl.RED, gl.UNSIGNED_BYTE, 1, 1, new Uint8Array(1));
-        if (this.mask) gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, gl.RED, gl.UNSIGNED_BYTE, this.mask.picture);
+        const { width, height, shares } = this.mask ?? { width: 1, height: 1, shares: new Uint8Array(1) };
+        const texture = this.graphics.texture2d(gl.R8, gl.RED, gl.UNSIGNED_BYTE, width, height, shares);
         for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
         return texture;
     }

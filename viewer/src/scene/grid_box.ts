@@ -2,11 +2,11 @@
 
 import { Box, heightRange } from '../camera/geometry';
 import { PackedGrid } from '../wire/packed_grid';
-import { Plane, cellSizeM } from './projection';
+import { Plane, cellSizeM, halfWidthsM } from './projection';
 
 export function boxOf(grid: PackedGrid): Box {
-    const [width, height] = cellSizeM(grid);
-    return { halfXM: 0.5 * grid.nx * width, halfYM: 0.5 * grid.ny * height, ...heightRange(grid.levelsM) };
+    const [halfXM, halfYM] = halfWidthsM(grid);
+    return { halfXM, halfYM, ...heightRange(grid.levelsM) };
 }
 
 // A grid, and where its middle is on the plane of the one that is shown.

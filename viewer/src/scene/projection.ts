@@ -4,7 +4,7 @@
 // Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude with
 // the meters at the center, as the pictures have it.
 
-import { PackedGrid } from '../wire/packed_grid';
+import { GridPlace } from '../wire/packed_grid';
 
 const a = 6378137;
 const f = 1 / 298.257223563;
@@ -159,17 +159,21 @@ export const enum ProjectionNumber {
     lambertConformal = 2,
 }
 
-type GridGeometry = Pick<PackedGrid, 'projection' | 'centerDeg' | 'parallelsDeg' | 'offsetCells' | 'spacing' | 'nx' | 'ny'>;
-
 // Widths of a cell to the east and to the north, in drawn meters.
-export function cellSizeM(grid: GridGeometry): [number, number] {
+export function cellSizeM(grid: GridPlace): [number, number] {
     if (grid.projection !== ProjectionNumber.latitudeLongitude) return [grid.spacing, grid.spacing];
     const [east, north] = metersOfADegree(grid.centerDeg[0]);
     return [grid.spacing * east, grid.spacing * north];
 }
 
+// Half of what the grid covers to the east and to the north, in drawn meters.
+export function halfWidthsM(grid: GridPlace): [number, number] {
+    const [width, height] = cellSizeM(grid);
+    return [0.5 * grid.nx * width, 0.5 * grid.ny * height];
+}
+
 // The plane has its origin in the middle of the grid, which may lie off its center.
-export function planeOf(grid: GridGeometry): GridPlane {
+export function planeOf(grid: GridPlace): GridPlane {
     const center: Place = { latitudeDeg: grid.centerDeg[0], longitudeDeg: grid.centerDeg[1] };
     const own =
         grid.projection === ProjectionNumber.latitudeLongitude
@@ -189,7 +193,7 @@ export function planeOf(grid: GridGeometry): GridPlane {
 }
 
 // Where the middle of a grid is on the plane of another one with the same center, as of a window of a grid.
-export function middleOn(plane: GridGeometry, grid: GridGeometry): Plane {
+export function middleOn(plane: GridPlace, grid: GridPlace): Plane {
     const [whole, own] = [cellSizeM(plane), cellSizeM(grid)];
     return [grid.offsetCells[0] * own[0] - plane.offsetCells[0] * whole[0], grid.offsetCells[1] * own[1] - plane.offsetCells[1] * whole[1]];
 }

@@ -26,17 +26,21 @@ export interface Site {
     icao: string;
 }
 
-export interface PackedGrid {
-    id: string;
-    halvings: number; // how often columns and rows were halved
+// Where the columns of a grid are on the earth.
+export interface GridPlace {
     projection: number;
     nx: number;
     ny: number;
-    nz: number;
     centerDeg: [number, number]; // latitude, longitude
     spacing: number; // meters, or degrees of a grid in latitude and longitude
     parallelsDeg: [number, number];
     offsetCells: [number, number];
+}
+
+export interface PackedGrid extends GridPlace {
+    id: string;
+    halvings: number; // how often columns and rows were halved
+    nz: number;
     momentNumber: number;
     codeBytes: number;
     firstValue: number;
@@ -149,6 +153,17 @@ class Header {
     get data(): DataView {
         return this.view;
     }
+    get place(): GridPlace {
+        return {
+            projection: this.u32(32),
+            nx: this.u32(36),
+            ny: this.u32(40),
+            centerDeg: [this.f64(48), this.f64(56)],
+            spacing: this.f64(64),
+            parallelsDeg: [this.f64(72), this.f64(80)],
+            offsetCells: [this.f64(88), this.f64(96)],
+        };
+    }
     // The section of the blocks of states or of codes; its offset stands at `offsetAt`.
     section(offsetAt: number, size: number): Uint8Array {
         if (size === 0) return new Uint8Array(0);
@@ -180,6 +195,11 @@ function readTable(header: Header, grid: PackedGrid): void {
     }
 }
 
+// What the header says, before the rest is read.
+export function readPlace(bytes: Uint8Array): GridPlace {
+    return new Header(bytes).place;
+}
+
 // A whole grid, or the table of one, which has no states and codes.
 export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole: boolean } {
     const header = new Header(bytes);
@@ -201,14 +221,8 @@ export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole:
     const grid: PackedGrid = {
         id: header.id,
         halvings: u32(164),
-        projection: u32(32),
-        nx: u32(36),
-        ny: u32(40),
+        ...header.place,
         nz,
-        centerDeg: [f64(48), f64(56)],
-        spacing: f64(64),
-        parallelsDeg: [f64(72), f64(80)],
-        offsetCells: [f64(88), f64(96)],
         momentNumber: u32(104),
         codeBytes: header.codeBytes,
         firstValue: header.f32(112),
