@@ -34,7 +34,7 @@ async function begin(): Promise<void> {
     const reader = new Reader(app, drawing, hover);
     const editing = new TableEditing(app);
     const pointers = new Pointers(app, drawing, reader);
-    addChoices(app);
+    addChoices(app, facts);
     addLook(app, drawing, keys, editing);
     addTimeline(app, keys);
     addUnits(app);
