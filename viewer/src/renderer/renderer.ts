@@ -103,6 +103,9 @@ export class Renderer {
     get mostTexels(): number {
         return this.graphics.mostTexels;
     }
+    get isSoftware(): boolean {
+        return this.graphics.isSoftware;
+    }
     get compiledVariants(): string[] {
         return this.graphics.compiledVariants;
     }
