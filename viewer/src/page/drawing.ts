@@ -10,6 +10,7 @@ import { App } from './app';
 import { ColorBar } from './color_bar';
 import { element, textScale } from './dom';
 import { Ground } from './ground';
+import { drawHeightScale } from './height_scale';
 import { LayerMaker } from './layer_maker';
 import { clearLabels, drawLabels } from './labels';
 import { Streaming } from './streaming';
@@ -211,7 +212,7 @@ export class Drawing {
             this.labels.height = geometry.height;
         }
         const scale = textScale();
-        const taken = [...document.querySelectorAll('header, footer, section, #bar')]
+        const taken = [...document.querySelectorAll('header, footer, section, #bar, #legend')]
             .map(one => one.getBoundingClientRect())
             .filter(rect => rect.width > 0)
             .map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale }));
@@ -221,7 +222,8 @@ export class Drawing {
         if (this.app!.state.hasGround) {
             pen.save();
             pen.scale(scale, scale);
-            drawLabels(pen, geometry, this.ground!.marks, taken, ratio * scale);
+            const scaleOfHeights = drawHeightScale(pen, geometry, this.app!.state.units, taken, ratio * scale);
+            drawLabels(pen, geometry, this.ground!.marks, [...taken, ...scaleOfHeights], ratio * scale);
             pen.restore();
         }
         for (const overlay of this.overlays) {

@@ -122,6 +122,11 @@ export const texts = {
     greatestAt: (value: string, height: string) => `Greatest ${value} at ${height} above sea level`,
     seenBetween: (from: string, to: string) => `seen ${from} – ${to} above sea level`,
     units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
+    legend: {
+        name: 'What the shades mean',
+        aloft: 'seen only > 3 km',
+        heights: (times: number) => `heights\u00a0×\u00a0${times}`,
+    },
     partial: 'Partial volume',
     quality: 'Exactness',
     asTimeAllows: 'as time allows',
