@@ -22,6 +22,8 @@ const domain = await viewer.told('domain');
 check(`a box over two sites opens ${domain}`, domain.startsWith('region:'));
 const title = await page.evaluate("document.getElementById('title').innerText");
 check(`it has both: ${title}`, title.includes(one) && title.includes(other));
+const sites = await page.until("!document.getElementById('sites-told').hidden && document.getElementById('sites-told').innerText");
+check(`it says how far the volumes of each are from the instant: ${sites}`, [one, other].every((station) => new RegExp(`${station} (as it was|from volumes)`).test(sites)));
 check('it is drawn', shadesOf(await viewer.pixels()).size > 100);
 const drawn = await page.evaluate('document.documentElement.dataset.drawn');
 if (pictures) {

@@ -11,6 +11,7 @@
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/projection.h"
 #include "tests/cache/made_grids.h"
+#include "tests/grid/moving_blobs.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
 #include "web/data/packed_grid.h"
@@ -131,9 +132,60 @@ TEST_F(Region, TakesVolumesNearTheInstantAlone) {
     const auto times = region_times(*grids_, made);
     EXPECT_EQ(times,
               (std::vector<UtcTime>{testing::noon, testing::noon + std::chrono::minutes{5}}));
+    commit(grid_of("KBGM", value_of_kbgm, testing::noon + std::chrono::minutes{14}));
+    grids_->refresh();
+    EXPECT_EQ(region_times(*grids_, made).size(), 4u) << "and those between volumes of a site";
     const auto late = make_region(*grids_, made, testing::noon + std::chrono::hours{2});
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().code, ErrorCode::not_found);
+}
+
+// Echo that drifts by 20 m/s, in two volumes with middles at 12:02 and 12:08: at 12:05 it is
+// halfway, and the nearer volume alone would show it 3.6 km aside.
+TEST_F(Region, EchoIsMovedToTheInstant) {
+    const std::vector<grid::Blob> blobs = {
+        {-60, -40, 25, 55, 20, 5}, {30, 50, 20, 50, 20, 5}, {60, -50, 30, 45, 20, 5}};
+    const auto at = [&](int seconds) {
+        grid::Grid made = grid_of("KMLB", 0, testing::noon + std::chrono::seconds{seconds});
+        const grid::Grid echo = grid::blob_grid(made.spec, blobs, seconds + 120, 160);
+        made.values = echo.values;
+        made.status = echo.status;
+        return made;
+    };
+    commit(at(0));
+    commit(at(360));
+    grids_->refresh();
+    const Station station = *find_station("KMLB");
+    const RegionPlan made = plan({station.longitude_deg - 1, station.latitude_deg - 0.8,
+                                  station.longitude_deg + 1, station.latitude_deg + 0.8});
+    ASSERT_EQ(made.sites, std::vector<std::string>{"KMLB"}) << "no other site reaches it";
+    const UtcTime instant = testing::noon + std::chrono::minutes{5};
+    const auto frame = make_region(*grids_, made, instant);
+    ASSERT_TRUE(frame) << frame.error().message;
+    const grid::BrickView view = frame->mosaic.cells.view();
+    const auto rms_against = [&](double t_s) {
+        double squares = 0;
+        int cells = 0;
+        for (int iy = 0; iy < made.spec.ny; ++iy) {
+            for (int ix = 0; ix < made.spec.nx; ++ix) {
+                const double x_km = made.spec.x_m(ix) / 1000, y_km = made.spec.y_m(iy) / 1000;
+                const double truth = grid::blobs_dbz(blobs, x_km, y_km, t_s);
+                if (truth < 20) continue;
+                EXPECT_EQ(view.status(ix, iy, 1), grid::CellStatus::value);
+                squares += std::pow(static_cast<double>(view.value(ix, iy, 1)) - truth, 2);
+                ++cells;
+            }
+        }
+        EXPECT_GT(cells, 500);
+        return std::sqrt(squares / cells);
+    };
+    EXPECT_LT(rms_against(300), 1);
+    EXPECT_GT(rms_against(480), 2) << "where it would be without motion";
+    const auto sites = region_sites(*grids_, made, instant);
+    ASSERT_TRUE(sites);
+    ASSERT_EQ(sites->size(), 1u);
+    EXPECT_EQ(RegionSite::seconds_to(*sites->front().before, instant), -180);
+    EXPECT_EQ(RegionSite::seconds_to(*sites->front().after, instant), 180);
 }
 
 // The plan goes by the newest grids; an older one had fewer levels.
@@ -185,6 +237,17 @@ TEST_F(Region, TheApiNamesSitesTimesAndPathsAndPacksThem) {
     commit(grid_of("KBGM", 30, testing::noon));
     grids_->refresh();
     EXPECT_NE(body_of(asked(*door_, path)), bytes);
+}
+
+TEST_F(Region, TheApiSaysOfWhichVolumesEachSiteIsMade) {
+    const Json instant = json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/2024-11-22T12:05:00Z/sites");
+    EXPECT_EQ(instant["time"], "2024-11-22T12:05:00Z");
+    EXPECT_EQ(instant["sites"],
+              (Json{{{"site", "KBGM"},
+                     {"volumes", {{{"time", "2024-11-22T12:00:00Z"}, {"middle_s", -180}}}}},
+                    {{"site", "KCCX"},
+                     {"volumes", {{{"time", "2024-11-22T12:06:00Z"}, {"middle_s", 180}}}}}}));
+    json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/soon/sites", 404);
 }
 
 TEST_F(Region, ErrorsSayWhatIsWrong) {

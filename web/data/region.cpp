@@ -10,6 +10,7 @@
 #include "stormcellar/grid/grid_window.h"
 #include "stormcellar/grid/projection.h"
 #include "web/data/halved_grid.h"
+#include "web/data/nearest_columns.h"
 
 namespace stormcellar::web {
 namespace {
@@ -113,63 +114,69 @@ struct LaidGrid {
     std::optional<grid::BrickGrid> bricks;
 };
 
-// Copies the nearest columns of a grid to a window of the region.
-grid::BrickGrid laid_cells(const grid::BrickView& from, const grid::GridSpec& window) {
-    grid::Grid laid;
-    laid.spec = window;
-    laid.values.assign(window.cell_count(), 0.0F);
-    laid.status.assign(window.cell_count(), grid::CellStatus::not_seen);
-    const grid::GridProjection here(*from.spec), there(window);
-    for (int iy = 0; iy < window.ny; ++iy) {
-        for (int ix = 0; ix < window.nx; ++ix) {
-            const grid::GeoPoint place =
-                there.to_geo({static_cast<double>(ix), static_cast<double>(iy)});
-            const grid::ColumnPoint at = here.to_column(place);
-            const double x = std::round(at.x), y = std::round(at.y);
-            if (!(x >= 0) || !(y >= 0) || x >= from.spec->nx || y >= from.spec->ny) continue;
-            for (int iz = 0; iz < window.nz(); ++iz) {
-                const auto status = from.status(static_cast<int>(x), static_cast<int>(y), iz);
-                const std::size_t to = window.index(ix, iy, iz);
-                laid.status[to] = status;
-                if (status == grid::CellStatus::value)
-                    laid.values[to] = from.value(static_cast<int>(x), static_cast<int>(y), iz);
-            }
+// Lays the volumes of a site; two with the same cells by the same columns.
+class SiteLayer {
+  public:
+    explicit SiteLayer(const RegionPlan& plan) : plan_(&plan) {}
+
+    // None if the site's grid does not reach the region.
+    Result<std::optional<LaidGrid>> lay(std::shared_ptr<const OpenGrid> source) {
+        LaidGrid laid{std::move(source), {}, {}};
+        laid.description = laid.source->file.description();
+        grid::BrickView view = laid.source->file.view();
+        std::shared_ptr<const grid::BrickGrid> half;
+        if (plan_->halvings > 0) {
+            auto made = halved(view, plan_->moment, plan_->halvings, HalvedBy::maximum);
+            if (!made) return pass_on(made);
+            half = std::move(*made);
+            view = half->view();
         }
+        const auto window = grid::site_window(plan_->spec, laid.description.sites.front(),
+                                              reach_of_grid(laid.description.spec));
+        if (!window) return std::optional<LaidGrid>{};
+        laid.description.spec = grid::window_spec(plan_->spec, *window);
+        if (!columns_ || !(from_ == *view.spec) || !(to_ == laid.description.spec)) {
+            from_ = *view.spec;
+            to_ = laid.description.spec;
+            columns_.emplace(from_, to_);
+        }
+        laid.bricks = columns_->lay(view);
+        // Codes that were cut meanwhile read as zeros, which are not seen.
+        if (Status whole = laid.source->file.check_whole(); !whole) return pass_on(whole);
+        return std::optional<LaidGrid>{std::move(laid)};
     }
-    return grid::BrickGrid::from(laid, from.quantization, threads_of_a_region);
+
+  private:
+    const RegionPlan* plan_;
+    grid::GridSpec from_, to_;
+    std::optional<NearestColumns> columns_;
+};
+
+UtcTime middle_of(const OpenGrid& grid) {
+    const cache::GridDescription& description = grid.file.description();
+    return description.start_time + (description.end_time - description.start_time) / 2;
 }
 
-// None if the site's grid does not reach the region.
-Result<std::optional<LaidGrid>> laid_grid(std::shared_ptr<const OpenGrid> source,
-                                          const RegionPlan& plan) {
-    LaidGrid laid{std::move(source), {}, {}};
-    laid.description = laid.source->file.description();
-    grid::BrickView view = laid.source->file.view();
-    std::shared_ptr<const grid::BrickGrid> half;
-    if (plan.halvings > 0) {
-        auto made = halved(view, plan.moment, plan.halvings, HalvedBy::maximum);
-        if (!made) return pass_on(made);
-        half = std::move(*made);
-        view = half->view();
-    }
-    const auto window = grid::site_window(plan.spec, laid.description.sites.front(),
-                                          reach_of_grid(laid.description.spec));
-    if (!window) return std::optional<LaidGrid>{};
-    laid.description.spec = grid::window_spec(plan.spec, *window);
-    laid.bricks = laid_cells(view, laid.description.spec);
-    // Codes that were cut meanwhile read as zeros, which are not seen.
-    if (Status whole = laid.source->file.check_whole(); !whole) return pass_on(whole);
-    return std::optional<LaidGrid>{std::move(laid)};
-}
-
-// The grid of a site whose middle is nearest to an instant, if one is near enough.
-std::optional<UtcTime> nearest_grid_time(const Grids& grids, const std::string& site,
-                                         level2::Moment moment, UtcTime instant) {
+// The volumes of a site about an instant: the last whose middle is not after it, and the next one.
+// Grids have the times of their beginnings, so that a few before the instant are looked at.
+Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const RegionPlan& plan,
+                                 UtcTime instant) {
     const auto gap = pipeline::FrameOptions{}.greatest_gap;
-    const auto times = grids.times(site, moment, instant - 2 * gap, instant + gap);
-    if (times.empty()) return std::nullopt;
-    return *std::ranges::min_element(
-        times, {}, [&](UtcTime time) { return std::abs(seconds_between(time, instant)); });
+    RegionSite found{site, nullptr, nullptr};
+    const auto times = grids.times(site, plan.moment, instant - 2 * gap, instant + gap);
+    for (auto time = times.rbegin(); time != times.rend() && !found.before; ++time) {
+        auto grid = grids.find(site, plan.moment, *time);
+        // It may have been evicted meanwhile.
+        if (!grid && grid.error().code == ErrorCode::not_found) continue;
+        if (!grid) return pass_on(grid);
+        // An older one may have been made by another configuration.
+        if (!fits(**grid, plan)) continue;
+        const UtcTime middle = middle_of(**grid);
+        if (std::abs(seconds_between(middle, instant)) > std::chrono::duration<double>(gap).count())
+            continue;
+        (middle <= instant ? found.before : found.after) = std::move(*grid);
+    }
+    return found;
 }
 
 }  // namespace
@@ -232,29 +239,52 @@ Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box, level2::Momen
 
 std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan) {
     const auto interval = std::chrono::duration_cast<UtcTime::duration>(region_interval);
+    const auto bridge = 2 * pipeline::FrameOptions{}.greatest_gap;
     std::set<UtcTime> instants;
     for (const std::string& site : plan.sites) {
+        std::optional<UtcTime> before;
         for (const UtcTime time : grids.times(site, plan.moment)) {
             const auto since = time.time_since_epoch() + interval / 2;
-            instants.insert(UtcTime{since - since % interval});
+            const UtcTime instant{since - since % interval};
+            instants.insert(instant);
+            // Between volumes the site is moved to any instant.
+            if (before && instant - *before <= bridge) {
+                for (UtcTime between = *before + interval; between < instant; between += interval)
+                    instants.insert(between);
+            }
+            before = instant;
         }
     }
     return {instants.begin(), instants.end()};
 }
 
-Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan, UtcTime instant) {
-    std::vector<LaidGrid> laid;
+double RegionSite::seconds_to(const OpenGrid& volume, UtcTime instant) {
+    return seconds_between(instant, middle_of(volume));
+}
+
+Result<std::vector<RegionSite>> region_sites(Grids& grids, const RegionPlan& plan,
+                                             UtcTime instant) {
+    std::vector<RegionSite> sites;
     for (const std::string& site : plan.sites) {
-        const auto time = nearest_grid_time(grids, site, plan.moment, instant);
-        if (!time) continue;
-        auto source = grids.find(site, plan.moment, *time);
-        if (!source && source.error().code == ErrorCode::not_found) continue;
-        if (!source) return pass_on(source);
-        // An older one may have been made by another configuration.
-        if (!fits(**source, plan)) continue;
-        auto one = laid_grid(std::move(*source), plan);
-        if (!one) return pass_on(one);
-        if (*one) laid.push_back(std::move(**one));
+        auto found = volumes_about(grids, site, plan, instant);
+        if (!found) return pass_on(found);
+        if (found->before || found->after) sites.push_back(std::move(*found));
+    }
+    return sites;
+}
+
+Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan, UtcTime instant) {
+    const auto sites = region_sites(grids, plan, instant);
+    if (!sites) return pass_on(sites);
+    std::vector<LaidGrid> laid;
+    for (const RegionSite& site : *sites) {
+        SiteLayer layer(plan);
+        for (const auto& volume : {site.before, site.after}) {
+            if (!volume) continue;
+            auto one = layer.lay(volume);
+            if (!one) return pass_on(one);
+            if (*one) laid.push_back(std::move(**one));
+        }
     }
     std::vector<pipeline::PartialView> partials;
     partials.reserve(laid.size());
@@ -263,11 +293,9 @@ Result<pipeline::MosaicFrame> make_region(Grids& grids, const RegionPlan& plan, 
     pipeline::FrameOptions options;
     options.overlap.moment = plan.moment;
     options.overlap.overlap = grid::default_overlap(plan.moment);
-    options.time = grid::TimeMethod::nearest;
-    options.sweep_times = false;
     options.threads = threads_of_a_region;
     options.overlap.threads = threads_of_a_region;
-    pipeline::GeometryCache geometries(1);
+    pipeline::GeometryCache geometries(plan.sites.size());
     return pipeline::make_frame(plan.spec, partials, instant, options, geometries);
 }
 

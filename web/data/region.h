@@ -1,16 +1,17 @@
 // web/data/region.h -- a grid of several sites over a box that somebody draws, made on request.
 //
-// The grids of the sites that reach the box are laid on one plane about its middle: each cell takes
-// the nearest column of a site's grid, state and code unchanged, so it is off by at most half a
-// diagonal of a column. The mosaic's own code (pipeline/mosaic/mosaic_frame.h) then brings the
-// sites to one instant, by the nearest volume of each, and merges them by the default rule of the
-// moment. A box with too many columns is made of halved grids (web/data/halved_grid.h, by maximum).
+// The grids of the sites that reach the box are laid on one plane about its middle, by their
+// nearest columns (web/data/nearest_columns.h). The mosaic's own code
+// (pipeline/mosaic/mosaic_frame.h) then brings the sites to one instant, each from its volumes
+// before and after with the motion of its echo, and merges them by the default rule of the moment.
+// A box with too many columns is made of halved grids (web/data/halved_grid.h, by maximum).
 //
 // Units     Degrees, meters.
 // Threads   Pure functions of what the cache holds.
 // Errors    See each function.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,8 +53,21 @@ struct RegionPlan {
 [[nodiscard]] Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box,
                                              level2::Moment moment);
 
-// Returns the instants for which one of the sites has a volume, rising.
+// Returns the instants for which one of the sites has a volume, and those between its volumes,
+// rising.
 [[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
+
+// What a site gives to an instant: its volumes before and after it, of which one may be none. With
+// one alone, that is taken as it is.
+struct RegionSite {
+    std::string site;
+    std::shared_ptr<const OpenGrid> before, after;
+    // From the instant to the middle of a volume; less than 0 before it.
+    [[nodiscard]] static double seconds_to(const OpenGrid& volume, UtcTime instant);
+};
+// Returns the sites that have a volume near the instant, by name. Errors: those of Grids::find().
+[[nodiscard]] Result<std::vector<RegionSite>> region_sites(Grids& grids, const RegionPlan& plan,
+                                                           UtcTime instant);
 
 // Makes the grid for an instant. A site whose grid of that time has other levels or codes than the
 // plan is left out. Errors: not_found if no site has a volume near it that fits; those of

@@ -86,8 +86,8 @@ Status read_window(const ApiCall& call, PackedRequest& wanted) {
     }
     const std::size_t comma = text->find(',');
     if (comma == std::string_view::npos) {
-        return fail(ErrorCode::bad_argument, "window: FIRST-LAST,FIRST-LAST, not '{}'",
-                    shown(*text));
+        return fail(ErrorCode::bad_argument,
+                    "window: FIRST-LAST,FIRST-LAST, to the east and to the north");
     }
     const auto x = range_of_text("window", text->substr(0, comma));
     if (!x) return pass_on(x);

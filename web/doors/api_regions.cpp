@@ -97,4 +97,26 @@ Answer api_regions(const ApiCall& call) {
                        {{"domain", "region:" + name}, {"region", name}, {"moments", moments}});
 }
 
+Answer api_region_sites(const ApiCall& call) {
+    const auto asked = asked_region(call);
+    if (!asked) return asked.error();
+    const auto time = parse_utc(call.path_value("time"), now_utc());
+    if (!time) return json_error(404, time.error().message);
+    const auto found = region_sites(call.grids(), asked->plan, *time);
+    if (!found) return json_error(found.error());
+    ApiJson sites = ApiJson::array();
+    for (const RegionSite& site : *found) {
+        ApiJson volumes = ApiJson::array();
+        for (const auto& volume : {site.before, site.after}) {
+            if (!volume) continue;
+            volumes.push_back({{"time", format_utc(volume->time)},
+                               {"middle_s", std::round(RegionSite::seconds_to(*volume, *time))}});
+        }
+        sites.push_back({{"site", site.site}, {"volumes", std::move(volumes)}});
+    }
+    return json_answer(call.request, {{"domain", "region:" + asked->name},
+                                      {"time", format_utc(*time)},
+                                      {"sites", std::move(sites)}});
+}
+
 }  // namespace stormcellar::web

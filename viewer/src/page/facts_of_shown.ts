@@ -1,12 +1,14 @@
 // What the server says of the grid that is shown, asked once for each grid.
 
-import { GridFacts, gridFacts } from '../wire/api';
+import { GridFacts, RegionSite, gridFacts, isRegion, regionSites } from '../wire/api';
 import { App } from './app';
 
 export class FactsOfShown {
     private key = '';
     private facts: GridFacts | null = null;
     private asking: Promise<GridFacts> | null = null;
+    private sitesKey = '';
+    private regionSites: RegionSite[] | null = null;
 
     constructor(private app: App) {}
 
@@ -15,9 +17,22 @@ export class FactsOfShown {
         return this.key === this.app.shown?.key ? this.facts : null;
     }
 
+    // The sites of the region that is shown; null for what is no region, and until they are known.
+    get sites(): RegionSite[] | null {
+        return this.sitesKey === this.app.shown?.key ? this.regionSites : null;
+    }
+    async askSites(): Promise<void> {
+        const { shown } = this.app;
+        if (!shown || !isRegion(shown.domain) || this.sitesKey === shown.key) return;
+        this.sitesKey = shown.key;
+        this.regionSites = null;
+        const found = await regionSites(shown.domain, shown.moment, shown.time);
+        if (this.sitesKey === shown.key) this.regionSites = found;
+    }
+
     ask(): Promise<GridFacts> {
         const { shown } = this.app;
-        if (!shown) return Promise.reject(new Error());
+        if (!shown || isRegion(shown.domain)) return Promise.reject(new Error());
         if (this.key !== shown.key || !this.asking) {
             const key = (this.key = shown.key);
             this.facts = null;

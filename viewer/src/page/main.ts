@@ -12,6 +12,7 @@ import { addChoices } from './panels/choices';
 import { Editor } from './panels/editor';
 import { Hover } from './panels/hover';
 import { LayersPanel } from './panels/layers';
+import { addLegend } from './panels/legend';
 import { addLook } from './panels/look';
 import { Reader } from './panels/reading';
 import { addShare } from './panels/share';
@@ -34,8 +35,9 @@ async function begin(): Promise<void> {
     const reader = new Reader(app, drawing, hover);
     const editing = new TableEditing(app);
     const pointers = new Pointers(app, drawing, reader);
-    addChoices(app);
+    addChoices(app, facts);
     addLook(app, drawing, keys, editing);
+    addLegend(app);
     addTimeline(app, keys);
     addUnits(app);
     addShare(app, drawing, editing);

@@ -7,6 +7,23 @@ function age(seconds: number): string {
     return days < 730 ? `${Math.round(days)} days ago` : `${Math.round(days / 365.25)} years ago`;
 }
 
+// How far from an instant volumes are of which a site is shown.
+function ofVolumes(middlesS: number[]): string {
+    const away = (seconds: number) => `${Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`}`;
+    const told = middlesS.map(seconds => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));
+    if (middlesS.length > 1) return `from volumes ${told.join(' and ')}`;
+    return Math.abs(middlesS[0] ?? 0) < 1 ? 'as it was' : `as it was ${told[0]}`;
+}
+const mostSitesTold = 3;
+function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
+    const told = (some: typeof sites) => some.map(({ site, middlesS }) => `${site} ${ofVolumes(middlesS)}`).join('; ');
+    if (sites.length <= mostSitesTold) return told(sites);
+    const moved = sites.filter(({ middlesS }) => middlesS.length > 1);
+    const farthest = Math.max(...moved.flatMap(({ middlesS }) => middlesS.map(Math.abs)));
+    const all = moved.length > 0 ? `${moved.length} sites from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
+    return [all, told(sites.filter(({ middlesS }) => middlesS.length === 1))].filter(Boolean).join('; ');
+}
+
 const greatestOf = (halvings: number): string => `greatest of ${2 ** halvings} x ${2 ** halvings} cells`;
 
 export const texts = {
@@ -105,6 +122,11 @@ export const texts = {
     greatestAt: (value: string, height: string) => `Greatest ${value} at ${height} above sea level`,
     seenBetween: (from: string, to: string) => `seen ${from} – ${to} above sea level`,
     units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
+    legend: {
+        name: 'What the shades mean',
+        aloft: 'seen only > 3 km',
+        heights: (times: number) => `heights\u00a0×\u00a0${times}`,
+    },
     partial: 'Partial volume',
     quality: 'Exactness',
     asTimeAllows: 'as time allows',
@@ -188,6 +210,8 @@ export const texts = {
         search: 'Station or city',
         mosaic: 'several sites',
         region: 'Region',
+        ofVolumes,
+        sitesAt,
         merging: (sites: string[]) => `Merging ${sites.join(', ')}`,
         nothing: 'no data',
         noneFound: 'No station is called so, and no city.',

@@ -144,6 +144,14 @@ export async function region(domain: string): Promise<Region> {
     const found = (await (await ask(`api/v1/regions?${query}`)).json()) as Omit<Region, 'part_of'>;
     return { ...found, domain, part_of: null };
 }
+// Of which volumes a site of a region is made at an instant, and how far the middles of these are from it.
+export interface RegionSite {
+    site: string;
+    volumes: { time: string; middle_s: number }[];
+}
+export async function regionSites(domain: string, moment: string, time: string): Promise<RegionSite[]> {
+    return ((await (await ask(`${gridPath(domain, moment, time)}/sites`)).json()) as { sites: RegionSite[] }).sites;
+}
 export interface Times {
     times: string[]; // rising
     more: boolean; // there are older ones

@@ -3,6 +3,7 @@
 import { isRegion } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press, putOptions } from '../dom';
+import { FactsOfShown } from '../facts_of_shown';
 import { texts } from '../texts';
 
 function putChoices(app: App): void {
@@ -28,8 +29,23 @@ function putTitle(app: App): void {
     document.title = `${app.state.domain} ${app.state.moment} ${time} · ${texts.title}`;
 }
 
-export function addChoices(app: App): void {
+// When each site of a region was seen.
+function putSites({ sites }: FactsOfShown): void {
+    const box = element('sites-told');
+    box.textContent = texts.start.sitesAt((sites ?? []).map(({ site, volumes }) => ({ site, middlesS: volumes.map(one => one.middle_s) })));
+    box.hidden = sites === null;
+}
+
+export function addChoices(app: App, facts: FactsOfShown): void {
+    const sites = document.createElement('p');
+    sites.id = 'sites-told';
+    sites.hidden = true;
+    element('title').after(sites);
     app.on('choices', () => putChoices(app));
-    app.on('shown', () => putTitle(app));
+    app.on('shown', () => {
+        putTitle(app);
+        putSites(facts);
+        void facts.askSites().then(() => putSites(facts), () => undefined);
+    });
     element<HTMLSelectElement>('domain').addEventListener('change', event => void app.chooseDomain((event.target as HTMLSelectElement).value));
 }

@@ -70,9 +70,11 @@ export class Hover {
         if (!beam) return lines;
         const elevation = (beam.sweepDeg ?? beam.elevationDeg).toFixed(1);
         lines.push(texts.hover.beam(elevation, distanceText(beam.widthM, units), distanceText(beam.rangeM, units), beam.icao));
+        const site = this.facts.sites?.find(one => one.site === beam.icao);
         const timeMs = beam.timeMs ?? grid.timeMs;
         const ageS = (Date.now() - timeMs) / 1000;
-        lines.push(ageS < liveS ? texts.start.age(ageS) : texts.hover.time(new Date(timeMs).toISOString().slice(11, 19)));
+        if (site) lines.push(texts.start.ofVolumes(site.volumes.map(one => one.middle_s)));
+        else lines.push(ageS < liveS ? texts.start.age(ageS) : texts.hover.time(new Date(timeMs).toISOString().slice(11, 19)));
         if (beam.rms !== null) {
             const unit = known!.audit!.unit;
             const { perStored, symbol } = shownUnit(unit, units);

@@ -1,0 +1,76 @@
+// How long after a sweep has closed the viewer shows it (scripts/bench-viewer): a real volume is appended record by record
+// to a file of the drop directory, as LDM does, and the next record waits until the page has drawn what the last one
+// brought. Prints rows.
+//   node live.mjs ADDRESS STATION VOLUME FILE_IN_DROP_DIRECTORY
+import { appendFileSync, mkdirSync, readFileSync } from 'node:fs';
+import { dirname } from 'node:path';
+
+import { CheckedPage } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, station, volume, target] = process.argv.slice(2);
+const [width, height] = [796, 532];
+const headerBytes = 24;
+// A record that closes no sweep of the moment changes no picture; there is time enough to be sure.
+const longestMs = 2500;
+
+// Each piece is a record of the archive, the first one with the header of the volume.
+function piecesOf(bytes) {
+  const pieces = [];
+  for (let begin = 0, at = headerBytes; at < bytes.length; begin = at) {
+    at += 4 + Math.abs(bytes.readInt32BE(at));
+    pieces.push(bytes.subarray(begin, at));
+  }
+  return pieces;
+}
+
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+const row = (name, list) => console.log(`| ${name} | ${Math.round(median(list))} ms (${list.map(Math.round).join(', ')}) |`);
+
+async function hasGrid() {
+  const { grids } = await (await fetch(`${address}/api/v1/grids?domain=${station}&moment=REF`)).json();
+  return grids.length > 0;
+}
+
+// When the page is done with a picture, in ms since 1970, and how long its frame took.
+const watch = `window.drawn_ = []; new MutationObserver(() => {
+    const { drawn, frameMs } = document.documentElement.dataset;
+    if (drawn) drawn_.push([performance.timeOrigin + performance.now(), Number(frameMs)]);
+  }).observe(document.documentElement, { attributes: true, attributeFilter: ['data-drawn'] }); undefined`;
+
+const pieces = piecesOf(readFileSync(volume));
+mkdirSync(dirname(target), { recursive: true });
+let sent = 0;
+// Returns when the file was closed.
+function send() {
+  appendFileSync(target, pieces[sent++]);
+  return performance.timeOrigin + performance.now();
+}
+
+while (sent < pieces.length && !(await hasGrid())) {
+  send();
+  await wait(500);
+}
+const browser = await Browser.start();
+try {
+  const page = await browser.page(width, height);
+  const viewer = new CheckedPage(page, address);
+  await viewer.open(`domain=${station}&moment=REF`);
+  await page.evaluate(watch);
+  const found = [];
+  while (sent < pieces.length) {
+    await page.evaluate('drawn_.length = 0; undefined');
+    const closed = send();
+    const first = await page.until('drawn_[0]', longestMs / 1000).catch(() => null);
+    if (!first) continue;
+    // What follows at once belongs to the same sweep.
+    await wait(longestMs / 5);
+    found.push({ all: first[0] - closed, frame: first[1] });
+  }
+  if (found.length === 0) throw new Error('the page has drawn no sweep');
+  row('from the close of a sweep to its picture', found.map(({ all }) => all));
+  row('without its frame; decompression is in it', found.map(({ all, frame }) => all - frame));
+} finally {
+  await browser.end();
+}

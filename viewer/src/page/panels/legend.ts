@@ -1,0 +1,48 @@
+// What the shades of the ground and of layers mean, and how much higher the picture is than the earth.
+
+import { shades } from '../../renderer/shades';
+import { App } from '../app';
+import { element } from '../dom';
+import { texts } from '../texts';
+
+const css = (rgb: readonly number[]): string => `rgb(${rgb.slice(0, 3).join(' ')})`;
+
+interface Row {
+    text: string;
+    color: readonly number[] | null;
+    isHatched?: boolean;
+}
+
+function rowsOf({ state, table }: App): Row[] {
+    const { layers, hasGround, exaggeration } = state;
+    const rows: Row[] = [];
+    if (hasGround && !layers.hasHaze) rows.push({ text: texts.legend.aloft, color: shades.seenAloft });
+    if (hasGround && !layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.notSeen, isHatched: true });
+    if (layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.haze });
+    const showsFolded = layers.hasFolded || layers.hasMaximum || layers.planeM !== null || layers.section !== null || layers.sweepDeg !== null;
+    if (showsFolded && table) rows.push({ text: texts.rangeFolded, color: table.range_folded });
+    if (exaggeration !== 1) rows.push({ text: texts.legend.heights(exaggeration), color: null });
+    return rows;
+}
+
+function item({ text, color, isHatched }: Row): HTMLLIElement {
+    const row = document.createElement('li');
+    const swatch = document.createElement('span');
+    if (color) {
+        swatch.style.backgroundColor = css(color);
+        if (isHatched) swatch.classList.add('hatched');
+        row.append(swatch);
+    }
+    row.append(text);
+    return row;
+}
+
+export function addLegend(app: App): void {
+    const box = element('legend');
+    box.setAttribute('aria-label', texts.legend.name);
+    const put = () => {
+        box.replaceChildren(...rowsOf(app).map(item));
+        box.hidden = !app.shown;
+    };
+    for (const happening of ['view', 'shown'] as const) app.on(happening, put);
+}

@@ -1,0 +1,14 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { texts } from '../src/page/texts';
+
+test('of a region is told how far the volumes of each site are from the instant', () => {
+    const { ofVolumes, sitesAt } = texts.start;
+    assert.equal(ofVolumes([-180, 42]), 'from volumes 3 min before and 42 s after');
+    assert.equal(ofVolumes([-400]), 'as it was 7 min before');
+    assert.equal(ofVolumes([0]), 'as it was');
+    assert.equal(sitesAt([{ site: 'KCCX', middlesS: [-60, 240] }, { site: 'KDIX', middlesS: [300] }]), 'KCCX from volumes 60 s before and 4 min after; KDIX as it was 5 min after');
+    const many = ['KAAA', 'KBBB', 'KCCC'].map((site, i) => ({ site, middlesS: [-100 * i, 200] }));
+    assert.equal(sitesAt([...many, { site: 'KDDD', middlesS: [-600] }]), '3 sites from volumes at most 4 min away; KDDD as it was 10 min before');
+});
