@@ -96,6 +96,27 @@ test('the highest byte of an entry is the greatest code that a sample in the bri
     assert.equal(atlas.indirection[0]! >>> 24, 200, 'the neighbor to the east lends its first cells');
 });
 
+test('each block of a slot knows the greatest code of the cells that its samples use', () => {
+    const grid = readPackedGrid(packedGrid(made));
+    const atlas = makeAtlas(grid, mostTexels);
+    const [bx, by] = atlas.bricks;
+    atlas.indirection.forEach((entry, i) => {
+        const slot = slotOf(entry);
+        if (slot < 0) return;
+        const brick = [i % bx, Math.floor(i / bx) % by, Math.floor(i / (bx * by))] as const;
+        for (let block = 0; block < 64; ++block) {
+            const first = [block % 4, (block >> 2) % 4, block >> 4].map((n, axis) => 16 * brick[axis]! + 4 * n) as [number, number, number];
+            let greatest = 0;
+            for (let cell = 0; cell < 125; ++cell) {
+                const at = [cell % 5, Math.floor(cell / 5) % 5, Math.floor(cell / 25)].map((d, axis) => Math.min([50, 33, 20][axis]! - 1, first[axis]! + d));
+                const code = codeAt(grid, at[0]!, at[1]!, at[2]!);
+                if (code >= 3) greatest = Math.max(greatest, code);
+            }
+            assert.equal(atlas.blocks[64 * slot + block], greatest, `brick ${brick.join(' ')} block ${block}`);
+        }
+    });
+});
+
 test('codes of two bytes are shown within half a step of eight bits', () => {
     const grid = readPackedGrid(packedGrid({ ...made, codeBytes: 2, codeOf: (x, y, z) => 1000 + (scrambled(x, y, z) % 3000) }));
     const atlas = makeAtlas(grid, mostTexels);

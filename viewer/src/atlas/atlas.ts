@@ -68,6 +68,39 @@ export interface Atlas {
     greatest: number;
     // How many values have each shown code.
     histogram: Uint32Array;
+    // Of each slot the greatest shown code of the cells that a sample in each of its blocks can use, x fastest. Empty of a
+    // grid in parts.
+    blocks: Uint8Array;
+}
+
+export const blockEdge = 4; // cells
+export const blocksAlong = 4; // of a brick
+export const blocksABrick = blocksAlong ** 3;
+
+// Along an axis a texel belongs to the block of its cell, and the first texel of a block to the one before, too: a sample uses
+// the cell before it and the next one. The border before the slot's own cells is not used.
+const firstBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.max(0, (texel - 2) >> 2));
+const lastBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.min(blocksAlong - 1, (texel - 1) >> 2));
+
+// Puts the greatest shown codes of the blocks of a slot whose first texel is `corner` into `blocks`, from `to` on.
+export function measureBlocks({ texels, width, height }: Pick<Filling, 'texels' | 'width' | 'height'>, corner: number, blocks: Uint8Array, to: number): void {
+    for (let z = 1; z < paddedEdge; ++z) {
+        for (let y = 1; y < paddedEdge; ++y) {
+            const row = corner + 2 * (z * height + y) * width;
+            for (let block = 0; block < blocksAlong; ++block) {
+                let greatest = 0;
+                const end = row + 2 * (blockEdge * block + blockEdge + 1);
+                for (let at = end - 2 * blockEdge; at <= end; at += 2) if (texels[at]! > greatest) greatest = texels[at]!;
+                if (greatest === 0) continue;
+                for (let bz = firstBlock[z]!; bz <= lastBlock[z]!; ++bz) {
+                    for (let by = firstBlock[y]!; by <= lastBlock[y]!; ++by) {
+                        const at = to + (bz * blocksAlong + by) * blocksAlong + block;
+                        if (blocks[at]! < greatest) blocks[at] = greatest;
+                    }
+                }
+            }
+        }
+    }
 }
 
 export function brickIndex(grid: PackedGrid, x: number, y: number, z: number): number {
@@ -226,12 +259,11 @@ export function makeAtlas(grid: PackedGrid, mostTexels: number): Atlas {
     const [least, greatest] = rangeOfCodes(grid);
     const shown = shownCodes(grid, least, greatest);
     const [bx, by, bz] = grid.bricks;
-    const wanted: [number, number, number, number][] = [];
+    const wanted: [number, number, number][] = [];
     for (let z = 0; z < bz; ++z) {
         for (let y = 0; y < by; ++y) {
             for (let x = 0; x < bx; ++x) {
-                const most = greatestAbout(grid, x, y, z);
-                if (most > 0) wanted.push([x, y, z, shown.table[most]!]);
+                if (greatestAbout(grid, x, y, z) > 0) wanted.push([x, y, z]);
             }
         }
     }
@@ -250,14 +282,19 @@ export function makeAtlas(grid: PackedGrid, mostTexels: number): Atlas {
         least,
         greatest,
         histogram: histogramOf(grid, shown.table),
+        blocks: new Uint8Array(blocksABrick * wanted.length),
     };
     const cellCount = grid.brickEdge ** 3;
     const cellsOf: CellsOf = brick => (grid.kind[brick] === BrickKind.codes ? { codes: grid.codes, from: grid.block[brick]! * cellCount } : null);
     const filling: Filling = { grid, cellsOf, shownOf: shown.table, texels: atlas.texels, width: size[0], height: size[1] };
-    wanted.forEach(([x, y, z, most], slot) => {
-        atlas.indirection[(z * by + y) * bx + x] = pageEntry(slot, most, 0);
+    wanted.forEach(([x, y, z], slot) => {
         const [px, py, pz] = placeOfSlot(slot, slots);
-        fillSlot(filling, x, y, z, 2 * ((pz * size[1] + py) * size[0] + px));
+        const corner = 2 * ((pz * size[1] + py) * size[0] + px);
+        fillSlot(filling, x, y, z, corner);
+        const [from, to] = [blocksABrick * slot, blocksABrick * (slot + 1)];
+        measureBlocks(filling, corner, atlas.blocks, from);
+        const greatest = atlas.blocks.subarray(from, to).reduce((most, one) => Math.max(most, one), 0);
+        if (greatest > 0) atlas.indirection[(z * by + y) * bx + x] = pageEntry(slot, greatest, 0);
     });
     putReaches(atlas.indirection, atlas.bricks);
     return atlas;

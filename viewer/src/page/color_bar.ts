@@ -13,7 +13,22 @@ export function stepOf(range: number): number {
     return ([1, 2, 5, 10].find(step => step * power >= rough) ?? 10) * power;
 }
 
-export function drawColorBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, least: number | null): void {
+export class ColorBar {
+    private drawn: readonly unknown[] = [];
+
+    constructor(private canvas: HTMLCanvasElement) {}
+
+    // What is there already is not drawn again.
+    show(table: ColorTable, unit: ShownUnit, least: number | null): void {
+        const { clientWidth, clientHeight } = this.canvas;
+        const wanted = [table, unit.symbol, unit.perStored, least, clientWidth, clientHeight, window.devicePixelRatio, textScale()];
+        if (wanted.every((part, i) => part === this.drawn[i])) return;
+        this.drawn = wanted;
+        drawBar(this.canvas, table, unit, least);
+    }
+}
+
+function drawBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, least: number | null): void {
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.round(canvas.clientWidth * ratio);
     canvas.height = Math.round(canvas.clientHeight * ratio);

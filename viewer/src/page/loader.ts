@@ -38,7 +38,7 @@ function arrayBytes(...arrays: ArrayBufferView[]): number {
 
 function bytesOf({ grid, atlas, coverage, stream }: LoadedGrid): number {
     const table = arrayBytes(grid.kind, grid.state, grid.valueCount, grid.leastCode, grid.greatestCode, grid.block);
-    let bytes = table + arrayBytes(atlas.texels, atlas.indirection, coverage, grid.codes, grid.states);
+    let bytes = table + arrayBytes(atlas.texels, atlas.indirection, atlas.blocks, coverage, grid.codes, grid.states);
     if (stream) {
         for (const level of stream.pyramid.levels) bytes += arrayBytes(level.greatest, level.about, level.shown);
         for (const column of stream.first) bytes += column.texels.byteLength;
@@ -67,6 +67,7 @@ function poolAtlas(grid: PackedGrid, pyramid: Pyramid, table: WorkerAnswer, side
         least,
         greatest,
         histogram: new Uint32Array(256),
+        blocks: new Uint8Array(0),
     };
 }
 

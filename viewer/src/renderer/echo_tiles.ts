@@ -1,34 +1,32 @@
 // Where in the picture rays may meet echo that shows, and between which depths. The volume is drawn in these
 // squares of the picture alone: over most of a usual picture there is clear air.
 
-import { Atlas, slotOf } from '../atlas/atlas';
-import { ViewGeometry } from '../camera/geometry';
+import { Atlas, blockEdge, blocksABrick, blocksAlong, slotOf } from '../atlas/atlas';
+import { Vec3, ViewGeometry } from '../camera/geometry';
 import { cellSizeM } from '../scene/projection';
 import { PackedGrid } from '../wire/packed_grid';
 
 // A picture, or a small one of the same view, whose sides need not be whole pixels.
 export type RayView = Pick<ViewGeometry, 'width' | 'height' | 'eye' | 'right' | 'up' | 'forward' | 'focalPixels' | 'metersPerPixel' | 'isPerspective'>;
 
-// Where bricks begin along each axis, in drawn space, and the last one ends.
-export interface BrickEnds {
+// Where blocks of cells begin along each axis, in drawn space, and the last one ends.
+export interface BlockEnds {
     x: number[];
     y: number[];
-    z: Float32Array; // as many as shaders take
+    z: number[];
 }
 
-// A sample belongs to the brick of the cell before it along each axis. Beyond the outermost cells it is as
-// there.
-export function brickEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry): BrickEnds {
+// A sample belongs to the block of the cell before it along each axis. Beyond the outermost cells it is as there.
+export function blockEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry): BlockEnds {
     const [width, height] = cellSizeM(grid);
-    const across = (count: number, cells: number, cellM: number, halfM: number) =>
-        Array.from({ length: count + 1 }, (_, i) => (i === 0 ? -halfM : i === count ? halfM : (i * grid.brickEdge - 0.5 * (cells - 1)) * cellM));
-    const heights = new Float32Array(mostLayers + 2);
-    for (let layer = 0; layer < heights.length; ++layer) {
-        const level = layer * grid.brickEdge;
-        const drawn = layer === 0 ? box.bottomM - 1 : level < grid.nz ? grid.levelsM[level]! : box.topM + 1;
-        heights[layer] = drawn * exaggeration;
-    }
-    return { x: across(grid.bricks[0], grid.nx, width, box.halfXM), y: across(grid.bricks[1], grid.ny, height, box.halfYM), z: heights };
+    const along = (bricks: number, cells: number, placeOf: (cell: number) => number, low: number, high: number) =>
+        Array.from({ length: blocksAlong * bricks + 1 }, (_, i) => (i === 0 ? low : blockEdge * i < cells ? placeOf(blockEdge * i) : high));
+    const [x, y, z] = grid.bricks;
+    return {
+        x: along(x, grid.nx, cell => (cell - 0.5 * (grid.nx - 1)) * width, -box.halfXM, box.halfXM),
+        y: along(y, grid.ny, cell => (cell - 0.5 * (grid.ny - 1)) * height, -box.halfYM, box.halfYM),
+        z: along(z, grid.nz, level => grid.levelsM[level]! * exaggeration, box.bottomM * exaggeration, box.topM * exaggeration),
+    };
 }
 
 export interface Tiles {
@@ -38,7 +36,6 @@ export interface Tiles {
     points: Float32Array; // of each tile: x and y of its middle, from -1 to 1 over all tiles; least and greatest depth
 }
 
-const mostLayers = 64; // of bricks
 const sides = [16, 32, 64];
 const mostColumns = 64;
 
@@ -78,21 +75,46 @@ function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], z
     return extent;
 }
 
-function eachShownBrick({ bricks, indirection }: Pick<Atlas, 'bricks' | 'indirection'>, leastShown: number, visit: (x: number, y: number, z: number) => void): void {
+// Blocks of a brick, from the first to before the last along each axis.
+type Blocks = [number, number, number, number, number, number];
+
+// The blocks of a slot that show something: of a grid in parts all. Null: none.
+function shownBlocks(blocks: Uint8Array, slot: number, leastShown: number): Blocks | null {
+    if (blocks.length === 0) return [0, 0, 0, blocksAlong, blocksAlong, blocksAlong];
+    const found: Blocks = [blocksAlong, blocksAlong, blocksAlong, 0, 0, 0];
+    for (let i = 0; i < blocksABrick; ++i) {
+        if (blocks[blocksABrick * slot + i]! < leastShown) continue;
+        const place = [i % blocksAlong, Math.floor(i / blocksAlong) % blocksAlong, Math.floor(i / blocksAlong ** 2)];
+        for (let axis = 0; axis < 3; ++axis) {
+            found[axis] = Math.min(found[axis]!, place[axis]!);
+            found[axis + 3] = Math.max(found[axis + 3]!, place[axis]! + 1);
+        }
+    }
+    return found[3] > 0 ? found : null;
+}
+
+type ShownAtlas = Pick<Atlas, 'bricks' | 'indirection' | 'blocks'>;
+
+// What of each brick shows something: x, y, z of the whole grid's blocks.
+function eachShown({ bricks, indirection, blocks }: ShownAtlas, leastShown: number, visit: (from: Vec3, to: Vec3) => void): void {
     const [bx, by] = bricks;
     for (let i = 0; i < indirection.length; ++i) {
-        if (shows(indirection[i]!, leastShown)) visit(i % bx, Math.floor(i / bx) % by, Math.floor(i / (bx * by)));
+        if (!shows(indirection[i]!, leastShown)) continue;
+        const found = shownBlocks(blocks, slotOf(indirection[i]!), leastShown);
+        if (!found) continue;
+        const [x, y, z] = [blocksAlong * (i % bx), blocksAlong * (Math.floor(i / bx) % by), blocksAlong * Math.floor(i / (bx * by))];
+        visit([x + found[0], y + found[1], z + found[2]], [x + found[3], y + found[4], z + found[5]]);
     }
 }
 
-export function tilesOf(view: RayView, atlas: Pick<Atlas, 'bricks' | 'indirection'>, ends: BrickEnds, leastShown: number): Tiles {
+export function tilesOf(view: RayView, atlas: ShownAtlas, ends: BlockEnds, leastShown: number): Tiles {
     const { width, height } = view;
     const side = sides.find(one => width <= one * mostColumns) ?? sides[sides.length - 1]!;
     const [columns, rows] = [Math.ceil(width / side), Math.ceil(height / side)];
     const near = new Float32Array(columns * rows).fill(Infinity);
     const far = new Float32Array(columns * rows).fill(-Infinity);
-    eachShownBrick(atlas, leastShown, (x, y, z) => {
-        const extent = extentOf(view, ends.x.slice(x, x + 2), ends.y.slice(y, y + 2), [ends.z[z]!, ends.z[z + 1]!]);
+    eachShown(atlas, leastShown, (from, to) => {
+        const extent = extentOf(view, [ends.x[from[0]]!, ends.x[to[0]]!], [ends.y[from[1]]!, ends.y[to[1]]!], [ends.z[from[2]]!, ends.z[to[2]]!]);
         if (view.isPerspective && extent.far <= 0) return;
         const lastColumn = Math.min(columns - 1, Math.floor(extent.right / side));
         const lastRow = Math.min(rows - 1, Math.floor(extent.high / side));

@@ -14,6 +14,12 @@ export class Graphics {
     get mostTexels(): number {
         return this.gl.getParameter(this.gl.MAX_3D_TEXTURE_SIZE) as number;
     }
+    // Whether a processor draws: there is no graphics processor here.
+    get isSoftware(): boolean {
+        const { gl } = this;
+        const names = gl.getExtension('WEBGL_debug_renderer_info');
+        return /swiftshader|llvmpipe|softpipe|basic render/i.test(String(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER)));
+    }
     get compiledVariants(): string[] {
         return [...this.programs.keys()];
     }

@@ -10,7 +10,7 @@ import { cellSizeM } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { Transfer, makeTransfer } from '../tables/transfer';
 import { PackedGrid } from '../wire/packed_grid';
-import { RayView, TilePass, brickEnds, tilesOf } from './echo_tiles';
+import { RayView, TilePass, blockEnds, tilesOf } from './echo_tiles';
 import { Exposure } from './exposure';
 import { Graphics } from './graphics';
 import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
@@ -102,6 +102,9 @@ export class Renderer {
 
     get mostTexels(): number {
         return this.graphics.mostTexels;
+    }
+    get isSoftware(): boolean {
+        return this.graphics.isSoftware;
     }
     get compiledVariants(): string[] {
         return this.graphics.compiledVariants;
@@ -311,7 +314,7 @@ export class Renderer {
         const inside = croppedBox(whole, frame.layers?.crop ?? null);
         gl.uniform3f(at('boxLow'), inside.westM, inside.southM, inside.bottomM * exaggeration);
         gl.uniform3f(at('boxHigh'), inside.eastM, inside.northM, inside.topM * exaggeration);
-        gl.uniform1fv(at('brickHeights'), brickEnds(grid, frame.geometry).z);
+        gl.uniform1fv(at('brickHeights'), brickHeights(grid, frame.geometry));
         gl.uniform3f(at('cells'), grid.nx, grid.ny, grid.nz);
         gl.uniform2f(at('perCell'), 1 / cellWidth, 1 / cellHeight);
         gl.uniform3fv(at('slots'), slotStrides(loaded.atlas));
@@ -345,7 +348,7 @@ export class Renderer {
             this.passes.bindLight(5, layers!.falls!, geometry, cellSizeM(grid), levelSpacingM(grid), at);
             gl.uniform1f(at('exposure'), this.exposure.value);
         }
-        this.tiles.draw(view, tilesOf(view, loaded.atlas, brickEnds(grid, geometry), leastShown), at);
+        this.tiles.draw(view, tilesOf(view, loaded.atlas, blockEnds(grid, geometry), leastShown), at);
     }
 
     private drawAir(frame: Frame, layers: DrawnLayers, air: NonNullable<DrawnLayers['air']>): void {
@@ -435,6 +438,17 @@ function slotStrides({ slots }: Atlas): [number, number, number] {
 }
 function perTexel({ size }: Atlas): [number, number, number] {
     return [1 / size[0], 1 / size[1], 1 / size[2]];
+}
+
+// A sample belongs to the layer of bricks of the level below it.
+function brickHeights(grid: PackedGrid, { box, exaggeration }: ViewGeometry): Float32Array {
+    const heights = new Float32Array(66);
+    for (let layer = 0; layer < heights.length; ++layer) {
+        const level = layer * grid.brickEdge;
+        const height = layer === 0 ? box.bottomM - 1 : level < grid.nz ? grid.levelsM[level]! : box.topM + 1;
+        heights[layer] = height * exaggeration;
+    }
+    return heights;
 }
 
 function hasUnevenLevels(grid: PackedGrid): boolean {

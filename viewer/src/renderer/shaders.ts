@@ -139,7 +139,7 @@ bool isEmpty(uint entry) { return (entry & 0x1FFFFFu) == 0u; }
 // What leads from cells to texels in a brick: an offset, and by what columns and rows are multiplied. Of a
 // slot and a half, no quotient is so near to a whole number that rounding matters.
 vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
-    float slot = float(entry & 0x1FFFFFu) - 1.0;
+    float slot = float(int(entry & 0x1FFFFFu)) - 1.0;
     float z = floor((slot + 0.5) / slots.z);
     float y = floor((slot - z * slots.z + 0.5) / slots.x);
     vec4 place = vec4(vec3(slot - z * slots.z - y * slots.x, y, z) * padded + 1.5, 1.0);${variant.hasHalved ? halvedPlace : ''}
@@ -153,7 +153,7 @@ vec2 fetchAt(vec3 cell, vec4 place, vec3 perTexel) {${counted}
 // How far the ray has gone when it leaves a brick. From a brick above which there is nothing it leaves all
 // columns of bricks about it that are as empty.
 float leaves(Ray ray, ivec3 brick, uint entry) {
-    float reach = isEmpty(entry) ? float((entry >> 21) & 7u) : 0.0;
+    float reach = isEmpty(entry) ? float(int(entry)) * (1.0 / 2097152.0) : 0.0;
     float beside = max(reach - 1.0, 0.0);
     vec3 bounds = (vec3(brick) + vec3(mix(vec2(-beside), vec2(beside + 1.0), ray.ahead.xy), ray.ahead.z)) * edge;
     vec3 far = (bounds - ray.start) * ray.perCell;
@@ -218,7 +218,7 @@ ${endsAtSolids ? '    leave = min(leave, solidAt());' : ''}
     float depthOfHalf = 0.5 * depthScale * length(along);
     vec3 slotsHere = slots, perTexelHere = perTexel;
     vec2 binLineHere = vec2(binLine.x, 255.0 * binLine.y);
-    uint leastShownHere = leastShown;
+    uint leastEntry = leastShown << 24;
     vec3 light = vec3(0.0);
     float through = 1.0;
     vec2 front = vec2(0.0); // bin, and share of cells with values
@@ -232,7 +232,7 @@ ${isLit ? '    float lit = 0.0, frontLight = -1.0;\n    vec3 looks = normalize(a
         for (; brick != held; held = brick) {
             entry = texelFetch(indirection, brick, 0).r;${counted}
         }
-        bool isClear = (entry >> 24) < leastShownHere;
+        bool isClear = entry < leastEntry;
         vec2 found = vec2(0.0);
         if (!isClear) found = fetchAt(cell, placeOf(brick, entry, slotsHere), perTexelHere);
         found.y = found.y < 0.002 ? 0.0 : found.y;
