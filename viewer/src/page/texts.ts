@@ -100,6 +100,7 @@ export const texts = {
     save: 'Save picture',
     command: 'Copy command',
     commandCopied: 'The command is in the clipboard.',
+    commandOf: (raw: string) => `The command is in the clipboard. It reads ${raw}, which Raw volume gives.`,
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     netcdf: 'Grid (netCDF)',
     noNetcdf: 'This grid was made when it was asked for: there is no file of it.',
