@@ -18,10 +18,12 @@ const mostSitesTold = 3;
 function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     const told = (some: typeof sites) => some.map(({ site, middlesS }) => `${site} ${ofVolumes(middlesS)}`).join('; ');
     if (sites.length <= mostSitesTold) return told(sites);
+    const alone = sites.filter(({ middlesS }) => middlesS.length === 1);
+    const asTheyWere = told(alone).replace(/ as it was/g, '').replace(/;/g, ',');
     const moved = sites.filter(({ middlesS }) => middlesS.length > 1);
     const farthest = Math.max(...moved.flatMap(({ middlesS }) => middlesS.map(Math.abs)));
     const all = moved.length > 0 ? `${moved.length} sites from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
-    return [all, told(sites.filter(({ middlesS }) => middlesS.length === 1))].filter(Boolean).join('; ');
+    return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
 }
 
 const greatestOf = (halvings: number): string => `greatest of ${2 ** halvings} x ${2 ** halvings} cells`;
