@@ -62,7 +62,7 @@ TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
                              R"(],"more":false})";
     std::mt19937 random(20261127);
     std::size_t lists = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 5'000; ++i) {
         std::string text = good;
         for (std::uint32_t changes = 1 + random() % 4; changes > 0; --changes) {
             const std::size_t at = random() % text.size();
@@ -91,7 +91,7 @@ TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
             ASSERT_TRUE(name.time >= now - std::chrono::hours{1} && is_believed(name.time, now));
         }
     }
-    EXPECT_GT(lists, 1000U);
+    EXPECT_GT(lists, 300U);
     EXPECT_FALSE(parsed(std::string(most_list_bytes, '['))) << "however deep";
 }
 
