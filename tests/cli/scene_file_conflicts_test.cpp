@@ -78,8 +78,8 @@ TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
 TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
     commit();
     const auto draw = [&](const std::string& more) {
-        return run(fmt::format("frame KBGM --cache {} --scene {} --width 200 --height 150 -o {} {}",
-                               cache(), at("s.toml"), at("a.png"), more));
+        return run(fmt::format("frame KBGM --cache {} --scene {} -o {} {}", cache(), at("s.toml"),
+                               at("a.png"), more));
     };
     const std::string keys =
         "[camera]\ntilt_deg = 40\n[light]\nkinds = [\"shadow\"]\n[volume]\nslices = 16\n"
