@@ -40,7 +40,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing): void {
 
 export function addShare(app: App, drawing: Drawing, editing: TableEditing): void {
     element('actions').append(
-        button('share', texts.share, () => copy(app, location.href, texts.shared)),
+        button('share', texts.share, () => copy(app, app.link, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),
         button('command', texts.command, () => copyCommand(app, drawing, editing)),
         button('netcdf', texts.netcdf, () => {
