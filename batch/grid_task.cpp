@@ -101,13 +101,15 @@ class GridRun {
         if (!standing) return pass_on(standing);
         StandingFiles made_of;
         for (const StandingGrid& grid : *standing)
-            made_of[grid.file] = grid.modified_ns;
+            made_of[grid.volume] = grid.made_ns;
         std::set<fs::path> done;
         std::optional<fs::path> last;
         for (const fs::path& path : files) {
-            const auto found = made_of.find(path.filename().native());
+            const auto named = volume_named(path.filename().native());
+            if (!named) continue;
+            const auto found = made_of.find(level2::volume_name(named->station, named->start));
             const auto stamp = pipeline::stamp_of(path);
-            if (found == made_of.end() || !stamp || stamp->modified_ns != found->second) continue;
+            if (found == made_of.end() || !stamp || stamp->modified_ns > found->second) continue;
             done.insert(path);
             last = path;
         }

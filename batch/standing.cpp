@@ -5,6 +5,7 @@
 #include "base/checksum.h"
 #include "batch/statistics_task.h"
 #include "pipeline/care/archive_fill.h"
+#include "pipeline/drop/file_facts.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/grid_file.h"
@@ -60,10 +61,12 @@ Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store
         for (const cache::StoreEntry& entry : *entries) {
             const auto file = cache::GridFile::open(entry.path);
             if (!file || !is_of(file->description(), recipe, task)) continue;
+            const auto stamp = pipeline::stamp_of(entry.path);
+            if (!stamp) continue;
             const grid::Provenance& provenance = file->description().provenance;
             standing.push_back(
                 {task.kind() == TaskKind::frames ? std::string{} : provenance.source_files.front(),
-                 provenance.source_modified_ns, entry.time, file->checksum(), entry.bytes_on_disk});
+                 stamp->modified_ns, entry.time, file->checksum(), entry.bytes_on_disk});
         }
     }
     return standing;

@@ -16,8 +16,8 @@
 namespace stormcellar::batch {
 
 struct StandingGrid {
-    std::string file;  // the raw file that it was made of; empty: a frame
-    std::int64_t modified_ns = 0;
+    std::string volume;        // level2::volume_name() of what it was made of; empty: a frame
+    std::int64_t made_ns = 0;  // when its file was written, since 1970
     UtcTime time;
     std::uint64_t checksum = 0;
     std::uint64_t bytes = 0;  // on disk

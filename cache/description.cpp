@@ -23,7 +23,7 @@ enum class RecordKind : std::uint16_t {
     partial = 8,
     note = 9,
     site = 10,
-    source_modified = 11,
+    source_modified = 11,  // of version 1 only
     parallels = 12,
     effects = 13,
     predicted_error = 14,
@@ -33,6 +33,7 @@ enum class RecordKind : std::uint16_t {
     frame_part = 18,
     recipe = 19,
     radar_trouble = 20,
+    left_out = 21,
 };
 
 struct RecordHead {
@@ -228,8 +229,11 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
         case RecordKind::radar_trouble:
             provenance.radar_troubles.push_back(text_of(contents));
             return true;
+        case RecordKind::left_out:
+            provenance.left_out.push_back(text_of(contents));
+            return true;
         case RecordKind::source_modified:
-            return read_number(contents, provenance.source_modified_ns);
+            return true;  // where the file was made, which nobody asks any more
         case RecordKind::parallels:
             return read_number(contents, description.spec.parallels_deg);
         case RecordKind::site:
@@ -270,12 +274,12 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
     append_record(bytes, RecordKind::vcp, std::as_bytes(std::span(&vcp, 1)));
     const std::int32_t partial = provenance.partial ? 1 : 0;
     append_record(bytes, RecordKind::partial, std::as_bytes(std::span(&partial, 1)));
-    const std::int64_t modified_ns = provenance.source_modified_ns;
-    append_record(bytes, RecordKind::source_modified, std::as_bytes(std::span(&modified_ns, 1)));
     for (const auto& note : provenance.notes)
         append_text(bytes, RecordKind::note, note);
     for (const auto& trouble : provenance.radar_troubles)
         append_text(bytes, RecordKind::radar_trouble, trouble);
+    for (const auto& machine : provenance.left_out)
+        append_text(bytes, RecordKind::left_out, machine);
     if (grid::facts_of(description.spec.projection).takes_parallels) {
         append_record(bytes, RecordKind::parallels,
                       std::as_bytes(std::span(description.spec.parallels_deg)));

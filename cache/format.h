@@ -19,7 +19,9 @@ static_assert(std::endian::native == std::endian::little, "grid files are mapped
 // Not text, not 7-bit clean, and damaged by any conversion of line ends.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
-inline constexpr std::uint32_t version = 1;
+inline constexpr std::uint32_t version = 2;
+// Files of this version and later are read: they differ in what their records mean alone.
+inline constexpr std::uint32_t oldest_version = 1;
 inline constexpr std::uint64_t page_size = 4096;
 
 // Limits of the memory that a file may require from its reader.

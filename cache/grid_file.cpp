@@ -40,12 +40,12 @@ Status check_identity(const FileHeader& header) {
         return fail(ErrorCode::unsupported, "was written in another byte order");
     }
     const bool known = (header.required_features & ~format::known_features) == 0;
-    if (header.version != format::version || !known) {
+    if (header.version < format::oldest_version || header.version > format::version || !known) {
         return fail(ErrorCode::unsupported,
-                    "has version {} and features {:#x}, this software reads version {} and "
+                    "has version {} and features {:#x}, this software reads versions {} to {} and "
                     "features {:#x}",
-                    header.version, header.required_features, format::version,
-                    format::known_features);
+                    header.version, header.required_features, format::oldest_version,
+                    format::version, format::known_features);
     }
     const bool is_window = header.offset_x_cells != 0 || header.offset_y_cells != 0;
     if (is_window != ((header.required_features & format::feature_window) != 0)) {

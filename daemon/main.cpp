@@ -20,6 +20,7 @@
 #include "daemon/log/log.h"
 #include "daemon/loops/loop_check.h"
 #include "daemon/loops/loops_service.h"
+#include "daemon/partials/partials_keeper.h"
 #include "daemon/service/ingest_sink.h"
 #include "daemon/service/service.h"
 #include "daemon/status/status_server.h"
@@ -194,6 +195,10 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
     SystemdNotifier notifier;
     StatusBoard board;
     const std::filesystem::path socket = socket_of(fixed);
+    const PartialsKeeper partials(
+        fixed.partials,
+        {(*sink)->mosaics(), (*sink)->writer(), (*sink)->partial_sources(), fixed.grid.threads},
+        {.rescan = config.reloadable.rescan, .poll = config.reloadable.poll});
     Service service(config, file,
                     {.sink = **sink,
                      .events = *events,
@@ -203,7 +208,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
                      .runs_loops = runs_loops,
                      .board = &board,
                      .state = &state,
-                     .socket = socket});
+                     .socket = socket,
+                     .machines = [&] { return partials.facts(); }});
     know_stations((*sink)->catalog(), service);
     const StatusServer status_server({.socket = socket, .http_port = fixed.status.http_port},
                                      pages_of(board));
@@ -215,6 +221,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
     service.need([&] { return status_server.answers(); });
     service.watch("status", status_server.pulse());
     service.watch("caretaker", keeper.pulse());
+    service.watch("partials", partials.pulse());
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;

@@ -15,14 +15,15 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
+#include "base/service_arguments.h"
+#include "base/service_log.h"
 #include "base/steady_time.h"
+#include "base/waited_signals.h"
 #include "cache/map_guard.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
 #include "web/config/web_setup.h"
-#include "web/service/web_log.h"
 #include "web/service/web_service.h"
-#include "web/service/web_signals.h"
 
 namespace stormcellar::web {
 namespace {
@@ -37,39 +38,6 @@ constexpr std::string_view usage =
     "  --config FILE    read the configuration from FILE (TOML), that of stormcellard\n"
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
-
-struct Arguments {
-    std::optional<std::filesystem::path> config;
-    bool check = false;
-    bool help = false;
-    bool version = false;
-};
-
-// Errors: bad_argument for invalid arguments.
-Result<Arguments> parse(int argc, char** argv) {
-    Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        if (word == "--config" && i + 1 < argc) {
-            arguments.config = argv[++i];
-        } else if (word.starts_with("--config=")) {
-            arguments.config = word.substr(9);
-        } else if (word == "--check-config") {
-            arguments.check = true;
-        } else if (word == "--version") {
-            arguments.version = true;
-        } else if (word == "--help" || word == "-h") {
-            arguments.help = true;
-        } else if (word == "--config") {
-            return fail(ErrorCode::bad_argument, "--config: give a file");
-        } else {
-            return fail(ErrorCode::bad_argument, "{}: is not an option", word);
-        }
-    }
-    if (!arguments.help && !arguments.version && !arguments.config)
-        return fail(ErrorCode::bad_argument, "--config FILE must be given");
-    return arguments;
-}
 
 int complain(const Error& error) {
     fmt::print(stderr, "stormcellar-web: {}\n", printable(error.message));
@@ -142,7 +110,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     raise_descriptor_limit();
     set_log_level(setup.log_level);
     set_added_stations(setup.added_stations);
-    const WebSignals signals;
+    const WaitedSignals signals;
     auto service = WebService::open(setup);
     if (!service) return complain(service.error());
     say(LogLevel::info, "stormcellar-web {}: listening on {}", software_version,
@@ -169,7 +137,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
 }
 
 int run(int argc, char** argv) {
-    const Result<Arguments> arguments = parse(argc, argv);
+    const Result<ServiceArguments> arguments = parse_service_arguments(argc, argv);
     if (!arguments) {
         (void)complain(arguments.error());
         fmt::print(stderr, "{}", usage);

@@ -61,7 +61,7 @@ Result<RawVolume> raw_volume_of(const catalog::CatalogReader& catalog, const std
     const std::string& station = grid.sites.front().icao;
     return read_volume(
         catalog, station, grid.time,
-        pipeline::find_volume_of_grid(catalog, station, grid.time, grid.provenance.source_files));
+        pipeline::find_volume_of_grid(catalog, station, grid.time, grid.provenance.partial));
 }
 
 Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog, const std::string& station,

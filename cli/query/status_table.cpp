@@ -316,6 +316,32 @@ std::string loops_table(const json& status, UtcTime now, Paint paint) {
     return "\n" + aligned(rows) + problems;
 }
 
+std::string machines_lines(const json& status, UtcTime now, Paint paint) {
+    const json& machines = at(status, "machines");
+    if (!machines.is_array() || machines.empty()) return "";
+    std::vector<Row> rows = {{"machine", "volume", "arrived", "taken", "refused"}};
+    std::string problems;
+    for (const json& machine : machines) {
+        rows.push_back({text(machine, "name"), short_duration(age(machine, "newest", now)),
+                        short_duration(age(machine, "arrived", now)),
+                        fmt::format("{}", count(machine, "taken")),
+                        fmt::format("{}", count(machine, "refused"))});
+        if (at(machine, "why").is_string()) {
+            problems += in_red(fmt::format("machine {} is late: {}", text(machine, "name"),
+                                           text(machine, "why")),
+                               paint) +
+                        "\n";
+        }
+        if (at(machine, "last_problem").is_string()) {
+            problems += in_yellow(fmt::format("machine {}: {}", text(machine, "name"),
+                                              text(machine, "last_problem")),
+                                  paint) +
+                        "\n";
+        }
+    }
+    return "\n" + aligned(rows) + problems;
+}
+
 }  // namespace
 
 std::string status_table(const json& status, UtcTime now, Paint paint) {
@@ -328,7 +354,7 @@ std::string status_table(const json& status, UtcTime now, Paint paint) {
         page += fmt::format("and {} of further stations, which the daemon does not list\n",
                             counted(more, "file"));
     return page + missing_lines(stations, paint) + rejected_lines(status, paint) +
-           loops_table(status, now, paint);
+           machines_lines(status, now, paint) + loops_table(status, now, paint);
 }
 
 }  // namespace stormcellar::cli

@@ -6,13 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/service_log.h"
+#include "base/waited_signals.h"
 #include "cli/serve/served_files.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/service_places.h"
 #include "stormcellar/base/station_table.h"
-#include "web/service/web_log.h"
 #include "web/service/web_service.h"
-#include "web/service/web_signals.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -85,9 +85,9 @@ int run_serve(const ServeOptions& options) {
     auto setup = setup_of(options);
     if (!setup) return report_error(setup.error());
     set_added_stations(setup->added_stations);
-    web::set_log_level(options.verbose ? "debug" : "warning");
+    set_log_level(options.verbose ? "debug" : "warning");
     // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
-    const web::WebSignals signals;
+    const WaitedSignals signals;
     std::unique_ptr<ServedFiles> files;
     if (!options.files.empty()) {
         auto taken = ServedFiles::take(options.files, options.threads);

@@ -43,7 +43,7 @@ void ServedFiles::take_rest() {
     });
 }
 
-void serve_until_signal(const web::WebSignals& signals, web::WebService& service) {
+void serve_until_signal(const WaitedSignals& signals, web::WebService& service) {
     for (;;) {
         const auto number = signals.next(std::chrono::seconds{1});
         if (number && *number != SIGHUP) return;

@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
+#include "base/waited_signals.h"
 #include "cli/serve/scratch_cellar.h"
 #include "stormcellar/base/result.h"
 #include "web/service/web_service.h"
-#include "web/service/web_signals.h"
 
 namespace stormcellar::cli {
 
@@ -48,6 +48,6 @@ class ServedFiles {
 };
 
 // Returns when a signal asks the program to end.
-void serve_until_signal(const web::WebSignals& signals, web::WebService& service);
+void serve_until_signal(const WaitedSignals& signals, web::WebService& service);
 
 }  // namespace stormcellar::cli

@@ -6,13 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/service_log.h"
+#include "base/waited_signals.h"
 #include "cli/serve/browser.h"
 #include "cli/serve/served_files.h"
 #include "cli/shared/commands.h"
 #include "web/doors/viewer_files.h"
-#include "web/service/web_log.h"
 #include "web/service/web_service.h"
-#include "web/service/web_signals.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -40,9 +40,9 @@ int run_view(const ViewOptions& options) {
         return report_error({ErrorCode::unsupported,
                              "this program was built without the viewer (STORMCELLAR_VIEWER=OFF)"});
     }
-    web::set_log_level("warning");
+    set_log_level("warning");
     // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
-    const web::WebSignals signals;
+    const WaitedSignals signals;
     auto files = ServedFiles::take(options.files, options.threads);
     if (!files) return report_error(files.error());
     auto setup = setup_of_files(**files);

@@ -260,6 +260,42 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
     }
 }
 
+// Returns why a directory cannot be that of a machine; empty if it can.
+std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
+    const std::string name = directory.filename().native();
+    if (!cache::is_domain_name(name) || cache::is_part(name)) {
+        return fmt::format("{} is not the name of a machine: letters, digits, _ and -",
+                           printable(name));
+    }
+    for (const auto* path : {&config.paths.drop, &config.paths.state, &config.paths.cache}) {
+        if (!path->empty() && (is_within(directory, *path) || is_within(*path, directory)))
+            return fmt::format("{} and {} must be separate", directory.native(), path->native());
+    }
+    for (const std::filesystem::path& other : config.partials.directories) {
+        if (is_within(directory, other) || is_within(other, directory))
+            return fmt::format("{} and {} must be separate", directory.native(), other.native());
+        if (other.filename() == name) return fmt::format("two machines have the name {}", name);
+    }
+    return {};
+}
+
+void read_partials(TomlTable partials, const std::filesystem::path& file, FixedConfig& config) {
+    constexpr std::size_t most_machines = 64;
+    read_whole_seconds(partials, "late_after_seconds", {10, 86400}, config.partials.late_after);
+    const auto directories = partials.texts("directories");
+    if (!directories) return;
+    if (directories->size() > most_machines) {
+        partials.complain("directories", fmt::format("must be at most {}", most_machines));
+        return;
+    }
+    for (const std::string& text : *directories) {
+        const auto directory = resolve(text, file);
+        const auto why = text.empty() ? "must not be empty" : reason_against(directory, config);
+        if (!why.empty()) return partials.complain("directories", why);
+        config.partials.directories.push_back(directory);
+    }
+}
+
 void read_budget(TomlTable& table, cache::Budget& budget) {
     read_bytes(table, budget.bytes);
     if (const auto percent = table.number("percent", {0, 100})) {
@@ -319,7 +355,7 @@ int ReloadableConfig::worker_count() const {
 std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConfig& running) {
     std::vector<std::string> sentences;
     // A new part of the configuration does not compile here until it has a sentence, too.
-    const auto& [paths, grid, queue_limit, ingest, storage, status] = fresh;
+    const auto& [paths, grid, queue_limit, ingest, storage, status, partials] = fresh;
     if (paths != running.paths) {
         sentences.emplace_back("restart the service for the change of [paths] to take effect");
     }
@@ -335,6 +371,9 @@ std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConf
     }
     if (status != running.status) {
         sentences.emplace_back("restart the service for the change of [status] to take effect");
+    }
+    if (partials != running.partials) {
+        sentences.emplace_back("restart the service for the change of [partials] to take effect");
     }
     return sentences;
 }
@@ -353,6 +392,8 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     read_catalog(root.section("catalog"), config);
     read_rest(root.section("watch"), root.section("log"), config);
     read_status(root.section("status"), file, fixed.paths, fixed.status);
+    read_partials(root.section("partials"), file, fixed);
+    root.leave("pull");  // stormcellar-pull checks it
     config.reloadable.loops =
         read_loops(root, std::filesystem::absolute(file).parent_path(),
                    {fixed.paths.drop, fixed.paths.state, fixed.paths.cache}, scenes);

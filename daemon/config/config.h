@@ -75,6 +75,13 @@ struct IngestConfig {
     bool operator==(const IngestConfig&) const = default;
 };
 
+// Directories into which other machines' parts of mosaics come, one for each machine.
+struct PartialsConfig {
+    std::vector<std::filesystem::path> directories;  // absolute, with symbolic links resolved
+    std::chrono::seconds late_after{600};
+    bool operator==(const PartialsConfig&) const = default;
+};
+
 // How the catalog and the cache store the results.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
@@ -91,6 +98,7 @@ struct FixedConfig {
     IngestConfig ingest;
     StorageConfig storage;
     StatusConfig status;
+    PartialsConfig partials;
     bool operator==(const FixedConfig&) const = default;
 };
 

@@ -70,6 +70,11 @@ enum class Event {
     loop_said,
     loop_ended,
     loop_failed,
+    // about other machines
+    partial_taken,
+    partial_refused,
+    machine_late,
+    machine_back,
     // about the status
     status_answered,
     status_unanswered,

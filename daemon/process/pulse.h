@@ -6,6 +6,7 @@
 //   missing       the search for missing files: the names of one station, or 1,000 files
 //   cache         the rolling of the cache: one directory, or 2,048 files that are removed
 //   caretaker     one database, the missing grids of one station, one grid, one pair of sites
+//   partials      one partial of another machine, with the frames that it changes
 //   status        one turn of the status server: it reads what has arrived and answers requests
 //   loops         one turn of the thread that starts and reads the programs of the loops
 // The thread of the main loop (service.h) is not among them: it is the one that checks.

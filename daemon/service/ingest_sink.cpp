@@ -23,6 +23,7 @@ IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store
     : drop_(config.paths.drop),
       stations_(std::move(stations)),
       growing_(descriptors.growing),
+      partial_sources_(std::make_shared<pipeline::PartialSources>(config.partials.late_after)),
       catalog_(std::move(catalog)),
       store_(std::move(store)),
       ingestor_(catalog_, store_, options_of(config)),
@@ -39,6 +40,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.ny = config.grid.ny;
     options.levels_m = config.grid.levels_m;
     options.domains = config.grid.domains;
+    options.partial_sources = partial_sources_;
     options.decode_threads = config.grid.threads;
     options.grid_threads = config.grid.threads;
     options.stations = stations_;

@@ -11,6 +11,7 @@
 #include "daemon/config/descriptor_plan.h"
 #include "daemon/queue/sink.h"
 #include "pipeline/care/mend_cache.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "pipeline/mosaic/site_watch.h"
 
 namespace stormcellar::daemon {
@@ -41,6 +42,12 @@ class IngestSink final : public Sink {
     // For the cache keeper, which works beside take().
     [[nodiscard]] catalog::CatalogWriter& catalog() { return catalog_; }
     [[nodiscard]] const cache::StoreReader& store() const { return store_; }
+    // For the keeper of partials.
+    [[nodiscard]] const cache::StoreWriter& writer() const { return store_; }
+    [[nodiscard]] pipeline::MosaicMaker& mosaics() { return ingestor_.mosaics(); }
+    [[nodiscard]] const std::shared_ptr<pipeline::PartialSources>& partial_sources() const {
+        return partial_sources_;
+    }
     [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }
     [[nodiscard]] pipeline::SiteWatch& site_watch() { return site_watch_; }
 
@@ -54,6 +61,7 @@ class IngestSink final : public Sink {
     std::shared_ptr<StationRule> stations_;
     std::size_t growing_;  // descriptors for growing volumes (descriptor_plan.h)
     catalog::LeftAlone left_alone_;
+    std::shared_ptr<pipeline::PartialSources> partial_sources_;
     std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
     catalog::CatalogWriter catalog_;
     cache::RollingStore store_;

@@ -344,6 +344,13 @@ void Service::keep_house() {
         status_.set_loops(std::move(*loops));
         status_file_.changed();
     }
+    if (parts_.machines) {
+        auto machines = parts_.machines();
+        if (machines != status_.facts().machines) {
+            status_.set_machines(std::move(machines));
+            status_file_.changed();
+        }
+    }
     publish(false);
     feed(watchdog_, parts_.notifier, now, oldest_step());
 }

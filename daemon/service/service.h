@@ -18,6 +18,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -59,6 +60,8 @@ struct ServiceParts {
     StatusBoard* board = nullptr;       // null: the status is published only in its file
     StateKeeper* state = nullptr;       // null: a state directory that is deleted is not made again
     std::filesystem::path socket = {};  // where the status is served, to be named in the status
+    // The machines that bring partials of mosaics; empty: there are none.
+    std::function<std::vector<MachineFacts>()> machines = {};
 };
 
 enum class Stopped {

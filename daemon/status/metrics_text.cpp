@@ -228,6 +228,37 @@ void write_sites(MetricsWriter& out, const StatusFacts& facts) {
     }
 }
 
+void write_machines(MetricsWriter& out, const StatusFacts& facts, UtcTime now) {
+    if (facts.machines.empty()) return;
+    const auto all = [&](const char* name, Type type, const char* help,
+                         const std::function<std::uint64_t(const MachineFacts&)>& value) {
+        out.family(name, type, help);
+        for (const MachineFacts& machine : facts.machines)
+            out.sample(value(machine), {{"machine", machine.name}});
+    };
+    const auto ages = [&](const char* name, const char* help,
+                          std::optional<UtcTime> MachineFacts::*time) {
+        out.family(name, Type::gauge, help);
+        for (const MachineFacts& machine : facts.machines) {
+            if (machine.*time)
+                out.sample(seconds_between(*(machine.*time), now), {{"machine", machine.name}});
+        }
+    };
+    all("stormcellar_machine_late", Type::gauge,
+        "1 while the machine is late with its parts of mosaics.",
+        [](const MachineFacts& machine) { return std::uint64_t{machine.is_late ? 1U : 0U}; });
+    all("stormcellar_machine_partials_total", Type::counter,
+        "Parts of mosaics that were taken from the machine.",
+        [](const MachineFacts& machine) { return machine.taken; });
+    all("stormcellar_machine_refused_total", Type::counter,
+        "Files of the machine that are damaged, or no parts of a mosaic.",
+        [](const MachineFacts& machine) { return machine.refused; });
+    ages("stormcellar_machine_last_arrival_age_seconds",
+         "Time since the machine last brought something.", &MachineFacts::arrived);
+    ages("stormcellar_machine_newest_volume_age_seconds",
+         "Time since the middle of the newest volume of the machine.", &MachineFacts::newest);
+}
+
 void write_loops(MetricsWriter& out, const StatusFacts& facts) {
     const std::vector<LoopState>& loops = facts.loops.empty() ? facts.others_loops : facts.loops;
     if (loops.empty()) return;
@@ -260,6 +291,7 @@ std::string metrics_text(const StatusFacts& facts, const Pending& pending, UtcTi
     write_cache(out, facts);
     write_stations(out, facts, now);
     write_sites(out, facts);
+    write_machines(out, facts, now);
     write_loops(out, facts);
     return out.take();
 }

@@ -21,6 +21,7 @@
 #include "daemon/queue/pending.h"
 #include "daemon/queue/sink.h"
 #include "daemon/queue/worker_pool.h"
+#include "daemon/status/machine_facts.h"
 #include "daemon/status/rejected_paths.h"
 #include "daemon/status/station_book.h"
 #include "daemon/status/status_names.h"
@@ -83,6 +84,7 @@ struct StatusFacts {
     std::deque<RejectedFile> rejected_files;  // each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
+    std::vector<MachineFacts> machines;  // that bring partials of mosaics
 };
 
 class StatusBook {
@@ -107,6 +109,7 @@ class StatusBook {
     void set_loops(std::vector<LoopState> loops) { facts_.loops = std::move(loops); }
     void set_others_loops(std::vector<LoopState> loops) { facts_.others_loops = std::move(loops); }
     void set_catalog(CatalogState state) { facts_.catalog = std::move(state); }
+    void set_machines(std::vector<MachineFacts> machines) { facts_.machines = std::move(machines); }
     void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
     // For volumes in chunks (station_book.h), and stations known before the start.
     [[nodiscard]] StationBook& stations() { return facts_.stations; }

@@ -100,6 +100,25 @@ Json age_or_null(const std::optional<UtcTime>& time, UtcTime now) {
     return std::chrono::duration<double>(now - *time).count();
 }
 
+Json text_or_null(const std::string& text) {
+    if (text.empty()) return nullptr;
+    return text;
+}
+
+Json json_of(const MachineFacts& machine, UtcTime now) {
+    return {{"name", machine.name},
+            {"directory", machine.directory},
+            {"late", machine.is_late},
+            {"why", text_or_null(machine.why)},
+            {"newest", time_or_null(machine.newest)},
+            {"newest_age_s", age_or_null(machine.newest, now)},
+            {"arrived", time_or_null(machine.arrived)},
+            {"arrived_age_s", age_or_null(machine.arrived, now)},
+            {"taken", machine.taken},
+            {"refused", machine.refused},
+            {"last_problem", text_or_null(machine.last_problem)}};
+}
+
 Json json_of(const Timings& timings) {
     const LatencySummary summary = timings.summary();
     const auto known = [&](double value) {
@@ -261,6 +280,9 @@ std::string status_json(const StatusFacts& facts, const Pending& pending, UtcTim
     Json& sites = list("sites");
     for (const auto& [key, report] : facts.sites)
         sites.push_back(json_of(report));
+    Json& machines = list("machines");
+    for (const MachineFacts& machine : facts.machines)
+        machines.push_back(json_of(machine, now));
     const bool elsewhere = facts.loops.empty() && !facts.others_loops.empty();
     document["loops"] = json_of(elsewhere ? facts.others_loops : facts.loops);
     if (elsewhere) document["loops"]["elsewhere"] = true;

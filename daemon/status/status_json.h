@@ -59,6 +59,9 @@
 //                  the four values, of B relative to A (grid/judge/site_comparison.h), is {"value",
 //                  "standard_error"} or, if it could not be determined, {"untold"}; faults: one
 //                  text for each
+//   machines       those that bring partials of mosaics: {"name", "directory", "late", "why" (null:
+//                  not late), "newest", "newest_age_s", "arrived", "arrived_age_s", "taken",
+//                  "refused", "last_problem" (null: none)}
 //   loops          {"running", "restarts", "made", "last_made" (null: none yet)} of all [[loop]]
 //                  tables; "each": [{"name", "running", "restarts", "made", "last_made", "frames",
 //                  "last_problem" (null: none)}]; "elsewhere": true if another process keeps them,

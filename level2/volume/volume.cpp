@@ -164,6 +164,10 @@ std::optional<UtcTime> Volume::start_time() const {
     return header->time();
 }
 
+std::string volume_name(std::string_view station, UtcTime start) {
+    return std::string{station} + format_compact(start);
+}
+
 std::size_t Volume::radial_count() const {
     std::size_t count = 0;
     for (const Sweep& sweep : sweeps)

@@ -188,19 +188,20 @@ std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
     return options_.domain ? options_.domain->name + "." + volume.station : volume.station;
 }
 
-// A grid remains valid after its file has been deleted.
+// A grid remains valid after its file has been deleted. As with make(1), a file that was written
+// after the grid is another one.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
     if (!path) return pass_on(path);
     const auto file = cache::GridFile::open(*path);
     if (!file || !is_of_grid(options_, file->description())) return false;
-    const grid::Provenance& made_of = file->description().provenance;
-    if (made_of.source_files != std::vector{volume.path.filename().string()}) return false;
+    const auto made = stamp_of(*path);
+    if (!made) return pass_on(made);
     const auto root = catalog::root_of(catalog_, volume.path);
     if (!root) return pass_on(root);
     const auto stamp = stamp_of(volume.path, *root);
     if (!stamp) return stamp.error().code == ErrorCode::not_found;
-    return stamp->modified_ns == made_of.source_modified_ns;
+    return stamp->modified_ns <= made->modified_ns;
 }
 
 Result<std::vector<ArchiveVolume>> ArchiveFill::missing(

@@ -51,14 +51,12 @@ std::string joined(const std::vector<std::string>& texts) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// Returns the modification time of the file if the catalog has it as it is now; else none.
-std::optional<std::int64_t> settled_as_it_is(const catalog::CatalogReader& catalog,
-                                             const fs::path& path) {
+// Checks that the catalog has the file as it is now.
+bool is_settled_as_it_is(const catalog::CatalogReader& catalog, const fs::path& path) {
     const auto stamp = stamp_of(path);
-    if (!stamp || !stamp->regular) return std::nullopt;
+    if (!stamp || !stamp->regular) return false;
     const auto settled = catalog.is_settled(path, stamp->size_bytes, stamp->modified_ns);
-    if (!settled || !*settled) return std::nullopt;
-    return believed_ns(stamp->modified_ns);
+    return settled && *settled;
 }
 
 bool may_have_a_grid(const CatalogEntry& entry) {
@@ -66,16 +64,16 @@ bool may_have_a_grid(const CatalogEntry& entry) {
            entry.volume.start_time && entry.volume.radial_count > 0;
 }
 
-// Returns the file from which the grid must be made, by the rule of pipeline/ingest/ingest.h.
+// Returns the file from which the grid must be made, by the rule of pipeline/ingest/ingest.h. Two
+// whole files with the same end are told apart by their contents, not by their age.
 std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
-    using Rank = std::tuple<bool, std::int64_t>;
+    using Rank = std::tuple<bool, std::optional<UtcTime>, std::uint64_t>;
     std::optional<std::pair<Rank, fs::path>> best;
     for (const CatalogEntry& entry : of_one_volume) {
         if (!may_have_a_grid(entry)) continue;
-        const auto modified_ns = settled_as_it_is(catalog, entry.path);
-        if (!modified_ns) continue;
-        const Rank rank{entry.volume.complete, *modified_ns};
+        if (!is_settled_as_it_is(catalog, entry.path)) continue;
+        const Rank rank{entry.volume.complete, entry.volume.end_time, entry.content_hash};
         if (!best || rank > best->first) best = {rank, entry.path};
     }
     if (!best) return std::nullopt;

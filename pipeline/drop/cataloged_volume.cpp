@@ -79,10 +79,9 @@ Result<std::optional<catalog::CatalogEntry>> find_cataloged_volume(
 
 Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
-    const std::vector<std::string>& source_files) {
+    bool is_partial) {
     return find_cataloged_volume(catalog, station, start, [&](const catalog::CatalogEntry& entry) {
-        return std::ranges::find(source_files, entry.path.filename().string()) !=
-               source_files.end();
+        return entry.volume.complete != is_partial;
     });
 }
 

@@ -35,10 +35,10 @@ struct CatalogedVolume {
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     const std::function<bool(const catalog::CatalogEntry&)>& is_meant);
 
-// The one that a grid was made of, by the names of its files.
+// The one that a grid was made of: whole, if the grid is of a whole volume.
 [[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
-    const std::vector<std::string>& source_files);
+    bool is_partial);
 
 // Chunks are joined in the order of their numbers, one for each number, as far as they exist.
 // Chunks without a row are left out. Errors: those of read_cataloged().

@@ -19,13 +19,6 @@ Result<FileStamp> stamp_of(const std::filesystem::path& path,
                      S_ISREG(facts->st_mode), facts->st_mode & S_IFMT, nanoseconds(facts->st_ctim)};
 }
 
-std::int64_t believed_ns(std::int64_t modified_ns) {
-    const std::int64_t now_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                    std::chrono::system_clock::now().time_since_epoch())
-                                    .count();
-    return std::min(modified_ns, now_ns);
-}
-
 catalog::VolumeFacts facts_of(const level2::Volume& volume, bool damaged) {
     catalog::VolumeFacts facts;
     facts.start_time = volume.start_time();

@@ -38,10 +38,6 @@ struct FileStamp {
 [[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path,
                                          const std::filesystem::path& beneath = {});
 
-// Returns when a file was written, as it counts against other files of its volume: its own time,
-// but no later than now, because a file from the future would be the newest for good.
-[[nodiscard]] std::int64_t believed_ns(std::int64_t modified_ns);
-
 [[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume, bool damaged);
 
 // Returns the most severe problem in one line, with the number of problems; empty if there is none

@@ -2,13 +2,14 @@
 //
 // The daemon and the CLI share it. It never changes the raw file. A file that cannot be decoded is
 // recorded as rejected, with the reason; that is a result, not an error. A grid in the cache is
-// replaced by the grid of a complete volume or of a newer file, never by that of an incomplete
-// volume or an older file. A volume that the limits of the cache would not keep is not gridded. The
-// data never cause an error. An error means that the catalog or the cache cannot be written, or
-// that the system gives no memory or descriptors; trying again later may help. At the last try
-// every failure except a shortage of the system (is_shortage()) is recorded as a rejection with its
-// reason; if not even that can be stored, the error is returned. Thread contract: many threads may
-// use an Ingestor at once, for different files.
+// replaced by the grid of a complete volume, never by that of an incomplete one; of two files of
+// one volume that are there, the volume with the later end counts. A volume that the limits of the
+// cache would not keep is not gridded. The data never cause an error. An error means that the
+// catalog or the cache cannot be written, or that the system gives no memory or descriptors; trying
+// again later may help. At the last try every failure except a shortage of the system
+// (is_shortage()) is recorded as a rejection with its reason; if not even that can be stored, the
+// error is returned. Thread contract: many threads may use an Ingestor at once, for different
+// files.
 #pragma once
 
 #include <filesystem>

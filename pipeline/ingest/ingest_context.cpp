@@ -68,7 +68,7 @@ IngestContext::IngestContext(catalog::CatalogWriter& its_catalog, cache::StoreWr
     : catalog(its_catalog),
       store(its_store),
       options(std::move(its_options)),
-      mosaics(store, options.domains, options.frames),
+      mosaics(store, options.domains, options.frames, options.partial_sources),
       chunks(follow_options(options), chunk_limits(options)) {
     if (store == nullptr) return;
     site_grids.emplace(*store, options);

@@ -5,8 +5,7 @@
 namespace stormcellar::pipeline {
 
 Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, UnshownSweeps news,
-                         const std::string& file, std::int64_t modified_ns,
-                         IngestOutcome& outcome) {
+                         const std::string& file, IngestOutcome& outcome) {
     const IngestOptions& options = context.options;
     // A grid has the name of the start in the header: without it, the living grid would stay beside
     // that of the whole volume.
@@ -29,7 +28,7 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
         // Its grid would have another time in its name than that of the whole volume, and stay
         // beside it.
         if (volume.start_time() != kept.facts.header->time()) continue;
-        GridSource source{file, modified_ns, true};
+        GridSource source{file, true};
         source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",
                                            living_note, volume.sweeps.size() - sweeps->standing(),
                                            sweeps->standing()));

@@ -3,7 +3,6 @@
 // Inside the pipeline room only. Thread contract: many threads may call it for different volumes.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "pipeline/ingest/followed_file.h"
@@ -13,11 +12,11 @@ namespace stormcellar::pipeline {
 
 // Grids the closed sweeps together with the standing sweeps of the site's last volume: each moment
 // of which there is news. Adds the grids to the outcome's `living`. `file` is the name of the raw
-// file for the grid's provenance. Returns false if the new sweeps must still be shown later,
+// file. Returns false if the new sweeps must still be shown later,
 // because there is no time now or no grid can be made yet. Errors: those of the cache and the
 // system.
 [[nodiscard]] Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept,
                                        UnshownSweeps news, const std::string& file,
-                                       std::int64_t modified_ns, IngestOutcome& outcome);
+                                       IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

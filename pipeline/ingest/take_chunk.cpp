@@ -130,9 +130,8 @@ Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkV
     outcome_.goes_on = has_place && volume.has_sweeps();
     outcome_.given_up += context_.chunks.take_given_up();
     if (volume.news().any && volume.kept() != nullptr) {
-        const auto shown =
-            show_living(context_, *volume.kept(), volume.news(),
-                        volume.first_file().filename().string(), stamp_.modified_ns, outcome_);
+        const auto shown = show_living(context_, *volume.kept(), volume.news(),
+                                       volume.first_file().filename().string(), outcome_);
         if (!shown) return pass_on(shown);
         if (*shown) volume.set_shown();
     }

@@ -83,8 +83,8 @@ Result<IngestOutcome> TakeGrowing::show() {
     outcome_.station = facts_.station;
     outcome_.volume_time = volume_facts.start_time;
     outcome_.newest_radial = volume_facts.end_time;
-    const auto shown = show_living(context_, kept, followed_->news(),
-                                   facts_.path.filename().string(), facts_.modified_ns, outcome_);
+    const auto shown =
+        show_living(context_, kept, followed_->news(), facts_.path.filename().string(), outcome_);
     if (!shown) return pass_on(shown);
     if (*shown) followed_->set_shown();
     return std::move(outcome_);

@@ -110,6 +110,19 @@ bool TakeVolumes::is_partial(const level2::Volume& volume) const {
     return reading_.damaged || !level2::is_complete(volume);
 }
 
+// Returns true if another file of the volume is there.
+Result<bool> TakeVolumes::has_rival(const level2::Volume& volume) const {
+    const auto start = volume.start_time();
+    const std::string station = context_.taken_station(volume.station);
+    const auto rows = context_.catalog.list(station, {start, start, false});
+    if (!rows && rows.error().code == ErrorCode::not_found) return false;
+    if (!rows) return pass_on(rows);
+    return std::ranges::any_of(*rows, [&](const catalog::CatalogEntry& row) {
+        const bool is_gone = row.state == FileState::gone || row.state == FileState::rejected;
+        return !is_gone && row.path != facts_.path && stamp_of(row.path).has_value();
+    });
+}
+
 Result<IngestOutcome> TakeVolumes::reject(ErrorCode code, std::string why) {
     return context_.reject(facts_, {code, std::move(why)}, std::move(outcome_));
 }
@@ -154,8 +167,10 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
     }
     const auto has = [&](level2::Moment moment) { return level2::holds(volume, moment); };
     if (std::ranges::none_of(context_.options.moments, has)) return {};
-    const GridSource source{facts_.path.filename().string(), believed_ns(facts_.modified_ns),
-                            is_partial(volume), troubles_of(volume.station)};
+    const auto rival = has_rival(volume);
+    if (!rival) return pass_on(rival);
+    const GridSource source{facts_.path.filename().string(), is_partial(volume), *rival,
+                            troubles_of(volume.station)};
     return context_.site_grids->keep(volume, source,
                                      context_.share_of(context_.options.grid_threads), outcome_);
 }
@@ -167,7 +182,9 @@ Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
                                   antenna->altitude_m};
     VolumeSource source{volume, site, facts_.path.filename().string()};
-    source.modified_ns = believed_ns(facts_.modified_ns);
+    const auto rival = has_rival(volume);
+    if (!rival) return pass_on(rival);
+    source.has_rival = *rival;
     source.partial = is_partial(volume);
     source.radar_troubles = troubles_of(site.icao);
     if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);

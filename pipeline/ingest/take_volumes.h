@@ -39,6 +39,7 @@ class TakeVolumes {
     void describe(const std::vector<level2::Volume>& volumes);
     [[nodiscard]] std::vector<std::string> troubles_of(const std::string& station) const;
     [[nodiscard]] bool is_partial(const level2::Volume& volume) const;
+    [[nodiscard]] Result<bool> has_rival(const level2::Volume& volume) const;
     Result<IngestOutcome> reject(ErrorCode code, std::string why);
     Result<IngestOutcome> settle();
     Result<IngestOutcome> grid_all(const std::vector<level2::Volume>& volumes);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <system_error>
 
+#include "base/checksum.h"
 #include "stormcellar/level2/chunk_name.h"
 
 namespace stormcellar::pipeline {
@@ -15,13 +16,44 @@ bool is_living(const grid::Provenance& provenance) {
                        [](const std::string& note) { return note.starts_with(living_note); });
 }
 
+// Any order does that depends on the cells alone.
+std::uint64_t order_of(const grid::BrickView& view) {
+    std::vector<std::uint64_t> words;
+    for (const grid::BrickEntry& brick : view.bricks) {
+        words.push_back(static_cast<std::uint64_t>(brick.kind));
+        words.push_back(static_cast<std::uint64_t>(brick.uniform_status));
+        words.push_back(brick.checksum);
+    }
+    return xxh3_64(std::as_bytes(std::span(words)));
+}
+
 // The first radial received of a volume is at most this far from its header.
 constexpr std::chrono::minutes farthest_radial{15};
+
+struct RadialTimes {
+    UtcTime first, last;
+    static std::optional<RadialTimes> of(const level2::Volume& volume) {
+        std::optional<RadialTimes> times;
+        for (const level2::Sweep& sweep : volume.sweeps) {
+            for (const level2::Radial& radial : sweep.radials) {
+                if (!level2::is_time_of_volume(radial.time, volume.start_time())) continue;
+                if (!times) times = RadialTimes{radial.time, radial.time};
+                times->first = std::min(times->first, radial.time);
+                times->last = std::max(times->last, radial.time);
+            }
+        }
+        return times;
+    }
+    [[nodiscard]] bool has(const cache::GridDescription& grid) const {
+        return grid.start_time >= first && grid.end_time <= last;
+    }
+};
 
 }  // namespace
 
 std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
-                                          const cache::GridDescription& made) {
+                                          const Candidate& candidate) {
+    const cache::GridDescription& made = candidate.description;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return std::nullopt;
     const auto file = cache::GridFile::open(path);
@@ -37,10 +69,12 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
     const bool better = !old.partial && made.provenance.partial;
     const bool worse = old.partial && !made.provenance.partial;
     if (better) return "not replaced: the cache has a grid of the whole volume";
-    if (!worse && old.source_modified_ns > made.provenance.source_modified_ns) {
-        return "not replaced: the cache has a grid of a newer file of this volume";
-    }
-    return std::nullopt;
+    if (worse || !candidate.has_rival || stands_living) return std::nullopt;
+    const bool later = stands.end_time > made.end_time;
+    const bool before =
+        stands.end_time == made.end_time && order_of(file->view()) < order_of(candidate.view);
+    if (!later && !before) return std::nullopt;
+    return "not replaced: the cache has a grid of another file of this volume";
 }
 
 void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
@@ -63,18 +97,16 @@ void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& doma
 
 void remove_other_times(cache::StoreWriter& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file) {
-    const auto chunk = level2::parse_chunk_name(source_file);
-    if (!chunk || !volume.header) return;
+    const auto times = RadialTimes::of(volume);
+    if (!level2::parse_chunk_name(source_file) || !volume.header || !times) return;
     const UtcTime time = volume.header->time();
     const auto near = store.list(domain, moment, time - farthest_radial, time + farthest_radial);
     if (!near) return;
     for (const cache::StoreEntry& entry : *near) {
         if (entry.time == time || entry.pinned) continue;
         const auto file = cache::GridFile::open(entry.path);
-        if (!file || file->description().provenance.source_files.size() != 1) continue;
-        const auto other =
-            level2::parse_chunk_name(file->description().provenance.source_files.front());
-        if (other && other->volume == chunk->volume) (void)store.remove(entry);
+        if (!file || !file->description().provenance.partial) continue;
+        if (times->has(file->description())) (void)store.remove(entry);
     }
 }
 

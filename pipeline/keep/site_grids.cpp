@@ -72,8 +72,7 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, level2::Mo
     grid::Provenance& provenance = made.grid.provenance;
     provenance.predicted_error =
         grid::unplanned_error(volume, site, spec, (*geometry)->frame_kind(), made.gridder);
-    provenance.source_files = {source.file};
-    provenance.source_modified_ns = source.modified_ns;
+    provenance.source_files = {level2::volume_name(volume.station, made.grid.time)};
     provenance.partial = source.partial;
     provenance.radar_troubles = source.radar_troubles;
     if (antenna->disagreement) provenance.notes.push_back(*antenna->disagreement);
@@ -82,7 +81,8 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, level2::Mo
 }
 
 // A grid that cannot be audited is kept like others; its audit is then unknown.
-Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, bool is_living,
+Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
+                                   const GridSource& source, Living living,
                                    IngestOutcome& outcome) {
     grid::Grid& grid = made.grid;
     const std::string& domain = grid.sites.front().icao;
@@ -90,18 +90,19 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, boo
     if (!path) return of_gridding(path.error());
     const auto bricks =
         grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), made.gridder.threads);
-    if (!is_living) {
+    if (living == Living::no) {
         const auto audited = grid::audit(bricks.view(), volume, grid.sites.front(), made.gridder);
         if (audited) grid.provenance.audit = audited->rows;
     }
     const std::scoped_lock lock(commits_.at(fs::hash_value(*path) % commits_.size()));
-    if (auto reason = reason_to_keep(*path, cache::describe(grid))) {
+    const cache::GridDescription description = cache::describe(grid);
+    if (auto reason = reason_to_keep(*path, {description, bricks.view(), source.has_rival})) {
         outcome.reason = std::move(*reason);
         return path;
     }
     return store_.commit(
-        domain, cache::describe(grid), bricks.view(),
-        is_living ? cache::Durability::until_a_crash : cache::Durability::power_cut);
+        domain, description, bricks.view(),
+        living == Living::yes ? cache::Durability::until_a_crash : cache::Durability::power_cut);
 }
 
 // Moments are independent: one that the cache does not keep leaves the others alone.
@@ -128,7 +129,7 @@ Status SiteGrids::keep_moment(const level2::Volume& volume, level2::Moment momen
     outcome.partial = outcome.partial || source.partial;
 
     const auto commit_start = Clock::now();
-    auto path = commit(*made, volume, false, outcome);
+    auto path = commit(*made, volume, source, Living::no, outcome);
     outcome.commit_s += seconds_since(commit_start);
     if (!path && path.error().code == ErrorCode::over_budget) {
         note_no_room(outcome, path.error());
@@ -158,7 +159,7 @@ Status SiteGrids::keep_living(const level2::Volume& volume, level2::Moment momen
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
     const auto commit_start = Clock::now();
-    auto path = commit(*made, volume, true, outcome);
+    auto path = commit(*made, volume, source, Living::yes, outcome);
     outcome.commit_s += seconds_since(commit_start);
     // The whole volume reports it when it has come.
     if (!path && path.error().code == ErrorCode::over_budget) return {};

@@ -20,11 +20,11 @@
 
 namespace stormcellar::pipeline {
 
-// What the provenance of the grid says about the raw file.
+// What the caller knows about the raw file.
 struct GridSource {
     std::string file;  // without directories
-    std::int64_t modified_ns = 0;
     bool partial = false;
+    bool has_rival = false;  // as in Candidate
     std::vector<std::string> radar_troubles = {};
     std::vector<std::string> notes = {};
 };
@@ -57,7 +57,9 @@ class SiteGrids {
                        const GridSource& source, int threads, IngestOutcome& outcome);
     Result<Made> make(const level2::Volume& volume, level2::Moment moment, const GridSource& source,
                       int threads);
-    Result<std::filesystem::path> commit(Made& made, const level2::Volume& volume, bool is_living,
+    enum class Living { no, yes };
+    Result<std::filesystem::path> commit(Made& made, const level2::Volume& volume,
+                                         const GridSource& source, Living living,
                                          IngestOutcome& outcome);
 
     cache::StoreWriter& store_;

@@ -147,8 +147,6 @@ void describe(const PartialView& partial, cache::GridDescription& frame) {
     provenance.averaging = source.averaging;
     provenance.effects = source.effects;
     provenance.partial = provenance.partial || source.partial;
-    provenance.source_modified_ns =
-        std::max(provenance.source_modified_ns, source.source_modified_ns);
     const bool first = frame.sites.empty();
     frame.moment = from.moment;
     frame.start_time = first ? from.start_time : std::min(frame.start_time, from.start_time);

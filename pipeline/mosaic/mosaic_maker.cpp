@@ -74,16 +74,32 @@ bool is_damage(const Error& error) {
            error.code == ErrorCode::io;
 }
 
+// A station of which somebody else has brought a newer volume stays.
+std::vector<PartialView> without(const std::vector<LateMachine>& late,
+                                 std::vector<PartialView> partials) {
+    for (const LateMachine& machine : late) {
+        std::set<std::string> stations = machine.stations;
+        for (const PartialView& partial : partials)
+            if (partial.middle() > machine.newest) stations.erase(partial.site().icao);
+        std::erase_if(partials, [&](const PartialView& partial) {
+            return stations.contains(partial.site().icao);
+        });
+    }
+    return partials;
+}
+
 bool is_frame_time(UtcTime time, std::chrono::seconds interval) {
     return instants_between(time, time, interval).size() == 1;
 }
 
 }  // namespace
 
-MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains, FramesWhen frames)
+MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains, FramesWhen frames,
+                         std::shared_ptr<PartialSources> sources)
     : store_(store),
       domains_(std::move(domains)),
       frames_when_(frames),
+      sources_(std::move(sources)),
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
@@ -121,8 +137,7 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     if (!made) return of_gridding(made.error());
     if (!*made) return {};
     cache::GridDescription& description = (*made)->description;
-    description.provenance.source_files = {source.file};
-    description.provenance.source_modified_ns = source.modified_ns;
+    description.provenance.source_files = {level2::volume_name(source.site.icao, description.time)};
     description.provenance.partial = source.partial;
     description.provenance.radar_troubles = source.radar_troubles;
     description.provenance.notes.insert(description.provenance.notes.begin(), source.notes.begin(),
@@ -131,7 +146,7 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     const std::string name = site_domain(domain.name, source.site.icao);
     const auto path = store_->path_of(name, moment, description.time);
     if (!path) return of_gridding(path.error());
-    if (reason_to_keep(*path, description)) return {};
+    if (reason_to_keep(*path, {description, (*made)->bricks.view(), source.has_rival})) return {};
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
     if (!committed) return of_storing(committed.error());
     if (committed->empty()) return {};  // older than what the budgets keep
@@ -160,12 +175,13 @@ Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
 
 // A partial that turns out to be damaged is left out; others repair it.
 Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedPartials& partials,
+                                                const std::vector<LateMachine>& late,
                                                 const PreviousFrame* previous,
                                                 std::vector<std::string>& problems) {
     const FrameOptions options = frame_options(job.domain, job.moment, job.threads);
     while (true) {
-        auto frame = make_frame(job.domain.spec, partials.views(), job.instant, options,
-                                geometries_, {previous, &instants_});
+        auto frame = make_frame(job.domain.spec, without(late, partials.views()), job.instant,
+                                options, geometries_, {previous, &instants_});
         if (frame || !is_damage(frame.error()) || !partials.drop_damaged(problems)) return frame;
     }
 }
@@ -179,16 +195,18 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
     const bool sound = stands && stands->verify();
     const PreviousFrame previous =
         sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};
-    auto frame = frame_of_sound(job, partials, sound ? &previous : nullptr, problems);
+    std::vector<LateMachine> late;
+    if (sources_) late = sources_->late_for(job.domain.name, job.moment, job.instant);
+    auto frame = frame_of_sound(job, partials, late, sound ? &previous : nullptr, problems);
     if (!frame) return pass_on(frame);
     if (Status whole = partials.check_whole(); !whole) return pass_on(whole);
     if (sound) {
         if (Status whole = stands->check_whole(); !whole) return pass_on(whole);
     }
     grid::Provenance& provenance = frame->description.provenance;
-    // A frame of an archive has the same bytes wherever and however often it is made.
-    const bool counts = frames_when_ == FramesWhen::volume_comes && stands;
-    provenance.revision = 1 + (counts ? stands->description().provenance.revision : 0);
+    provenance.revision = static_cast<int>(provenance.parts.size());
+    for (const LateMachine& machine : late)
+        provenance.left_out.push_back(machine.text());
     auto committed =
         store_->commit(job.domain.name, frame->description, frame->mosaic.cells.view());
     if (!committed) return pass_on(committed);

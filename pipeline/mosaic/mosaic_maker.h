@@ -8,11 +8,14 @@
 // bytes are the same as if it were made whole. Frames are at whole multiples of the interval since
 // midnight UTC, none before the oldest volume thereabouts or after the newest. A frame is
 // provisional until each of its sites has a volume after it (or has had none for 15 minutes), and
-// has a revision that counts how often it was replaced. A frame that is only made when it is asked
-// for has revision 1 always, so that its bytes depend on its partials alone.
+// has a revision that counts its volumes. Its bytes depend on its partials alone, however often it
+// is made.
 //
 // The partials of a frame are verified first, and so is the frame that is copied from. A partial
 // that cannot be read, or is damaged, is left out of frames and named.
+//
+// Machines that are late (pipeline/options/partial_sources.h) are left out of a frame, which says
+// so.
 //
 // Threads   Many threads may use it; calls for the same domain and moment wait for each other.
 // Errors    Those of gridding, merging and the store.
@@ -20,6 +23,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -29,6 +33,7 @@
 #include "pipeline/mosaic/instant_cache.h"
 #include "pipeline/mosaic/mosaic_frame.h"
 #include "pipeline/options/domain.h"
+#include "pipeline/options/partial_sources.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 
@@ -39,10 +44,17 @@ struct VolumeSource {
     const level2::Volume& volume;
     const grid::SitePosition& site;
     std::string file;  // the file's name, without directories
-    std::int64_t modified_ns = 0;
     bool partial = false;
+    bool has_rival = false;  // as in pipeline/keep/keep_rule.h
     std::vector<std::string> notes = {};
     std::vector<std::string> radar_troubles = {};  // as in grid::Provenance
+};
+
+// A partial that another machine made.
+struct OthersPartial {
+    std::filesystem::path file;  // immutable: it may be replaced, but is never written to
+    cache::GridName name;
+    std::string machine;
 };
 
 struct Kept {
@@ -64,12 +76,18 @@ class MosaicMaker {
   public:
     // Without a store, or without domains, it does nothing.
     MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
-                FramesWhen frames = FramesWhen::volume_comes);
+                FramesWhen frames = FramesWhen::volume_comes,
+                std::shared_ptr<PartialSources> sources = nullptr);
 
     // Does nothing for volumes that no domain takes. Uses `threads` threads. Errors: only temporary
     // ones, for example if the system refuses a write; all other domains have the volume
     // nevertheless.
     Result<Kept> take_in(const VolumeSource& source, int threads);
+    // Takes a partial that another machine made: copies it into the store and makes the frames that
+    // it changes. Nothing happens if the store has it, or keeps another grid of the volume. Errors:
+    // of the file (corrupt, truncated and others), bad_argument if no domain has such a partial,
+    // and those of the store.
+    Result<Kept> take_partial(const OthersPartial& partial, int threads);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }
     // As find_domain() says, among these domains.
@@ -92,6 +110,7 @@ class MosaicMaker {
     };
     std::mutex& frames_of(const std::string& domain, level2::Moment moment);
     Result<MosaicFrame> frame_of_sound(const FrameJob& job, MappedPartials& partials,
+                                       const std::vector<LateMachine>& late,
                                        const PreviousFrame* previous,
                                        std::vector<std::string>& problems);
     // The caller must hold the mutex of the domain's frames.
@@ -105,6 +124,7 @@ class MosaicMaker {
     cache::StoreWriter* store_;
     std::vector<Domain> domains_;
     FramesWhen frames_when_;
+    std::shared_ptr<PartialSources> sources_;
     GeometryCache geometries_;
     InstantCache instants_;
     std::mutex mutex_;                                                     // guards frames_

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/options/domain.h"
+#include "pipeline/options/partial_sources.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_rule.h"
 #include "stormcellar/level2/selection.h"
@@ -72,6 +73,8 @@ struct IngestOptions {
     std::vector<Domain> domains;   // mosaics to keep in addition to each site's own grid
     bool own_grids = true;         // false: grids of the sites are only made for the domains
     FramesWhen frames = FramesWhen::volume_comes;
+    // The machines that bring partials of the domains; null: there are none.
+    std::shared_ptr<PartialSources> partial_sources;
     // The number in total: files that are ingested at the same time share the threads, and a single
     // file has all of them.
     int decode_threads = 1;

@@ -79,6 +79,8 @@ std::string view_text(const Scene& scene) {
 std::vector<std::string> warnings_of(const FrameFacts& facts) {
     std::vector<std::string> warnings;
     if (facts.partial) warnings.emplace_back("partial volume");
+    for (const std::string& machine : facts.left_out)
+        warnings.push_back("without " + machine);
     warnings.insert(warnings.end(), facts.radar_troubles.begin(), facts.radar_troubles.end());
     return warnings;
 }

@@ -138,6 +138,7 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
     FrameFacts facts{domain, description.moment, description.time, description.sites,
                      description.provenance.partial};
     facts.radar_troubles = description.provenance.radar_troubles;
+    facts.left_out = description.provenance.left_out;
     const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
     const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
     if (!local.ends_with(" UTC")) facts.local_time = local;

@@ -45,6 +45,7 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_EQ(about.provenance.predicted_error, "position 714 m");
     EXPECT_EQ(about.provenance.notes, grid.provenance.notes);
     EXPECT_EQ(about.provenance.radar_troubles, grid.provenance.radar_troubles);
+    EXPECT_EQ(about.provenance.left_out, grid.provenance.left_out);
     EXPECT_EQ(about.provenance.sweeps, grid.provenance.sweeps);
     EXPECT_TRUE(about.provenance.provisional);
     EXPECT_EQ(about.provenance.revision, 3);
@@ -96,6 +97,29 @@ TEST_F(GridFileTest, AWindowComesBackAndOldReadersAreTold) {
     EXPECT_EQ(header.required_features, format::feature_window);
     EXPECT_EQ(header.offset_x_cells, -1000);
     EXPECT_EQ(header.offset_y_cells, 31.5);
+}
+
+// A file of version 1 also said when its source was modified: record 11.
+TEST_F(GridFileTest, TheVersionBeforeIsReadAndALaterOneRefused) {
+    ASSERT_TRUE(write(real_file_system()));
+    auto bytes = bytes_of(path_);
+    const GridDescription now = GridFile::open(path_)->description();
+    format::FileHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    EXPECT_EQ(header.version, 2U);
+    // The first record is the name of the source, of 24 bytes; the new one takes its place.
+    const std::array<std::uint32_t, 6> record = {11, 8, 123'456'789, 7, 1, 0};
+    std::memcpy(bytes.data() + header.description_offset, record.data(), sizeof record);
+    const auto of_version = [&](std::uint32_t version) {
+        return opened_with_header(bytes, [&](format::FileHeader& old) { old.version = version; });
+    };
+    EXPECT_EQ(of_version(3), ErrorCode::unsupported);
+    EXPECT_EQ(of_version(0), ErrorCode::unsupported);
+    ASSERT_EQ(of_version(1), ErrorCode::empty) << GridFile::open(path_).error().message;
+    const auto old = GridFile::open(path_);
+    EXPECT_TRUE(old->verify());
+    EXPECT_EQ(old->description().provenance.stations, now.provenance.stations);
+    EXPECT_EQ(old->description().provenance.parts, now.provenance.parts);
 }
 
 TEST_F(GridFileTest, AWindowThatContradictsItselfIsRefused) {

@@ -16,7 +16,7 @@ grid::Grid blank_grid(int nx, int ny, int levels) {
     for (int level = 1; level <= levels; ++level)
         made.spec.levels_m.push_back(500.0 * level);
     made.sites = {{"KBGM", 42.19969, -75.98472, 519.1}};
-    made.provenance.source_files = {"KBGM20050822_024414.gz"};
+    made.provenance.source_files = {"KBGM20050822_024414"};
     made.provenance.stations = {"KBGM"};
     made.provenance.method = "column-linear";
     made.provenance.beam_model = "4/3 earth";
@@ -75,6 +75,7 @@ grid::Grid small_grid() {
     made.provenance.partial = true;
     made.provenance.notes = {"a note"};
     made.provenance.radar_troubles = {"KBGM: standby, alarm 452", "KOKX: on auxiliary power"};
+    made.provenance.left_out = {"north (KFWS KTLX): nothing since 2005-08-22T02:30:00Z"};
     made.provenance.provisional = true;
     made.provenance.revision = 3;
     made.provenance.parts = {{"KBGM", made.time, 0x123456789ABCDEF0, {0, 16, 40, 8}},

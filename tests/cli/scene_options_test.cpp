@@ -206,6 +206,7 @@ cache::GridDescription description() {
     grid.sites = {{"KTLX", 35.3, -97.3, 389}};
     grid.provenance.partial = true;
     grid.provenance.radar_troubles = {"KTLX: on auxiliary power"};
+    grid.provenance.left_out = {"north (KFWS): nothing since 22:05"};
     return grid;
 }
 
@@ -216,6 +217,7 @@ TEST(FactsOf, SaysWhatTheGridSays) {
     EXPECT_TRUE(facts.partial);
     EXPECT_EQ(facts.local_time, "1999-05-03 18:56:21 CDT");
     EXPECT_THAT(facts.radar_troubles, ::testing::ElementsAre("KTLX: on auxiliary power"));
+    EXPECT_EQ(facts.left_out, description().provenance.left_out);
     EXPECT_FALSE(facts.antenna_to_picture) << "an archive";
 }
 

@@ -299,6 +299,23 @@ TEST_F(ConfigFile, PathsWithinOneAnotherAreRefused) {
               "no complaint");
 }
 
+TEST_F(ConfigFile, DirectoriesOfMachinesHaveNamesAndAreApart) {
+    const auto load_with = [&](const std::string& directories) {
+        return load(std::string(paths) + "[partials]\nlate_after_seconds = 300\ndirectories = [" +
+                    directories + "]\n");
+    };
+    const auto two = load_with("\"/p/north\", \"/p/south-2/\"");
+    ASSERT_TRUE(two) << two.error().message;
+    EXPECT_EQ(two->fixed.partials.directories,
+              (std::vector<std::filesystem::path>{"/p/north", "/p/south-2"}));
+    EXPECT_EQ(two->fixed.partials.late_after, std::chrono::seconds{300});
+    for (const char* wrong : {"\"\"", "\"/c/north\"", "\"/d\"", "\"/\"", "\"/p/a b\"",
+                              "\"/p/a\", \"/p/a/b\"", "\"/p/a\", \"/q/a\"", "\"/p/a\", \"/p/a\""})
+        EXPECT_FALSE(load_with(wrong)) << wrong;
+    EXPECT_THAT(load_with("\"/p/a\", \"/q/a\"").error().message,
+                ::testing::HasSubstr("[partials] directories: two machines have the name a"));
+}
+
 TEST_F(ConfigFile, ALinkDoesNotHideThatPathsAreTheSame) {
     std::filesystem::create_directory(directory_ / "real");
     std::filesystem::create_symlink(directory_ / "real", directory_ / "link");

@@ -124,6 +124,10 @@ const std::vector<Section>& all_sections() {
         {"[status]",
          at_restart,
          {{"socket", "'/run/a.sock'", "'/run/b.sock'"}, {"http_port", "0", "9123"}}},
+        {"[partials]",
+         at_restart,
+         {{"directories", "['/p/north']", "['/p/north', '/p/south']"},
+          {"late_after_seconds", "600", "300"}}},
         // The daemon checks them alone; stormcellar-web applies them.
         {"[web]",
          at_reload,
@@ -195,6 +199,8 @@ std::set<std::string> shipped_keys() {
     std::smatch found;
     while (std::getline(file, line)) {
         if (std::regex_match(line, found, header_line)) header = found[1];
+        // The daemon leaves [pull] to stormcellar-pull.
+        if (header.find("[pull") != std::string::npos) continue;
         if (std::regex_match(line, found, key_line)) keys.insert(header + " " + found[1].str());
     }
     return keys;

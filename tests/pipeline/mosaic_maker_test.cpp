@@ -34,11 +34,21 @@ Loaded load_volume(const std::string& name) {
     return loaded;
 }
 
+// The names of volumes of the sequence, as grids have them.
+std::vector<std::string> volumes_of(const std::vector<std::size_t>& numbers) {
+    std::vector<std::string> volumes;
+    for (const std::size_t number : numbers)
+        volumes.push_back(sequence.at(number).substr(0, sequence.at(number).find('.')));
+    return volumes;
+}
+
 class MosaicKeeperTest : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
+    // A volume without its header is not whole.
     Kept take(const Loaded& loaded) {
         VolumeSource source{loaded.volume, loaded.site, loaded.file};
+        source.partial = !loaded.volume.header;
         auto kept = keeper_.take_in(source, 2);
         EXPECT_TRUE(kept) << kept.error().message;
         return kept ? std::move(*kept) : Kept{};
@@ -79,8 +89,8 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
     const auto frame = open(second.frames[0]);
     EXPECT_EQ(format_utc(frame.description().time), "2005-08-22T02:50:00Z");
     EXPECT_FALSE(frame.description().provenance.provisional);
-    EXPECT_EQ(frame.description().provenance.revision, 1);
-    EXPECT_EQ(frame.description().provenance.source_files, (std::vector{sequence[0], sequence[1]}));
+    EXPECT_EQ(frame.description().provenance.revision, 2);
+    EXPECT_EQ(frame.description().provenance.source_files, volumes_of({0, 1}));
 
     // A third volume brings the frame of 02:55 and leaves that of 02:50 alone.
     const Kept third = take(load_volume(sequence[2]));
@@ -137,8 +147,8 @@ TEST_F(MosaicKeeperTest, AVolumeThatComesLateReplacesTheFramesAboutIt) {
     for (const auto& path : late.frames) {
         const auto frame = open(path);
         EXPECT_EQ(frame.description().provenance.revision, 2);
-        const auto& files = frame.description().provenance.source_files;
-        EXPECT_NE(std::find(files.begin(), files.end(), sequence[1]), files.end());
+        const auto& volumes = frame.description().provenance.source_files;
+        EXPECT_NE(std::ranges::find(volumes, volumes_of({1}).front()), volumes.end());
     }
 }
 
@@ -179,6 +189,7 @@ TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     EXPECT_EQ(take(load_volume(sequence[2])).updated, 0U) << "no frame stood";
     EXPECT_EQ(take(load_volume(sequence[1])).updated, 2U);
     const auto updated = open(frames()[0].path);
+    const auto bytes_of_updated = *read_file(frames()[0].path);
     std::filesystem::remove(frames()[0].path);
     std::vector<std::string> problems;
     const auto whole =
@@ -186,10 +197,7 @@ TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     ASSERT_TRUE(whole) << whole.error().message;
     EXPECT_FALSE(whole->merged);
     EXPECT_EQ(whole->stations, std::vector<std::string>{"KBGM"});
-    const auto made = open(whole->path);
-    EXPECT_EQ(made.description().provenance.parts, updated.description().provenance.parts);
-    EXPECT_EQ(made.description().provenance.revision, 1);
-    EXPECT_EQ(codes_of(made), codes_of(updated));
+    EXPECT_EQ(*read_file(whole->path), bytes_of_updated) << "however often it was made";
 }
 
 // A code that was altered would be copied with a new checksum, and never be found again.
@@ -204,7 +212,6 @@ TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_FALSE(again->merged);
     EXPECT_EQ(codes_of(open(path)), good);
-    EXPECT_EQ(open(path).description().provenance.revision, 2);
 }
 
 TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
@@ -215,9 +222,7 @@ TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
     ASSERT_EQ(third.problems.size(), 1U);
     EXPECT_TRUE(third.problems[0].starts_with(damaged.native())) << third.problems[0];
     ASSERT_EQ(third.frames.size(), 1U);
-    const std::vector<std::string> files =
-        open(third.frames[0]).description().provenance.source_files;
-    EXPECT_EQ(files, (std::vector{sequence[0], sequence[2]}));
+    EXPECT_EQ(open(third.frames[0]).description().provenance.source_files, volumes_of({0, 2}));
 }
 
 TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {

@@ -151,6 +151,7 @@ TEST(Labels, WarningsStandBesideTheProductAndMoveNothing) {
     const auto picture = picture_of(scene, level2::Moment::ref, nws_reflectivity());
     const auto quiet = lay_out_labels(fonts, scene, facts, picture);
     facts.partial = true;
+    facts.left_out = {"north (KFWS): nothing since 22:05"};
     facts.radar_troubles = {"KTLX: standby"};
     const auto layout = lay_out_labels(fonts, scene, facts, picture);
     EXPECT_EQ(layout->top, quiet->top);
@@ -158,7 +159,10 @@ TEST(Labels, WarningsStandBesideTheProductAndMoveNothing) {
     EXPECT_EQ(layout->width, quiet->width);
     bool found = false;
     for (const LabelText& text : layout->texts) {
-        if (text.text != "partial volume  \u00B7  KTLX: standby") continue;
+        if (text.text !=
+            "partial volume  \u00B7  without north (KFWS): nothing since 22:05  \u00B7  KTLX: "
+            "standby")
+            continue;
         found = true;
         EXPECT_EQ(text.colour, shades::dark.warning_text);
     }

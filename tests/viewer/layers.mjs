@@ -94,6 +94,22 @@ for (let y = 0; y < height; ++y) {
 // A ray may step over a cell that just reaches the value.
 check(`surface: of ${inside} pixels where the column maximum reaches 45 dBZ ${missing} are missing, and there are ${more} others`,
   inside > 30 && missing <= 0.06 * inside && more <= 0.005 * inside);
+// Of two moments the one has the shape, and the other one the colors.
+await viewer.show(`${above}&moment=VEL&surface=45&surface-moment=REF`);
+const colored = image(await viewer.pixels());
+let [shape, others] = [0, 0];
+const velocities = new Set();
+for (let y = 0; y < height; ++y) {
+  for (let x = 0; x < width; ++x) {
+    const [one, two] = [surface, colored].map((of) => of.at(x, y));
+    if (one.some((c) => c > 0) !== two.some((c) => c > 0)) ++others;
+    if (two.some((c) => c > 0)) {
+      ++shape;
+      velocities.add(String(two));
+    }
+  }
+}
+check(`a surface of REF in the colors of VEL has its ${shape} pixels, ${others} others, and ${velocities.size} shades`, shape > 30 && others === 0 && velocities.size > 10 && !colored.at(0, 0).some((c) => c > 0));
 // The middle of the strong echo, in km.
 const [eastKm, northKm] = [((sumX / inside - width / 2) * cell) / 1000, ((height / 2 - sumY / inside) * cell) / 1000];
 
@@ -162,7 +178,7 @@ await resize(560, 420);
 await viewer.show(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
 const key = async (name) => viewer.settled(() => page.key(name));
 await page.evaluate("document.getElementById('picture').focus()");
-for (const [name, parameter] of [['c', 'height-km'], ['i', 'surface'], ['m', 'maximum'], ['w', 'elevation'], ['b', 'crop-km'], ['g', 'light'], ['n', 'haze'], ['v', 'volume']]) {
+for (const [name, parameter] of [['c', 'height-km'], ['i', 'surface'], ['m', 'maximum'], ['w', 'elevation'], ['b', 'crop-km'], ['g', 'light'], ['n', 'haze'], ['u', 'folded'], ['v', 'volume']]) {
   await key(name);
   const on = await viewer.told(parameter);
   if (name === 'c') await viewer.changes('] raises the plane', 'height-km', () => page.key(']'), (before, after) => after > before);
@@ -171,11 +187,13 @@ for (const [name, parameter] of [['c', 'height-km'], ['i', 'surface'], ['m', 'ma
 }
 await key('x');
 const first = await viewer.told('section');
-await viewer.settled(() => page.drag([200, 170], [150, 100]));
+const hint = await page.evaluate("document.getElementById('tool-says').textContent");
+await viewer.settled(() => page.drag([425, 110], [45, 100]));
 const second = await viewer.told('section');
 const [latitudeA, longitudeA, latitudeB, longitudeB] = second.split(',').map(Number);
+check('what the drag draws was said, and is said no longer', hint.startsWith('Drag on the ground') && (await page.evaluate("document.getElementById('tool-says').textContent")) === '');
 check(`X cuts, and a drag cuts elsewhere: ${first} to ${second}`, first !== null && second !== first && latitudeA > latitudeB && longitudeA < longitudeB);
-await viewer.changes('then a drag turns again', 'azimuth', () => page.drag([200, 170], [40, 0]), (before, after) => after !== before);
+await viewer.changes('then a drag turns again', 'azimuth', () => page.drag([430, 250], [40, 0]), (before, after) => after !== before);
 await viewer.changes('A looks at the section', 'tilt', () => page.key('a'), (_, after) => after === 80);
 await viewer.settled(() => page.evaluate("document.getElementById('layers-open').click()"));
 await viewer.settled(() => page.evaluate("document.getElementById('layer-plane').click()"));

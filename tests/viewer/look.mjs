@@ -92,6 +92,7 @@ await viewer.changes('an arrow turns', 'azimuth', () => page.key('ArrowRight'), 
 await viewer.changes('+ zooms', 'zoom', () => page.key('+'), (before, after) => after > before);
 await viewer.changes('T looks from the top', 'tilt', () => page.key('t'), (_, after) => after === 0);
 await viewer.changes('S looks from the south', 'tilt', () => page.key('s'), (_, after) => after > 80);
+await viewer.changes('O looks obliquely', 'tilt', () => page.key('o'), (_, after) => after > 30 && after < 80);
 await viewer.changes('P makes a perspective', 'field-of-view', () => page.key('p'), (before, after) => before === 0 && after > 0);
 await viewer.changes('two fingers zoom', 'zoom', async () => {
   await page.touch('touchStart', [[280, 300], [320, 300]]);

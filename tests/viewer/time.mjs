@@ -26,6 +26,18 @@ try {
   const third = await shown();
   check('a step shows the volume before', third < second);
 
+  // By keys: the newest is followed, a loop begins and ends.
+  await viewer.settled(() => page.key('l'));
+  check('L follows the newest', (await viewer.told('time')) === 'latest');
+  await viewer.settled(() => page.key(','));
+  await page.key('>');
+  await viewer.settled(() => page.key(','));
+  await page.key('<');
+  check('< and > set a loop, comma steps', (await evaluate("!document.getElementById('loop-all').hidden")) && (await shown()) === third);
+  await press('loop-all');
+  await viewer.settled(() => page.key('.'));
+  await viewer.settled(() => page.key(','));
+
   // What is played is loaded: never a picture of another time than the page says.
   await press('loop-to');
   await viewer.settled(() => press('earlier'));

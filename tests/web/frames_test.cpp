@@ -147,8 +147,8 @@ std::vector<std::byte> drawn_sweep(const PicturedStorm& storm, const render::Sce
                                          {.elevation_deg = elevation_deg});
     EXPECT_TRUE(sweep);
     EXPECT_NEAR(sweep->facts().fixed_angle_deg, elevation_deg, 0.1);
-    const auto description =
-        render::describe_sweep(*sweep, render::plane_of_sweep(*sweep), *shared, file);
+    const auto description = render::describe_sweep(*sweep, render::plane_of_sweep(*sweep), *shared,
+                                                    "KTLX19990503_235621");
     grid::BrickView view;
     view.spec = &description.spec;
     view.sweep = &*sweep;

@@ -35,11 +35,14 @@ render::Image decoded_png(const std::string& bytes) {
     return image;
 }
 
-PicturedStorm::PicturedStorm() {
+PicturedStorm::PicturedStorm(const std::string& name, std::chrono::hours age) {
     std::filesystem::create_directory(directory_ / "drop");
-    file_ = directory_ / "drop" / "KTLX19990503_235621.gz";
+    file_ = directory_ / "drop" / name;
     std::filesystem::copy_file(*testing::data_directory() / "volumes/KTLX19990503_235621.gz",
                                file_);
+    std::filesystem::permissions(file_, std::filesystem::perms::owner_write,
+                                 std::filesystem::perm_options::add);
+    std::filesystem::last_write_time(file_, std::filesystem::file_time_type::clock::now() - age);
     auto catalog = catalog::CatalogWriter::open(directory_ / "catalog");
     auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     EXPECT_TRUE(catalog && store);

@@ -21,7 +21,9 @@ namespace stormcellar::web {
 // The domain KTLX with grids of REF and VEL, 2 km apart; the catalog names the file.
 class PicturedStorm {
   public:
-    PicturedStorm();
+    // The name of the file, and how long ago it was written.
+    explicit PicturedStorm(const std::string& name = "KTLX19990503_235621.gz",
+                           std::chrono::hours age = {});
 
     [[nodiscard]] const std::shared_ptr<Grids>& grids() const { return grids_; }
     [[nodiscard]] std::shared_ptr<const OpenGrid> grid(level2::Moment moment) const;

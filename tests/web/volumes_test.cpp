@@ -81,6 +81,18 @@ TEST_F(Volumes, BytesAreThoseOfTheFileInRangesToo) {
         EXPECT_NE(body_of(several).find("\r\n\r\n" + piece + "\r\n"), std::string::npos);
 }
 
+// Grids name their volumes so, and a viewer asks for them.
+TEST_F(Volumes, AreFoundByTheNameOfTheVolumeAndSavedUnderOneWithAnEnding) {
+    const Answer answer = get("/volumes/KTLX/KTLX20170101_030027");
+    EXPECT_EQ(answer.status, 200U);
+    EXPECT_EQ(body_of(answer), bytes_of_file(new_name));
+    EXPECT_EQ(header_of(answer, "Content-Disposition"),
+              std::string("attachment; filename=\"") + new_name + "\"");
+    EXPECT_EQ(header_of(get(new_path), "Content-Disposition"), "");
+    EXPECT_EQ(get("/volumes/KTLX/KTLX20170101_030028").status, 404U);
+    EXPECT_EQ(get("/volumes/KTLX/KTLX20170101_0300").status, 404U);
+}
+
 TEST_F(Volumes, WhatIsNotThereIsNotFoundAndWhatMakesNoSenseIsRefused) {
     for (const char* target :
          {"/volumes/KZZZ/", "/volumes/KTLX/KTLX20170101_030028_V06", "/volumes/KABR/x",

@@ -23,12 +23,13 @@ function madeApp() {
 }
 type Args = ConstructorParameters<typeof SectionTool>;
 const drawing = { geometry: () => geometry, move: () => undefined } as unknown as Args[1];
+const nothing = () => undefined;
 const isNear = (a: readonly number[], b: readonly number[]) => Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!) < 1;
 
 test('a section goes from where it was pressed to where it was let go, and its ends can be moved', () => {
     const app = madeApp();
     let done = 0;
-    const tool = new SectionTool(app as unknown as Args[0], drawing, () => void ++done);
+    const tool = new SectionTool(app as unknown as Args[0], drawing, () => void ++done, nothing);
     assert(tool.press(100, 100));
     tool.drag(300, 200);
     tool.release();
@@ -43,7 +44,7 @@ test('a section goes from where it was pressed to where it was let go, and its e
 
 test('a press that does not travel is no section', () => {
     const app = madeApp();
-    const tool = new SectionTool(app as unknown as Args[0], drawing, () => undefined);
+    const tool = new SectionTool(app as unknown as Args[0], drawing, nothing, nothing);
     tool.press(100, 100);
     tool.drag(101, 101);
     tool.release();
@@ -58,7 +59,7 @@ test('a section across the view lies along the picture', () => {
 
 test('a box has its corners where the pointer was', () => {
     const app = madeApp();
-    const tool = new CropTool(app as unknown as Args[0], drawing, () => undefined);
+    const tool = new CropTool(app as unknown as Args[0], drawing, nothing, nothing);
     tool.press(300, 100);
     tool.drag(120, 220);
     const { westM, eastM, southM, northM, bottomM } = app.state.layers.crop!;

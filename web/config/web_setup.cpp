@@ -12,8 +12,8 @@ namespace stormcellar::web {
 namespace {
 
 // tests/web/web_setup_test.cpp reads the shipped file, which has all of them.
-constexpr std::array<std::string_view, 7> tables_of_the_daemon = {
-    "ingest", "cache", "domain", "loop", "catalog", "watch", "status"};
+constexpr std::array<std::string_view, 9> tables_of_others = {
+    "ingest", "cache", "domain", "partials", "loop", "catalog", "watch", "status", "pull"};
 
 void read_directory(TomlTable& paths, std::string_view key, const std::filesystem::path& file,
                     std::filesystem::path& directory) {
@@ -51,7 +51,7 @@ Result<WebSetup> load_web_setup(const std::filesystem::path& file) {
     read_log_level(root.section("log"), setup.log_level);
     setup.web = read_web_config(root);
     setup.loops = read_served_loops(file);
-    for (const std::string_view table : tables_of_the_daemon)
+    for (const std::string_view table : tables_of_others)
         root.leave(table);
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return setup;

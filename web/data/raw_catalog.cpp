@@ -251,7 +251,8 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
         const auto rows = catalog.list_stretch(station, stretch);
         if (!rows) return pass_on(rows);
         for (const CatalogEntry& row : *rows) {
-            if (!is_served(row) || name_of_entry(row) != name) continue;
+            const bool is_it = is_volume_name(station, name) || name_of_entry(row) == name;
+            if (!is_served(row) || !is_it) continue;
             if (!found || is_better_raw(row, *found)) found = row;
         }
     }

@@ -122,8 +122,10 @@ OpenedOrMissing GivenRawFiles::open(std::string_view station, std::string_view n
     const auto known = stations_.find(station);
     if (known != stations_.end()) {
         for (const auto& [own, given] : known->second) {
-            const bool is_named = own == name || (given.paths.size() == 1 &&
-                                                  given.paths.front().filename().native() == name);
+            const bool is_of_volume = is_volume_name(station, name) && own.starts_with(name);
+            const bool is_named =
+                own == name || is_of_volume ||
+                (given.paths.size() == 1 && given.paths.front().filename().native() == name);
             if (is_named) return open_given(own, given);
         }
     }

@@ -51,6 +51,10 @@ std::optional<UtcTime> time_of_raw_name(std::string_view station, std::string_vi
     return time ? std::optional{*time} : std::nullopt;
 }
 
+bool is_volume_name(std::string_view station, std::string_view name) {
+    return name.size() == station.size() + compact_size && time_of_raw_name(station, name);
+}
+
 std::optional<UtcTime> time_in_file_name(std::string_view name) {
     constexpr std::size_t short_size = 13;  // "20220317_0008"
     for (std::size_t at = 0; at + short_size <= name.size(); ++at) {

@@ -22,6 +22,9 @@ namespace stormcellar::web {
 // if the name does not begin so.
 [[nodiscard]] std::optional<UtcTime> time_of_raw_name(std::string_view station,
                                                       std::string_view name);
+// Returns true for the name of a volume without an ending, as grids have it: it names the volume
+// whatever its file is called (level2::volume_name()).
+[[nodiscard]] bool is_volume_name(std::string_view station, std::string_view name);
 // Returns the first date and time that stand in any name, as in Level2_KTLX_20220317_0008.ar2v.
 [[nodiscard]] std::optional<UtcTime> time_in_file_name(std::string_view name);
 

@@ -9,6 +9,7 @@
 #include "grid/place/source_volume.h"
 #include "pipeline/drop/cataloged_volume.h"
 #include "render/options/sweep_source.h"
+#include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/gridder.h"
 
 namespace stormcellar::web {
@@ -21,10 +22,11 @@ struct PlacedSweep {
     cache::GridDescription description;
 };
 
-// Decodes the sweep that a panel shows. All panels are drawn on the plane of the first.
+// Decodes the sweep that a panel shows; the picture names the volume, not the file, whose name may
+// be another one on another machine. All panels are drawn on the plane of the first.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
-                                 const render::PanelScene& panel, const grid::GridSpec* plane,
-                                 int threads) {
+                                 const std::string& shown_name, const render::PanelScene& panel,
+                                 const grid::GridSpec* plane, int threads) {
     const grid::SweepWish wish = render::sweep_wish_of(panel.scene);
     auto decoded = grid::decode_source(
         bytes, file,
@@ -38,16 +40,19 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
                                          grid::beam_width_of(source->site.icao) / 2, wish);
     if (!sweep) return fail(sweep.error().code, "{}: {}", file, sweep.error().message);
     auto description = render::describe_sweep(
-        *sweep, plane != nullptr ? *plane : render::plane_of_sweep(*sweep), *source, file);
+        *sweep, plane != nullptr ? *plane : render::plane_of_sweep(*sweep), *source, shown_name);
     return PlacedSweep{std::move(source), std::move(*sweep), std::move(description)};
 }
 
 }  // namespace
 
+// A file that still grows is told by its state on this machine.
 std::string SweepPicture::key() const {
-    return fmt::format("sweep {}\n{}\n{} {} {} {} {}", domain, style.key, grid_id,
-                       volume.path.native(), volume.size_bytes, volume.modified_ns,
-                       volume.content_hash);
+    const std::string state = catalog::has_final_hash(volume)
+                                  ? std::string{}
+                                  : fmt::format("{} {}", volume.path.native(), volume.modified_ns);
+    return fmt::format("sweep {}\n{}\n{} {} {} {}", domain, style.key, grid_id, volume.size_bytes,
+                       volume.content_hash, state);
 }
 
 std::string SweepPicture::etag() const {
@@ -67,9 +72,8 @@ Result<std::optional<SweepPicture>> SweepPictures::find(const OpenGrid& grid, Fr
         if (catalog.error().code == ErrorCode::not_found) return std::optional<SweepPicture>{};
         return pass_on(catalog);
     }
-    auto volume =
-        pipeline::find_volume_of_grid(**catalog, description.sites.front().icao, description.time,
-                                      description.provenance.source_files);
+    auto volume = pipeline::find_volume_of_grid(**catalog, description.sites.front().icao,
+                                                description.time, description.provenance.partial);
     if (!volume) return pass_on(volume);
     if (!*volume) return std::optional<SweepPicture>{};
     return std::optional{SweepPicture{grid.domain, grid.id, std::move(**volume), std::move(style)}};
@@ -83,6 +87,9 @@ Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
     const auto catalog = catalog_->get();
     if (!catalog) return pass_on(catalog);
     const std::string file = picture.volume.path.filename().string();
+    const auto start = picture.volume.volume.start_time;
+    const std::string name =
+        start ? level2::volume_name(picture.volume.station, *start) : std::string{};
     const auto raw = pipeline::read_cataloged_volume(**catalog, picture.volume);
     if (!raw) {
         const bool is_gone = raw.error().code == ErrorCode::not_found;
@@ -93,7 +100,7 @@ Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
     for (const render::PanelScene& panel : picture.style.panels) {
         const grid::GridSpec* const plane =
             sweeps.empty() ? nullptr : &sweeps.front().description.spec;
-        auto sweep = decode_sweep(raw->bytes, file, panel, plane, options_.threads);
+        auto sweep = decode_sweep(raw->bytes, file, name, panel, plane, options_.threads);
         if (!sweep) return pass_on(sweep);
         sweeps.push_back(std::move(*sweep));
     }

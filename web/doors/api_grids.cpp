@@ -84,13 +84,10 @@ ApiJson provenance_json(const grid::Provenance& from) {
                  {"partial", from.partial},
                  {"notes", from.notes},
                  {"radar_troubles", from.radar_troubles},
+                 {"left_out", from.left_out},
                  {"provisional", from.provisional},
                  {"revision", from.revision}};
-    json["source_modified"] =
-        from.source_modified_ns == 0
-            ? ApiJson()
-            : ApiJson(format_utc(
-                  UtcTime{std::chrono::milliseconds{from.source_modified_ns / 1'000'000}}));
+    json["source_modified"] = nullptr;  // which grids no longer say
     json["recipe"] = from.recipe == 0 ? ApiJson() : ApiJson(fmt::format("{:016x}", from.recipe));
     json["sweeps"] = sweep_times_json(from);
     json["parts"] = frame_parts_json(from);

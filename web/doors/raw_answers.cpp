@@ -5,6 +5,17 @@ namespace {
 
 constexpr std::chrono::seconds settled_holds_for{60}, cataloged_again_in{5};
 
+// Asked for by the name of a volume, it is saved under one that says how it is packed.
+Entity entity_of(const OpenedVolume& volume, std::string_view asked_for) {
+    Entity entity = entity_of(volume);
+    const std::string& name = volume.volume.name;
+    if (name != asked_for && name.starts_with(asked_for)) {
+        entity.headers.emplace_back("Content-Disposition",
+                                    fmt::format("attachment; filename=\"{}\"", name));
+    }
+    return entity;
+}
+
 }  // namespace
 
 Entity entity_of(const OpenedVolume& volume) {
@@ -36,14 +47,14 @@ Answer volume_answer(const Request& request, RawFiles& files, std::string_view s
                      std::string_view name) {
     const auto opened = files.open(station, name);
     if (!opened) return missing_answer(opened.error());
-    return answer_with(request, entity_of(*opened));
+    return answer_with(request, entity_of(*opened, name));
 }
 
 std::optional<Answer> volume_answer_at_once(const Request& request, RawFiles& files,
                                             std::string_view station, std::string_view name) {
     const auto opened = files.open_kept(station, name);
     if (!opened) return std::nullopt;
-    return answer_with(request, entity_of(*opened));
+    return answer_with(request, entity_of(*opened, name));
 }
 
 Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now) {

@@ -59,7 +59,7 @@ std::optional<Answer> ViewerDoor::answer_at_once(const Request& request) {
     const auto path = segments_of(request.path);
     const bool is_folder = path.size() == 1;
     if (is_folder && !request.path.ends_with('/')) return moved_to(request, "/view/");
-    const std::string_view name = is_folder ? page_name : std::string_view(path[1]);
+    const std::string_view name = path.size() < 2 ? page_name : std::string_view(path[1]);
     const auto files = viewer_files();
     const auto file = std::ranges::find(files, name, &ViewerFile::name);
     const bool is_file = is_folder || (path.size() == 2 && !request.path.ends_with('/'));

@@ -8,8 +8,8 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include "base/service_log.h"
 #include "stormcellar/base/descriptor.h"
-#include "web/service/web_log.h"
 
 namespace stormcellar::web {
 namespace {

@@ -50,24 +50,26 @@ struct FramePart {
 
 // Where a grid comes from and how it was made. Every file and every loop holds it.
 struct Provenance {
-    std::vector<std::string> source_files;  // names without directories
-    std::vector<std::string> stations;      // ICAOs
-    std::string method;                     // e.g. "column-linear"
-    std::string beam_model;                 // e.g. "4/3 earth"
-    std::string averaging;                  // "dBZ" or "Z"
+    // The volumes by level2::volume_name(), so that a grid has the same bytes wherever it was made;
+    // names of files, without directories, in grids that never reach a cache.
+    std::vector<std::string> source_files;
+    std::vector<std::string> stations;  // ICAOs
+    std::string method;                 // e.g. "column-linear"
+    std::string beam_model;             // e.g. "4/3 earth"
+    std::string averaging;              // "dBZ" or "Z"
     std::string effects;  // rungs chosen by a plan, as in "frame: sphere, beam: ..."; or empty
     std::string predicted_error;  // as predicted by that plan; or empty
     std::string software_version;
-    int vcp = 0;           // 0: unknown
-    bool partial = false;  // the volume was not complete
-    // When the newest source file was modified, since the epoch. It tells a volume that was sent
-    // again from an older file of the same volume.
-    std::int64_t source_modified_ns = 0;  // 0: unknown
-    std::vector<std::string> notes;       // e.g. that a position disagrees with the table
+    int vcp = 0;                     // 0: unknown
+    bool partial = false;            // the volume was not complete
+    std::vector<std::string> notes;  // e.g. that a position disagrees with the table
     // The faults that the radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles;
-    // For a frame between volumes: whether a later volume will change it, and how often it was made
-    // so far. The revision is 0 if the grid is not a frame.
+    // Of a mosaic: the machines whose partials are missing because they came too late, and since
+    // when: "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
+    std::vector<std::string> left_out;
+    // For a frame between volumes: whether a later volume will change it, and of how many volumes
+    // it is made. The revision is 0 if the grid is not a frame.
     bool provisional = false;
     int revision = 0;
     std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: not known, or no frame

@@ -204,6 +204,10 @@ struct Volume {
     [[nodiscard]] std::size_t radial_count() const;
 };
 
+// Returns the name of the volume that starts then, whatever its file is called:
+// "KTLX20220317_000842".
+[[nodiscard]] std::string volume_name(std::string_view station, UtcTime start);
+
 // Returns true if a radar can have meant this time: 1970 to 2149, the years that messages can
 // express. Day number 0 stands for no time.
 [[nodiscard]] bool is_plausible(UtcTime time);

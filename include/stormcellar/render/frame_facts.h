@@ -26,6 +26,7 @@ struct FrameFacts {
     std::optional<std::chrono::seconds> antenna_to_picture = {};
     // The faults that radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles = {};
+    std::vector<std::string> left_out = {};  // machines, as in grid::Provenance
     bool interpolated = false;  // the grid was interpolated between volumes, as requested
 };
 

@@ -237,15 +237,4 @@ export class Drawing {
     private tell(figures: Record<string, string | number | null>): void {
         for (const [name, figure] of Object.entries(figures)) document.documentElement.dataset[name] = String(figure);
     }
-
-    // The picture as it is seen, without the controls.
-    snapshot(): HTMLCanvasElement {
-        const all = document.createElement('canvas');
-        all.width = this.picture.width;
-        all.height = this.picture.height;
-        const pen = all.getContext('2d')!;
-        pen.drawImage(this.picture, 0, 0);
-        pen.drawImage(this.labels, 0, 0);
-        return all;
-    }
 }

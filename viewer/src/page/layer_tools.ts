@@ -24,6 +24,7 @@ export class SectionTool implements Tool {
         private app: App,
         private drawing: Drawing,
         private done: () => void,
+        private ended: () => void,
     ) {}
 
     private ends(): [Plane, Plane] | null {
@@ -64,6 +65,7 @@ export class SectionTool implements Tool {
     }
     end(): void {
         this.fixed = null;
+        this.ended();
     }
 }
 
@@ -75,6 +77,7 @@ export class CropTool implements Tool {
         private app: App,
         private drawing: Drawing,
         private done: () => void,
+        private ended: () => void,
     ) {}
 
     press(x: number, y: number): boolean {
@@ -104,6 +107,7 @@ export class CropTool implements Tool {
     }
     end(): void {
         this.corner = null;
+        this.ended();
     }
 }
 

@@ -49,6 +49,9 @@ async function begin(): Promise<void> {
     new LayersPanel(app, drawing, pointers).begin(keys);
     new Editor(app, drawing, editing).begin(keys);
     keys.add('Escape', () => pointers.use(null));
+    // Panels leave room for the head, however many lines it has.
+    const head = element('head');
+    new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(head);
     pointers.begin();
     keys.begin();
     window.addEventListener('hashchange', () => app.takeAddress());

@@ -102,6 +102,7 @@ export const texts = {
     commandCopied: 'The command is in the clipboard.',
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     netcdf: 'Grid (netCDF)',
+    noNetcdf: 'This grid was made when it was asked for: there is no file of it.',
     close: 'Close',
     help: 'Keys',
     helpText: [
@@ -111,7 +112,7 @@ export const texts = {
         'Space plays, comma and period step, L follows the newest; < and > begin and end a loop.',
         'E edits colors and opacity: there, arrows move a point, page keys choose the next, Insert adds one, Delete removes it.',
         'V volume, C plane with [ and ] for its height, X section, A looks at it, I surface, M column maximum, W sweep, B box.',
-        'G light, N haze where no beam saw.',
+        'G light, N haze where no beam saw, U veil where range folded.',
         'Click a place to read the column above it.',
         'D measures a distance, R an area, F flies: W A S D, E and Q, arrows; Escape ends each.',
         'H goes home, to the map of all stations.',

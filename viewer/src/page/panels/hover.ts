@@ -37,7 +37,7 @@ export class Hover {
         this.timer = window.setTimeout(() => this.put(), restsAfterMs);
     }
 
-    private hide(): void {
+    hide(): void {
         window.clearTimeout(this.timer);
         this.at = null;
         element('hover').hidden = true;

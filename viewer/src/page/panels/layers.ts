@@ -173,6 +173,7 @@ export class LayersPanel {
         keys.add('b', () => this.toggleCrop());
         keys.add('g', () => this.set({ isLit: !this.layers.isLit }));
         keys.add('n', () => this.set({ hasHaze: !this.layers.hasHaze }));
+        keys.add('u', () => this.set({ hasFolded: !this.layers.hasFolded }));
         keys.add('Escape', () => this.open(false));
     }
 
@@ -201,7 +202,10 @@ export class LayersPanel {
     }
 
     private toggleSection(): void {
-        if (this.layers.section) return this.set({ section: null });
+        if (this.layers.section) {
+            if (this.pointers.current instanceof SectionTool) this.pointers.use(null);
+            return this.set({ section: null });
+        }
         this.cutAcross();
         this.drawSection();
     }
@@ -211,8 +215,13 @@ export class LayersPanel {
         if (section) this.set({ section });
     }
     private drawSection(): void {
-        this.pointers.use(new SectionTool(this.app, this.drawing, () => this.pointers.use(null)));
-        this.app.say(words.dragSection);
+        this.draw(SectionTool, words.dragSection);
+    }
+    // What is to be done stands below the picture until it is done.
+    private draw(Kind: typeof SectionTool | typeof CropTool, hint: string): void {
+        const says = element('tool-says');
+        this.pointers.use(new Kind(this.app, this.drawing, () => this.pointers.use(null), () => says.replaceChildren()));
+        says.textContent = hint;
     }
     // From the side on which A is at the left.
     private lookAtSection(): void {
@@ -242,11 +251,11 @@ export class LayersPanel {
     }
 
     private toggleCrop(): void {
+        if (this.pointers.current instanceof CropTool) this.pointers.use(null);
         this.set({ crop: this.layers.crop ? null : wholeBox(this.app) });
     }
     private drawCrop(): void {
-        this.pointers.use(new CropTool(this.app, this.drawing, () => this.pointers.use(null)));
-        this.app.say(words.dragCrop);
+        this.draw(CropTool, words.dragCrop);
     }
     // A side stays beside the one opposite.
     private slideCrop(side: keyof Crop, value: number): void {

@@ -69,6 +69,10 @@ export class Reader implements Tool {
         this.pointed.over(x, y);
     }
 
+    // Another tool has the pointer.
+    end(): void {
+        this.pointed.hide();
+    }
     click(x: number, y: number): void {
         this.at = this.drawing.geometry()?.ground(x, y) ?? null;
         this.put();

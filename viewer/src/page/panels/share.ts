@@ -1,10 +1,11 @@
 // Taking along what is shown: the address, the command that draws the same, the picture, the grid.
 
 import { commandOf } from '../../scene/view_state';
-import { address, gridPath } from '../../wire/api';
+import { address, gridPath, isRegion } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
+import { snapshotOf } from '../snapshot';
 import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
@@ -20,7 +21,7 @@ function copy(app: App, text: string, said: string): void {
 function save(app: App, drawing: Drawing): void {
     const link = document.createElement('a');
     link.download = `${app.state.domain}_${app.state.moment}_${(app.shown?.time ?? '').replace(/:/g, '')}.png`;
-    link.href = drawing.snapshot().toDataURL('image/png');
+    link.href = snapshotOf(drawing.picture, drawing.labels, app.state.moment).toDataURL('image/png');
     link.click();
 }
 
@@ -44,7 +45,10 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing): voi
         button('save', texts.save, () => save(app, drawing)),
         button('command', texts.command, () => copyCommand(app, drawing, editing)),
         button('netcdf', texts.netcdf, () => {
-            if (app.shown) location.href = address(`${gridPath(app.shown.domain, app.shown.moment, app.shown.time)}/netcdf`);
+            const { shown } = app;
+            if (!shown) return;
+            if (isRegion(shown.domain) || app.isBetween(shown.time)) return app.say(texts.noNetcdf);
+            location.href = address(`${gridPath(shown.domain, shown.moment, shown.time)}/netcdf`);
         }),
     );
 }

@@ -1,4 +1,4 @@
-// web/service/web_signals.h -- signals as something to wait for instead of interruptions.
+// base/waited_signals.h -- signals as something to wait for instead of interruptions.
 //
 // Make one object before any thread starts: it blocks SIGTERM, SIGINT and SIGHUP for this thread
 // and the threads that it starts, and ignores SIGPIPE. A signal that arrives waits for next().
@@ -11,11 +11,11 @@
 
 #include <signal.h>
 
-namespace stormcellar::web {
+namespace stormcellar {
 
-class WebSignals {
+class WaitedSignals {
   public:
-    WebSignals();
+    WaitedSignals();
     // Waits for a signal and returns its number; none if none comes within this time.
     [[nodiscard]] std::optional<int> next(std::chrono::milliseconds most) const;
 
@@ -23,4 +23,4 @@ class WebSignals {
     sigset_t set_{};
 };
 
-}  // namespace stormcellar::web
+}  // namespace stormcellar

@@ -1,4 +1,5 @@
-// web/service/web_log.h -- the lines that stormcellar-web writes to stderr: start, stop, trouble.
+// base/service_log.h -- the lines that a service writes to stderr: start, stop, trouble.
+// Only programs and their services call it.
 //
 // Under systemd, lines carry the "<N>" prefix by which the journal knows their level; otherwise the
 // time and the level. Control characters are escaped.
@@ -10,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace stormcellar::web {
+namespace stormcellar {
 
 enum class LogLevel { debug, info, warning, error };
 
@@ -24,4 +25,4 @@ void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... v
     if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
 }
 
-}  // namespace stormcellar::web
+}  // namespace stormcellar

@@ -1,10 +1,10 @@
-#include "web/service/web_signals.h"
+#include "base/waited_signals.h"
 
 #include <ctime>
 
-namespace stormcellar::web {
+namespace stormcellar {
 
-WebSignals::WebSignals() {
+WaitedSignals::WaitedSignals() {
     sigemptyset(&set_);
     for (const int number : {SIGTERM, SIGINT, SIGHUP})
         sigaddset(&set_, number);
@@ -12,7 +12,7 @@ WebSignals::WebSignals() {
     ::pthread_sigmask(SIG_BLOCK, &set_, nullptr);
 }
 
-std::optional<int> WebSignals::next(std::chrono::milliseconds most) const {
+std::optional<int> WaitedSignals::next(std::chrono::milliseconds most) const {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(most);
     timespec wait{};
     wait.tv_sec = static_cast<std::time_t>(seconds.count());
@@ -21,4 +21,4 @@ std::optional<int> WebSignals::next(std::chrono::milliseconds most) const {
     return number > 0 ? std::optional{number} : std::nullopt;
 }
 
-}  // namespace stormcellar::web
+}  // namespace stormcellar

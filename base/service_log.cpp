@@ -1,4 +1,4 @@
-#include "web/service/web_log.h"
+#include "base/service_log.h"
 
 #include <array>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include "base/printable.h"
 #include "stormcellar/base/utc_time.h"
 
-namespace stormcellar::web {
+namespace stormcellar {
 namespace {
 
 struct LevelFacts {
@@ -50,4 +50,4 @@ void write_log(LogLevel level, std::string_view text) {
     (void)!::write(STDERR_FILENO, line.data(), line.size());
 }
 
-}  // namespace stormcellar::web
+}  // namespace stormcellar

@@ -1,0 +1,70 @@
+// daemon/partials/machine_directory.h -- which partials appear in the directory of one machine.
+//
+// The directory has the layout of a cache. Files of other names, for example those that rsync is
+// still writing, are passed over, and nothing is ever written here. A file is news again when it is
+// replaced.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "daemon/watch/watcher.h"
+#include "stormcellar/cache/grid_name.h"
+
+namespace stormcellar::daemon {
+
+class MachineDirectory final : public WatchListener {
+  public:
+    MachineDirectory(std::filesystem::path directory, std::unique_ptr<EventSource> events);
+
+    [[nodiscard]] const std::filesystem::path& path() const { return directory_; }
+    [[nodiscard]] std::string name() const { return directory_.filename().native(); }
+    [[nodiscard]] int descriptor() const { return events_->descriptor(); }
+    void read_events() { watcher_.read_events(); }
+    // Errors: the directory cannot be read.
+    Status scan();
+    // Returns true once if events were lost, so that a scan is needed.
+    bool take_lost() { return std::exchange(is_lost_, false); }
+    [[nodiscard]] bool is_blind() const { return watcher_.is_blind(); }
+
+    // Takes the newest partial that is news; none: there is none.
+    std::optional<cache::GridName> take_news();
+    // Offers a partial again at the next scan.
+    void forget(const cache::GridName& name) { seen_.erase(name); }
+    // The partials that were seen and are not news.
+    [[nodiscard]] std::vector<cache::GridName> known() const;
+
+    void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
+    void file_created(const std::filesystem::path& path, const FileStamp& stamp) override;
+    void file_found(const std::filesystem::path& path, const FileStamp& stamp) override;
+    void file_gone(const std::filesystem::path& path) override;
+    void events_lost() override { is_lost_ = true; }
+    void directory_unread() override { is_lost_ = true; }
+    void drop_vanished() override { is_lost_ = true; }
+    void directory_problem(const Error&) override {}
+
+  private:
+    struct Newest {
+        bool operator()(const cache::GridName& a, const cache::GridName& b) const {
+            return a.time != b.time ? a.time > b.time : a < b;
+        }
+    };
+    [[nodiscard]] std::optional<cache::GridName> name_of(const std::filesystem::path& path) const;
+    void look(const std::filesystem::path& path, const FileStamp& stamp);
+
+    std::filesystem::path directory_;
+    std::unique_ptr<EventSource> events_;
+    std::map<cache::GridName, FileStamp> seen_;
+    std::set<cache::GridName, Newest> news_;
+    bool is_lost_ = false;
+    Watcher watcher_;  // the last: it calls this object
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,215 @@
+#include "daemon/partials/partials_keeper.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <poll.h>
+#include <pthread.h>
+
+#include "base/printable.h"
+#include "daemon/log/log.h"
+#include "daemon/status/status_names.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr std::chrono::milliseconds longest_poll{1000};
+// A file that is not whole may still be written to: it is complained of when it is older.
+constexpr std::chrono::seconds settled_after{30};
+
+bool is_unsettled(const std::filesystem::path& file) {
+    const FileFound found = look_at(file, {});
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto modified = std::chrono::nanoseconds{found.stamp.modified_ns};
+    return now - modified < settled_after;
+}
+
+std::unique_ptr<EventSource> open_events(const std::filesystem::path& directory) {
+    auto events = open_inotify();
+    if (events) return std::move(*events);
+    log_warning({Event::watch_failed}, "cannot watch {}: {}; the service polls it instead",
+                printable(directory.native()), printable(events.error().message));
+    return no_events();
+}
+
+std::string whole_seconds(SteadyTime::duration time) {
+    return fmt::format("{} s", std::chrono::duration_cast<std::chrono::seconds>(time).count());
+}
+
+}  // namespace
+
+PartialsKeeper::PartialsKeeper(PartialsConfig config, PartialsOf of, PartialsTimes times)
+    : config_(std::move(config)), of_(std::move(of)), times_(times) {
+    for (const std::filesystem::path& directory : config_.directories) {
+        Machine machine;
+        machine.directory = std::make_unique<MachineDirectory>(directory, open_events(directory));
+        machine.facts.name = machine.directory->name();
+        machine.facts.directory = printable(directory.native());
+        machines_.push_back(std::move(machine));
+    }
+    if (machines_.empty()) return;
+    publish();
+    thread_ = std::thread([this] { run(); });
+}
+
+PartialsKeeper::~PartialsKeeper() {
+    stopping_ = true;
+    wake_up_.set();
+    if (thread_.joinable()) thread_.join();
+}
+
+std::vector<MachineFacts> PartialsKeeper::facts() const {
+    const std::scoped_lock lock(mutex_);
+    return published_;
+}
+
+void PartialsKeeper::run() {
+    ::pthread_setname_np(::pthread_self(), "partials");
+    try {
+        while (!stopping_) {
+            turn();
+            wait();
+        }
+    } catch (const std::exception& error) {
+        log_error({Event::partial_refused},
+                  "the service no longer takes partials of other machines: {}; restart it",
+                  error.what());
+    }
+    pulse_.rest();
+}
+
+void PartialsKeeper::turn() {
+    pulse_.beat();
+    for (Machine& machine : machines_) {
+        machine.directory->read_events();
+        if (machine.directory->take_lost()) machine.next_scan = {};
+        if (steady_now() >= machine.next_scan) scan(machine);
+    }
+    has_more_ = take_one();
+    judge();
+    publish();
+}
+
+void PartialsKeeper::wait() {
+    if (has_more_) return;
+    pulse_.rest();
+    std::vector<pollfd> sources = {{wake_up_.descriptor(), POLLIN, 0}};
+    for (const Machine& machine : machines_)
+        sources.push_back({machine.directory->descriptor(), POLLIN, 0});
+    ::poll(sources.data(), sources.size(), static_cast<int>(longest_poll.count()));
+}
+
+void PartialsKeeper::scan(Machine& machine) {
+    const Status scanned = machine.directory->scan();
+    machine.next_scan = steady_now() + (machine.directory->is_blind() || !scanned
+                                            ? std::min(times_.poll, times_.rescan)
+                                            : times_.rescan);
+    if (!scanned) {
+        machine.facts.last_problem = printable(scanned.error().message);
+        return;
+    }
+    take_lost(machine);
+}
+
+// Partials that the cache no longer has, though it would keep them, are news again.
+void PartialsKeeper::take_lost(Machine& machine) {
+    for (const cache::GridName& name : machine.directory->known()) {
+        pulse_.beat();
+        const auto path = of_.store.path_of(name.domain, name.moment, name.time);
+        std::error_code ignored;
+        if (path && !std::filesystem::exists(*path, ignored) && is_wanted(name))
+            machine.directory->forget(name);
+    }
+}
+
+// Takes the newest partial of all machines. Returns true if there was one.
+bool PartialsKeeper::take_one() {
+    bool took = false;
+    for (Machine& machine : machines_) {
+        if (stopping_) return false;
+        const auto name = machine.directory->take_news();
+        if (!name) continue;
+        pulse_.beat();
+        take(machine, *name);
+        took = true;
+    }
+    return took;
+}
+
+// A machine may have domains that this one does not, and older grids than this one keeps.
+bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
+    return !of_.mosaics.is_idle() &&
+           of_.mosaics.find(cache::group_of(name.domain), name.moment) != nullptr &&
+           of_.store.would_keep(name.domain, name.moment, name.time);
+}
+
+void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
+    if (!is_wanted(name)) return;
+    const std::filesystem::path file = machine.directory->path() / cache::relative_path(name);
+    const auto start = steady_now();
+    const auto kept = of_.mosaics.take_partial({file, name, machine.facts.name}, of_.threads);
+    const About about{
+        .event = Event::partial_taken, .volume = name.time, .file = file, .domain = name.domain};
+    if (!kept) {
+        if (kept.error().code == ErrorCode::not_found) return;  // it was removed meanwhile
+        const bool is_of_data = kept.error().cause() == Cause::data;
+        const bool may_change = is_of_data && is_unsettled(file);
+        if (may_change || kept.error().cause() == Cause::system) machine.directory->forget(name);
+        if (may_change) return;
+        ++machine.facts.refused;
+        machine.facts.last_problem = printable(kept.error().message);
+        About refused = about;
+        refused.event = Event::partial_refused;
+        refused.reason = name_of(kept.error().code);
+        log_warning(refused, "partial of {}: {}", machine.facts.name,
+                    printable(kept.error().message));
+        return;
+    }
+    machine.last_news = steady_now();
+    machine.facts.arrived = now_utc();
+    if (kept->partials.empty()) return;
+    ++machine.facts.taken;
+    log_debug(about, "partial of {}: {} {}, {} frames, in {:.0f} ms", machine.facts.name,
+              name.domain, format_utc(name.time), kept->frames.size(), 1000 * seconds_since(start));
+}
+
+// Logs when a machine becomes late, and when it has caught up.
+void PartialsKeeper::judge() {
+    std::optional<UtcTime> newest;
+    for (Machine& machine : machines_) {
+        machine.facts.newest = of_.sources->newest_of(machine.facts.name);
+        if (machine.facts.newest)
+            newest = std::max(newest.value_or(UtcTime{}), *machine.facts.newest);
+    }
+    for (Machine& machine : machines_) {
+        const auto silent = steady_now() - machine.last_news;
+        std::string why;
+        if (silent > config_.late_after) {
+            why = "nothing came for " + whole_seconds(silent);
+        } else if (machine.facts.newest && *newest - *machine.facts.newest > config_.late_after) {
+            why = fmt::format("its newest volume is of {}, {} behind the others",
+                              format_utc(*machine.facts.newest),
+                              whole_seconds(*newest - *machine.facts.newest));
+        }
+        const bool is_late = !why.empty();
+        if (is_late && !machine.facts.is_late)
+            log_warning({Event::machine_late}, "machine {} is late: {}; frames leave it out",
+                        machine.facts.name, why);
+        if (!is_late && machine.facts.is_late)
+            log_info({Event::machine_back}, "machine {} has caught up", machine.facts.name);
+        // The status need not count seconds.
+        if (is_late != machine.facts.is_late) machine.facts.why = why;
+        machine.facts.is_late = is_late;
+    }
+}
+
+void PartialsKeeper::publish() {
+    std::vector<MachineFacts> facts;
+    for (const Machine& machine : machines_)
+        facts.push_back(machine.facts);
+    const std::scoped_lock lock(mutex_);
+    published_ = std::move(facts);
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,86 @@
+// daemon/partials/partials_keeper.h -- takes partials of mosaics out of the directories of other
+// machines, in a thread of its own.
+//
+// A partial is copied into the cache, and the frames that it changes are made, as soon as it is
+// whole; newest first. What is damaged or cut is looked at again when it changes, and at each scan.
+// A partial that the cache has lost is taken again.
+//
+// A machine is late while it has brought nothing for the allowed time, or while its newest volume
+// is that much older than the newest of any machine. The frames themselves decide for each instant
+// (pipeline/options/partial_sources.h); this is what the log, the status and the metrics say.
+//
+// Threads   facts() and pulse() from any thread. The destructor waits for what has begun (one
+//           partial with its frames).
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "daemon/config/config.h"
+#include "daemon/partials/machine_directory.h"
+#include "daemon/process/pulse.h"
+#include "daemon/process/wake_up.h"
+#include "daemon/status/machine_facts.h"
+#include "pipeline/mosaic/mosaic_maker.h"
+
+namespace stormcellar::daemon {
+
+struct PartialsOf {
+    pipeline::MosaicMaker& mosaics;
+    const cache::StoreWriter& store;  // of the mosaics
+    std::shared_ptr<const pipeline::PartialSources> sources;
+    int threads = 1;
+};
+
+struct PartialsTimes {
+    std::chrono::milliseconds rescan{60'000};
+    std::chrono::milliseconds poll{5'000};  // between scans of directories without events
+};
+
+class PartialsKeeper {
+  public:
+    // Without directories it has no thread. What it refers to must outlive it.
+    PartialsKeeper(PartialsConfig config, PartialsOf of, PartialsTimes times);
+    PartialsKeeper(const PartialsKeeper&) = delete;
+    PartialsKeeper& operator=(const PartialsKeeper&) = delete;
+    ~PartialsKeeper();
+
+    [[nodiscard]] std::vector<MachineFacts> facts() const;
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+
+  private:
+    struct Machine {
+        std::unique_ptr<MachineDirectory> directory;
+        SteadyTime next_scan{};
+        SteadyTime last_news = steady_now();
+        MachineFacts facts;
+    };
+    void run();
+    void turn();
+    void wait();
+    void scan(Machine& machine);
+    void take_lost(Machine& machine);
+    bool take_one();
+    [[nodiscard]] bool is_wanted(const cache::GridName& name) const;
+    void take(Machine& machine, const cache::GridName& name);
+    void judge();
+    void publish();
+
+    const PartialsConfig config_;
+    const PartialsOf of_;
+    const PartialsTimes times_;
+    std::vector<Machine> machines_;  // of the thread
+    bool has_more_ = false;          // of the thread: news wait
+    mutable std::mutex mutex_;
+    std::vector<MachineFacts> published_;  // guarded by mutex_
+    WakeUp wake_up_;
+    Pulse pulse_;
+    std::atomic<bool> stopping_{false};
+    std::thread thread_;  // the last member: it uses the members above
+};
+
+}  // namespace stormcellar::daemon

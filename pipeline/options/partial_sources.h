@@ -1,0 +1,58 @@
+// pipeline/options/partial_sources.h -- which machines bring partials of mosaics, and how far
+// behind each of them is.
+//
+// A machine is late for a frame if the newest of its volumes is older than the frame by more than
+// the allowed time. Then the stations that nobody else brings are left out of the frame, which says
+// so. This depends on the times of volumes alone, not on those of a clock, so that a frame is the
+// same whoever makes it, and whenever.
+//
+// Threads   Many threads may use it.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::pipeline {
+
+struct LateMachine {
+    std::string name;
+    std::set<std::string> stations;  // that no other machine brings
+    UtcTime newest;                  // middle of its newest volume
+    // "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z"
+    [[nodiscard]] std::string text() const;
+};
+
+class PartialSources {
+  public:
+    explicit PartialSources(std::chrono::seconds late_after) : late_after_(late_after) {}
+
+    // A machine has brought a partial of this station, whose volume has this middle.
+    void brought(const std::string& machine, const std::string& domain, level2::Moment moment,
+                 const std::string& station, UtcTime middle);
+    // Returns the machines that are late for a frame, by name.
+    [[nodiscard]] std::vector<LateMachine> late_for(const std::string& domain,
+                                                    level2::Moment moment, UtcTime instant) const;
+    // Returns the middle of the newest volume that a machine brought for any mosaic.
+    [[nodiscard]] std::optional<UtcTime> newest_of(const std::string& machine) const;
+
+  private:
+    using Mosaic = std::pair<std::string, level2::Moment>;
+    struct Brought {
+        UtcTime newest{};
+        std::set<std::string> stations;
+    };
+    const std::chrono::seconds late_after_;
+    mutable std::mutex mutex_;
+    std::map<Mosaic, std::map<std::string, Brought>> mosaics_;  // guarded by mutex_; by machine
+};
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,134 @@
+// stormcellar-pull: fetches grids from the data servers of other machines. Its usage is the text
+// below.
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <systemd/sd-daemon.h>
+
+#include "base/counted.h"
+#include "base/printable.h"
+#include "base/service_arguments.h"
+#include "base/service_log.h"
+#include "base/waited_signals.h"
+#include "pull/pull_service.h"
+#include "stormcellar/base/version.h"
+
+namespace stormcellar::pull {
+namespace {
+
+constexpr int exit_failed = 1;
+constexpr int exit_bad_usage = 2;
+// How often the status is written, and the watchdog fed.
+constexpr std::chrono::milliseconds turn{1000};
+// A transfer is given up before that; a thread that is silent for so long is stuck.
+constexpr std::chrono::minutes longest_silence{5};
+
+constexpr std::string_view usage =
+    "usage: stormcellar-pull --config FILE [--check-config]\n"
+    "  --config FILE    read the configuration from FILE (TOML), that of stormcellard\n"
+    "  --check-config   check what concerns this program in FILE, and exit\n"
+    "  --version, --help\n";
+
+int complain(const Error& error) {
+    fmt::print(stderr, "stormcellar-pull: {}\n", printable(error.message));
+    return exit_failed;
+}
+
+// Tells systemd. Without it, nothing happens.
+void notify(const std::string& state) {
+    (void)::sd_notify(0, state.c_str());
+}
+
+std::string reloading_state() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
+                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
+}
+
+void publish(PullService& service) {
+    static bool was_written = true;
+    const Status written = service.publish();
+    if (!written && was_written) say(LogLevel::error, "{}", written.error().message);
+    was_written = written.has_value();
+}
+
+// The threads end, and begin anew as the configuration now says.
+void reload(std::unique_ptr<PullService>& service, const std::filesystem::path& file) {
+    notify(reloading_state());
+    const auto fresh = load_pull_config(file);
+    if (!fresh) {
+        say(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
+    } else {
+        set_log_level(fresh->log_level);
+        service.reset();
+        auto opened = PullService::open(real_file_system(), *fresh);
+        if (opened) service = std::move(*opened);
+        if (opened) say(LogLevel::info, "reloaded {}", file.native());
+        if (!opened) say(LogLevel::error, "{}", opened.error().message);
+    }
+    notify("READY=1");
+}
+
+int pull(const PullConfig& config, const std::filesystem::path& file) {
+    set_log_level(config.log_level);
+    const WaitedSignals signals;
+    auto opened = PullService::open(real_file_system(), config);
+    if (!opened) return complain(opened.error());
+    std::unique_ptr<PullService> service = std::move(*opened);
+    say(LogLevel::info, "stormcellar-pull {}: asking {} for grids, which go to {}",
+        software_version, counted(config.sources.size(), "machine"), config.directory.native());
+    notify("READY=1");
+    for (;;) {
+        publish(*service);
+        if (service->longest_silence() < longest_silence) notify("WATCHDOG=1");
+        const auto number = signals.next(turn);
+        if (!number) continue;
+        if (*number != SIGHUP) {
+            say(LogLevel::info, "stopping: received {}", *number == SIGTERM ? "SIGTERM" : "SIGINT");
+            break;
+        }
+        reload(service, file);
+        if (service == nullptr) return exit_failed;
+    }
+    notify("STOPPING=1");
+    service.reset();
+    return EXIT_SUCCESS;
+}
+
+int run(int argc, char** argv) {
+    const Result<ServiceArguments> arguments = parse_service_arguments(argc, argv);
+    if (!arguments) {
+        (void)complain(arguments.error());
+        fmt::print(stderr, "{}", usage);
+        return exit_bad_usage;
+    }
+    if (arguments->help || arguments->version) {
+        fmt::print("{}", arguments->help ? std::string{usage}
+                                         : fmt::format("stormcellar-pull {}\n", software_version));
+        return EXIT_SUCCESS;
+    }
+    const Result<PullConfig> config = load_pull_config(*arguments->config);
+    if (!config) return complain(config.error());
+    if (!arguments->check) return pull(*config, *arguments->config);
+    fmt::print("{}: ok\n", printable(arguments->config->native()));
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace stormcellar::pull
+
+int main(int argc, char** argv) {
+    try {
+        return stormcellar::pull::run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "stormcellar-pull: {}\n", stormcellar::printable(error.what()));
+        return 1;
+    }
+}

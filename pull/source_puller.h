@@ -1,0 +1,75 @@
+// pull/source_puller.h -- pulls the partials of one machine, turn by turn.
+//
+// A turn asks for the list of grids, fetches what is missing, newest first, and asks whether the
+// newest grids were made again. A machine that does not answer ends the turn; the next one begins
+// after a pause that doubles from one second to a minute, or as long as the machine asks for. A
+// grid that comes cut or fails a check is asked for again after a pause of its own, so that it
+// holds up no others.
+//
+// Threads   turn() by one thread; status() by any.
+// Errors    turn() says why it ended early; the next one may succeed.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "base/steady_time.h"
+#include "pull/http_client.h"
+#include "pull/pull_config.h"
+#include "pull/pull_status.h"
+#include "pull/pulled_grids.h"
+
+namespace stormcellar::pull {
+
+// A pause that doubles from the first to the longest.
+[[nodiscard]] std::chrono::milliseconds pause_after(int failures);
+
+class SourcePuller {
+  public:
+    // `grids` is the directory of this source. The flag ends a turn.
+    SourcePuller(PullSource source, const PullConfig& config, PulledGrids grids,
+                 const std::atomic<bool>& stop);
+
+    Status turn();
+    // How long to wait before the next turn.
+    [[nodiscard]] std::chrono::milliseconds pause() const;
+    [[nodiscard]] SourceStatus status() const;
+    [[nodiscard]] const PullSource& source() const { return source_; }
+    // The last time that a turn, or a transfer in it, was seen to go on.
+    [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }
+    void beat() { beat_ = steady_now(); }
+
+  private:
+    Status pull();
+    Result<bool> list(UtcTime from, UtcTime now);
+    Status fetch_missing();
+    Status ask_again(UtcTime now);
+    Status fetch(const cache::GridName& name);
+    Status get(const cache::GridName& name);
+    void note_outcome(const Status& done);
+
+    struct Bad {
+        int tries = 0;
+        SteadyTime next{};
+    };
+    const PullSource source_;
+    const PullConfig config_;
+    PulledGrids grids_;
+    const std::atomic<bool>& stop_;
+    std::atomic<SteadyTime> beat_{steady_now()};
+    HttpClient client_;
+    std::string list_url_, list_tag_;
+    std::vector<cache::GridName> listed_;  // newest first
+    SteadyTime next_long_list_{};
+    std::map<cache::GridName, SteadyTime> asked_;  // when a young grid was last asked for
+    std::map<cache::GridName, Bad> bad_;
+    int failures_ = 0;  // turns, one after the other
+
+    mutable std::mutex mutex_;
+    SourceStatus status_;  // guarded by mutex_
+};
+
+}  // namespace stormcellar::pull

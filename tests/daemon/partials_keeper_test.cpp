@@ -1,0 +1,189 @@
+// Partials that others put into directories: what is whole is taken, what is not waits, and a
+// machine that brings nothing is named.
+#include "daemon/partials/partials_keeper.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/invented_partials.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using pipeline::InventedPartial;
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+const InventedPartial early{"KBGM", 44, 0, 20}, later{"KBGM", 50, 0, 25};
+const InventedPartial other{"KOKX", 51, 48, 35};
+
+class PartialsKeeperTest : public ::testing::Test {
+  protected:
+    PartialsKeeperTest() {
+        for (const char* name : {"north", "south", "made"})
+            fs::create_directory(directory_ / name);
+    }
+    void start(std::chrono::seconds late_after = std::chrono::seconds{600}) {
+        PartialsConfig config;
+        config.directories = {directory_ / "north", directory_ / "south"};
+        config.late_after = late_after;
+        sources_ = std::make_shared<pipeline::PartialSources>(late_after);
+        mosaics_ =
+            std::make_unique<pipeline::MosaicMaker>(&store_, std::vector{pipeline::small_domain()},
+                                                    pipeline::FramesWhen::volume_comes, sources_);
+        keeper_.emplace(config, PartialsOf{*mosaics_, store_, sources_, 1},
+                        PartialsTimes{milliseconds{500}, milliseconds{200}});
+    }
+    // Returns the bytes and the place of a partial, without putting it anywhere.
+    std::pair<std::string, fs::path> made(const InventedPartial& partial) {
+        auto store = cache::StoreWriter::open(real_file_system(), directory_ / "made", false);
+        const fs::path path = pipeline::commit(*store, partial);
+        const auto bytes = read_file(path);
+        return {{reinterpret_cast<const char*>(bytes->data()), bytes->size()},
+                fs::relative(path, directory_ / "made")};
+    }
+    static void write(const fs::path& path, std::string_view text) {
+        fs::create_directories(path.parent_path());
+        std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
+    }
+    // As rsync does it.
+    void bring(const std::string& machine, const InventedPartial& partial) {
+        const auto [bytes, place] = made(partial);
+        const fs::path path = directory_ / machine / place;
+        write(path.parent_path() / ("." + path.filename().native() + ".aB3xYz"), bytes);
+        fs::rename(path.parent_path() / ("." + path.filename().native() + ".aB3xYz"), path);
+    }
+    [[nodiscard]] bool is_kept(const InventedPartial& partial) const {
+        return fs::exists(*store_.path_of("north." + partial.station, level2::Moment::ref,
+                                          pipeline::minute(partial.minute)));
+    }
+    static bool comes(const std::function<bool()>& seen) {
+        for (int i = 0; i < 500 && !seen(); ++i)
+            std::this_thread::sleep_for(milliseconds{20});
+        return seen();
+    }
+    [[nodiscard]] MachineFacts north() const { return keeper_->facts().at(0); }
+    [[nodiscard]] MachineFacts south() const { return keeper_->facts().at(1); }
+
+    testing::TemporaryDirectory directory_;
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+    std::shared_ptr<pipeline::PartialSources> sources_;
+    std::unique_ptr<pipeline::MosaicMaker> mosaics_;
+    std::optional<PartialsKeeper> keeper_;
+};
+
+TEST_F(PartialsKeeperTest, TakesWhatIsThereAndWhatComesAndMakesFrames) {
+    bring("north", early);
+    start();
+    EXPECT_TRUE(comes([&] { return is_kept(early); })) << "it was there at the start";
+    bring("north", later);
+    bring("south", other);
+    EXPECT_TRUE(comes([&] { return north().taken == 2 && south().taken == 1; }));
+    EXPECT_EQ(north().newest, pipeline::minute(52));
+    EXPECT_TRUE(north().arrived);
+    EXPECT_TRUE(fs::exists(*store_.path_of("north", level2::Moment::ref, pipeline::minute(50))))
+        << "the frame between the two volumes";
+    keeper_.reset();
+    for (const char* machine : {"north", "south"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(directory_ / machine)) {
+            const bool is_theirs = entry.is_directory() || entry.path().extension() == ".scg";
+            EXPECT_TRUE(is_theirs) << entry.path();
+        }
+    }
+}
+
+TEST_F(PartialsKeeperTest, AFileThatIsBeingWrittenIsTakenOnceItIsWhole) {
+    start();
+    const auto [bytes, place] = made(early);
+    const fs::path path = directory_ / "north" / place;
+    fs::create_directories(path.parent_path());
+    std::ofstream file(path, std::ios::binary);
+    file << std::string_view{bytes}.substr(0, bytes.size() / 2);
+    file.flush();
+    std::this_thread::sleep_for(milliseconds{1200});
+    EXPECT_FALSE(is_kept(early));
+    EXPECT_EQ(north().refused, 0U) << "nobody complains of what is still coming";
+    file << std::string_view{bytes}.substr(bytes.size() / 2);
+    file.close();
+    EXPECT_TRUE(comes([&] { return is_kept(early); }));
+}
+
+TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
+    start();
+    auto [bytes, place] = made(early);
+    const fs::path path = directory_ / "north" / place;
+    auto damaged = bytes;
+    damaged.back() ^= 1;
+    write(path, damaged);
+    // As if it had been written an hour ago.
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours{1});
+    EXPECT_TRUE(comes([&] { return north().refused == 1; }));
+    EXPECT_THAT(north().last_problem, HasSubstr("1 of"));
+    std::this_thread::sleep_for(milliseconds{1200});
+    EXPECT_EQ(north().refused, 1U);
+    bring("north", early);
+    EXPECT_TRUE(comes([&] { return is_kept(early); }));
+}
+
+TEST_F(PartialsKeeperTest, OtherFilesAreNotLookedAt) {
+    start();
+    const auto [bytes, place] = made(early);
+    for (const char* name :
+         {"status.json", "north.KBGM/REF/20050822/notes.txt",
+          "north.KBGM/REF/20050823/north.KBGM_REF_20050822_024400_000.scg",
+          "KBGM/REF/20050822/KBGM_REF_20050822_024400_000.scg",
+          "elsewhere.KBGM/REF/20050822/elsewhere.KBGM_REF_20050822_024400_000.scg"})
+        write(directory_ / "north" / name, bytes);
+    fs::create_directory_symlink(directory_ / "made", directory_ / "north" / "linked");
+    bring("south", other);
+    EXPECT_TRUE(comes([&] { return is_kept(other); }));
+    std::this_thread::sleep_for(milliseconds{700});
+    EXPECT_EQ(north().taken, 0U);
+    EXPECT_EQ(north().refused, 0U);
+}
+
+TEST_F(PartialsKeeperTest, ALostPartialIsTakenAgain) {
+    start();
+    bring("north", early);
+    ASSERT_TRUE(comes([&] { return north().taken == 1; }));
+    cache::StoreEntry entry;
+    entry.domain = "north.KBGM";
+    entry.time = pipeline::minute(early.minute);
+    ASSERT_TRUE(store_.remove(entry));
+    EXPECT_TRUE(comes([&] { return is_kept(early); }));
+}
+
+TEST_F(PartialsKeeperTest, AMachineThatBringsNothingIsLateAndComesBack) {
+    fs::remove(directory_ / "south");
+    start(std::chrono::seconds{2});
+    EXPECT_TRUE(comes([&] { return !south().last_problem.empty(); })) << "it is not mounted";
+    bring("north", early);
+    EXPECT_TRUE(comes([&] {
+        bring("north", early);
+        return south().is_late && !north().is_late;
+    }));
+    EXPECT_THAT(south().why, HasSubstr("nothing came for "));
+    fs::create_directory(directory_ / "south");
+    bring("south", other);
+    EXPECT_TRUE(comes([&] { return !south().is_late; }));
+    EXPECT_EQ(south().why, "");
+}
+
+TEST_F(PartialsKeeperTest, AMachineThatIsBehindTheOthersIsLate) {
+    start(std::chrono::seconds{300});
+    bring("north", early);
+    bring("south", other);
+    EXPECT_TRUE(comes([&] { return north().is_late; }));
+    EXPECT_THAT(north().why, HasSubstr("420 s behind the others"));
+    EXPECT_FALSE(south().is_late);
+    bring("north", later);
+    EXPECT_TRUE(comes([&] { return !north().is_late; }));
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

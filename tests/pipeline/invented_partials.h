@@ -1,0 +1,55 @@
+// tests/pipeline/invented_partials.h -- partials of the small domain that took no volume to make.
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid_window.h"
+#include "tests/pipeline/small_domain.h"
+
+namespace stormcellar::pipeline {
+
+inline UtcTime minute(int minutes) {
+    return *parse_utc("2005-08-22T02:00:00Z", UtcTime{}) + std::chrono::minutes{minutes};
+}
+
+// A station that sees a square of 32 x 32 columns of the small domain at a corner of its own, from
+// the minute on for four minutes, so that its middle is two minutes later.
+struct InventedPartial {
+    std::string station = "KBGM";
+    int minute = 0;
+    int column = 0;
+    float value = 20;
+};
+
+inline grid::Grid grid_of(const InventedPartial& wanted) {
+    grid::Grid made;
+    made.spec = grid::window_spec(small_domain().spec, {wanted.column, 0, 32, 32});
+    made.moment = level2::Moment::ref;
+    made.time = made.start_time = minute(wanted.minute);
+    made.end_time = made.time + std::chrono::minutes{4};
+    made.sites = {{wanted.station, 42.2 - wanted.column * 0.01, -75.9, 400}};
+    made.provenance.source_files = {level2::volume_name(wanted.station, made.time)};
+    made.provenance.stations = {wanted.station};
+    made.provenance.method = "column-linear";
+    made.provenance.software_version = "test";
+    made.values.assign(made.spec.cell_count(), wanted.value);
+    made.status.assign(made.spec.cell_count(), grid::CellStatus::no_echo);
+    for (std::size_t i = 0; i < made.status.size(); i += 3)
+        made.status[i] = grid::CellStatus::value;
+    return made;
+}
+
+// Returns the path of the partial "north.STATION".
+inline std::filesystem::path commit(cache::StoreWriter& store, const InventedPartial& wanted) {
+    const grid::Grid grid = grid_of(wanted);
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+    const auto path = store.commit("north." + wanted.station, cache::describe(grid), bricks.view());
+    EXPECT_TRUE(path) << path.error().message;
+    return path ? *path : std::filesystem::path{};
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,62 @@
+#include "pull/grid_list.h"
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::pull {
+namespace {
+
+const UtcTime now = *parse_utc("2026-11-27T12:00:00Z", UtcTime{});
+const PullSource north{"north", "http://n:1/p", {"us"}};
+
+Result<std::vector<cache::GridName>> parsed(std::string_view text,
+                                            const PullSource& source = north) {
+    return parse_grid_list(std::as_bytes(std::span(text)), source, now - std::chrono::hours{1},
+                           now);
+}
+
+std::string entry(const std::string& domain, const std::string& moment, const std::string& time) {
+    return R"({"domain":")" + domain + R"(","moment":")" + moment + R"(","time":")" + time +
+           R"(","path":"/x"})";
+}
+
+TEST(GridList, HasThePartsOfTheDomainsNewestFirst) {
+    const auto grids =
+        parsed(R"({"grids":[)" + entry("us.KTLX", "REF", "2026-11-27T11:50:00Z") + "," +
+               entry("us.KINX", "VEL", "2026-11-27T11:55:00.250Z") + "," +
+               entry("us.KTLX", "REF", "2026-11-27T11:50:00Z") + "," +
+               entry("us", "REF", "2026-11-27T11:50:00Z") + "," +
+               entry("KTLX", "REF", "2026-11-27T11:50:00Z") + "," +
+               entry("eu.KTLX", "REF", "2026-11-27T11:50:00Z") + R"(],"more":false})");
+    ASSERT_TRUE(grids) << grids.error().message;
+    ASSERT_EQ(grids->size(), 2U);
+    EXPECT_EQ(grids->at(0).domain, "us.KINX");
+    EXPECT_EQ(grids->at(1).domain, "us.KTLX");
+    EXPECT_EQ(file_url(north, grids->at(0)),
+              "http://n:1/p/api/v1/grids/us.KINX/VEL/2026-11-27T11:55:00.250Z/file");
+    EXPECT_EQ(parsed(R"({"grids":[)" + entry("eu.KTLX", "REF", "2026-11-27T11:50:00Z") + "]}",
+                     {"north", "http://n", {}})
+                  ->size(),
+              1U)
+        << "all domains";
+}
+
+TEST(GridList, LeavesOutWhatMakesNoSense) {
+    for (const std::string& one :
+         {entry("../../etc.KTLX", "REF", "2026-11-27T11:50:00Z"),
+          entry("us.KTLX", "XYZ", "2026-11-27T11:50:00Z"), entry("us.KTLX", "REF", "now"),
+          entry("us.KTLX", "REF", "-1h"), entry("us.KTLX", "REF", "2026-11-27T10:59:59Z"),
+          entry("us.KTLX", "REF", "2026-11-28T00:00:00Z"), std::string("7"), std::string("{}"),
+          std::string(R"({"domain":7,"moment":[],"time":{}})")}) {
+        const auto grids = parsed("{\"grids\":[" + one + "]}");
+        ASSERT_TRUE(grids) << one;
+        EXPECT_TRUE(grids->empty()) << one;
+    }
+}
+
+TEST(GridList, WhatIsNoListIsCorrupt) {
+    for (const char* text : {"", "<html>", "[]", "{}", R"({"grids":7})", R"({"grids":[)", "null"})
+        EXPECT_EQ(parsed(text).error().code, ErrorCode::corrupt) << text;
+}
+
+}  // namespace
+}  // namespace stormcellar::pull

@@ -1,0 +1,78 @@
+// What the page gives along: its link, the command that draws the same, the picture, the grid (scripts/check-viewer).
+//   node share.mjs ADDRESS STATION [PICTURE_DIRECTORY]
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { CheckedPage, check, gridsOf } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, station, pictures] = process.argv.slice(2);
+await gridsOf(address, [station]);
+const browser = await Browser.start();
+try {
+  const [width, height] = [560, 420];
+  const page = await browser.page(width, height);
+  const viewer = new CheckedPage(page, address);
+  const evaluate = (text) => page.evaluate(text);
+  await viewer.open(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2&least=30&height-km=3`);
+  await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } })`);
+  await evaluate(`HTMLAnchorElement.prototype.click = function () { window.taken = { href: this.href, name: this.download }; }; undefined`);
+  const press = (id) => evaluate(`document.getElementById('${id}').click()`);
+
+  // ---- The link shows the same
+  await viewer.settled(() => page.key('ArrowRight'));
+  await press('share');
+  const link = await page.until('window.copied');
+  const picture = await viewer.pixels();
+  check(`the link is the address: ${link.length} characters`, link === (await evaluate('location.href')) && link.includes('height-km=3'));
+  await evaluate('window.copied = undefined');
+  await press('command');
+  const command = await page.until('window.copied');
+  check(`the command is for the program: ${command}`, command.startsWith(`stormcellar frame ${station} --moment REF`) && command.includes('--azimuth'));
+
+  // ---- The picture, with what it needs to be understood
+  await evaluate('window.taken = undefined');
+  await press('save');
+  const { name } = await page.until('window.taken?.href.startsWith("data:image/png") && window.taken');
+  const [w, h, heads, bars] = await evaluate(`(async () => {
+    const image = new Image();
+    image.src = window.taken.href;
+    await image.decode();
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [image.width, image.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(image, 0, 0);
+    // Pixels of letters in the head, and colors of the bar.
+    const head = pen.getImageData(0, 8, 300, 22).data;
+    let letters = 0;
+    for (let i = 0; i < head.length; i += 4) if (head[i] > 200 && head[i + 1] > 200 && head[i + 2] > 200) ++letters;
+    const { left, top, height: long } = document.getElementById('bar').getBoundingClientRect();
+    const bar = pen.getImageData(left + 6, top + 22, 1, long - 34).data;
+    const colors = new Set();
+    for (let i = 0; i < bar.length; i += 4) colors.add(bar.slice(i, i + 3).join());
+    return [image.width, image.height, letters, colors.size];
+  })()`);
+  check(`${name} has ${w} x ${h} pixels, a title (${heads} light pixels) and the colors (${bars})`, name.startsWith(`${station}_REF_`) && w === width && h === height && heads > 300 && bars > 40);
+  if (pictures) {
+    mkdirSync(pictures, { recursive: true });
+    writeFileSync(join(pictures, 'saved.png'), Buffer.from((await evaluate('window.taken.href')).split(',')[1], 'base64'));
+  }
+
+  // ---- The grid: the page goes to its file, which the browser saves
+  const path = await evaluate("document.documentElement.dataset.drawn");
+  const { headers, status } = await fetch(`${address}/api/v1/grids/${path}/netcdf`);
+  check(`the grid is a file: ${status}, ${headers.get('content-disposition')}`, status === 200 && headers.get('content-type').includes('netcdf'));
+  await page.send('Network.setBlockedURLs', { urls: ['*/netcdf'] });
+  await press('netcdf');
+  await new Promise((done) => setTimeout(done, 300));
+  check('the button asks for it', page.requests.some((url) => url.endsWith('/netcdf')));
+  await page.send('Network.setBlockedURLs', { urls: [] });
+
+  // ---- The link, opened by somebody else
+  await page.goto('about:blank');
+  await page.goto(link);
+  await page.until('document.documentElement.dataset.drawn', 60);
+  check('the link shows the same picture', (await viewer.pixels()).equals(picture));
+} finally {
+  await browser.end();
+}

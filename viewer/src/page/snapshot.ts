@@ -1,0 +1,56 @@
+// The picture as it is seen, without the controls, but with what they say of it: title, colors, legend.
+
+import { shades } from '../renderer/shades';
+import { element, fontOf, textScale } from './dom';
+import { haloed } from './labels';
+
+const told = ['title', 'sites-told', 'layers-told'];
+const lineHeight = 20;
+const swatch = 10;
+
+function shownLines(): string[] {
+    const lines = told.map(id => element(id)).filter(one => one && !one.hidden);
+    return lines.map(one => one.textContent ?? '').filter(Boolean);
+}
+
+// Rows of the legend from `top` on, at the right edge.
+function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): void {
+    pen.font = fontOf(11);
+    [...element('legend').children].forEach((row, i) => {
+        const color = row.querySelector('span')?.style.backgroundColor;
+        const text = row.textContent ?? '';
+        const y = top + i * (swatch + 6);
+        const left = right - pen.measureText(text).width;
+        haloed(pen, text, left, y + swatch / 2, shades.text);
+        if (!color) return;
+        pen.fillStyle = color;
+        pen.fillRect(left - swatch - 5, y, swatch, swatch);
+        pen.strokeStyle = shades.quietText;
+        pen.lineWidth = 1;
+        pen.strokeRect(left - swatch - 5, y, swatch, swatch);
+    });
+}
+
+// `moment`: with its unit, as the title does not name it.
+export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement, moment: string): HTMLCanvasElement {
+    const all = document.createElement('canvas');
+    all.width = picture.width;
+    all.height = picture.height;
+    const pen = all.getContext('2d')!;
+    pen.drawImage(picture, 0, 0);
+    pen.drawImage(labels, 0, 0);
+    const ratio = picture.width / picture.clientWidth;
+    const bar = element<HTMLCanvasElement>('bar');
+    const place = bar.getBoundingClientRect();
+    pen.drawImage(bar, place.left * ratio, place.top * ratio, place.width * ratio, place.height * ratio);
+    const scale = ratio * textScale();
+    pen.scale(scale, scale);
+    pen.textBaseline = 'middle';
+    pen.font = fontOf(14, 'bold');
+    const [first, ...more] = shownLines();
+    haloed(pen, `${first ?? ''}  ${moment}`, 14, 18, shades.text);
+    pen.font = fontOf(12);
+    more.forEach((line, i) => haloed(pen, line, 14, 18 + (i + 1) * lineHeight, shades.text));
+    drawLegend(pen, picture.width / scale - 12, (place.bottom * ratio) / scale + 8);
+    return all;
+}
