@@ -34,9 +34,9 @@ std::optional<cache::GridName> MachineDirectory::name_of(const fs::path& path) c
 void MachineDirectory::look(const fs::path& path, const FileStamp& stamp) {
     const auto name = name_of(path);
     if (!name) return;
-    const auto [seen, is_new] = seen_.try_emplace(*name, stamp);
-    if (!is_new && seen->second == stamp) return;
-    seen->second = stamp;
+    const auto [seen, is_new] = seen_.try_emplace(*name, Seen{stamp});
+    if (!is_new && seen->second.stamp == stamp) return;
+    seen->second = {stamp};
     news_.insert(*name);
 }
 
@@ -65,10 +65,15 @@ std::optional<cache::GridName> MachineDirectory::take_news() {
     return news_.extract(news_.begin()).value();
 }
 
+void MachineDirectory::refuse(const cache::GridName& name) {
+    const auto seen = seen_.find(name);
+    if (seen != seen_.end()) seen->second.is_refused = true;
+}
+
 std::vector<cache::GridName> MachineDirectory::known() const {
     std::vector<cache::GridName> names;
-    for (const auto& [name, stamp] : seen_)
-        if (!news_.contains(name)) names.push_back(name);
+    for (const auto& [name, seen] : seen_)
+        if (!news_.contains(name) && !seen.is_refused) names.push_back(name);
     return names;
 }
 

@@ -38,7 +38,9 @@ class MachineDirectory final : public WatchListener {
     std::optional<cache::GridName> take_news();
     // Offers a partial again at the next scan.
     void forget(const cache::GridName& name) { seen_.erase(name); }
-    // The partials that were seen and are not news.
+    // Leaves a partial alone until its file is another one.
+    void refuse(const cache::GridName& name);
+    // The partials that were seen, are not news and were not refused.
     [[nodiscard]] std::vector<cache::GridName> known() const;
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -61,7 +63,11 @@ class MachineDirectory final : public WatchListener {
 
     std::filesystem::path directory_;
     std::unique_ptr<EventSource> events_;
-    std::map<cache::GridName, FileStamp> seen_;
+    struct Seen {
+        FileStamp stamp;
+        bool is_refused = false;
+    };
+    std::map<cache::GridName, Seen> seen_;
     std::set<cache::GridName, Newest> news_;
     bool is_lost_ = false;
     Watcher watcher_;  // the last: it calls this object

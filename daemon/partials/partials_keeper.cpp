@@ -155,7 +155,9 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
         if (kept.error().code == ErrorCode::not_found) return;  // it was removed meanwhile
         const bool is_of_data = kept.error().cause() == Cause::data;
         const bool may_change = is_of_data && is_unsettled(file);
-        if (may_change || kept.error().cause() == Cause::system) machine.directory->forget(name);
+        const bool is_tried_again = may_change || kept.error().cause() == Cause::system;
+        if (is_tried_again) machine.directory->forget(name);
+        if (!is_tried_again) machine.directory->refuse(name);
         if (may_change) return;
         ++machine.facts.refused;
         machine.facts.last_problem = printable(kept.error().message);

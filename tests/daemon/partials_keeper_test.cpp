@@ -124,8 +124,8 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours{1});
     EXPECT_TRUE(comes([&] { return north().refused == 1; }));
     EXPECT_THAT(north().last_problem, HasSubstr("1 of"));
-    std::this_thread::sleep_for(milliseconds{1200});
-    EXPECT_EQ(north().refused, 1U);
+    std::this_thread::sleep_for(milliseconds{3200});
+    EXPECT_EQ(north().refused, 1U) << "through several scans";
     bring("north", early);
     EXPECT_TRUE(comes([&] { return is_kept(early); }));
 }

@@ -1,5 +1,7 @@
 #include "pull/grid_list.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace stormcellar::pull {
@@ -51,6 +53,46 @@ TEST(GridList, LeavesOutWhatMakesNoSense) {
         ASSERT_TRUE(grids) << one;
         EXPECT_TRUE(grids->empty()) << one;
     }
+}
+
+// Whatever a machine sends: a name is that of a part of these domains, and leads nowhere else.
+TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
+    const std::string good = R"({"grids":[)" + entry("us.KTLX", "REF", "2026-11-27T11:50:00Z") +
+                             "," + entry("us.KINX", "VEL", "2026-11-27T11:55:00.250Z") +
+                             R"(],"more":false})";
+    std::mt19937 random(20261127);
+    std::size_t lists = 0;
+    for (int i = 0; i < 5'000; ++i) {
+        std::string text = good;
+        for (std::uint32_t changes = 1 + random() % 4; changes > 0; --changes) {
+            const std::size_t at = random() % text.size();
+            const std::size_t count = 1 + random() % 12;
+            switch (random() % 4) {
+                case 0:
+                    text[at] = static_cast<char>(random());
+                    break;
+                case 1:
+                    text.erase(at, count);
+                    break;
+                case 2:
+                    text.insert(at, text.substr(random() % text.size(), count));
+                    break;
+                default:
+                    text[at] = "./\\\"{}[]:,-0Z"[random() % 14];
+            }
+            if (text.empty()) text = good;
+        }
+        const auto grids = parsed(text);
+        if (!grids) continue;
+        ++lists;
+        for (const cache::GridName& name : *grids) {
+            ASSERT_TRUE(name.domain.starts_with("us.")) << text;
+            ASSERT_TRUE(cache::is_domain_name(name.domain) && cache::is_part(name.domain)) << text;
+            ASSERT_TRUE(name.time >= now - std::chrono::hours{1} && is_believed(name.time, now));
+        }
+    }
+    EXPECT_GT(lists, 300U);
+    EXPECT_FALSE(parsed(std::string(most_list_bytes, '['))) << "however deep";
 }
 
 TEST(GridList, WhatIsNoListIsCorrupt) {

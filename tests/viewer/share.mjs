@@ -1,12 +1,13 @@
 // What the page gives along: its link, the command that draws the same, the picture, the grid (scripts/check-viewer).
-//   node share.mjs ADDRESS STATION [PICTURE_DIRECTORY]
-import { mkdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+//   node share.mjs ADDRESS STATION VOLUME PROGRAM DIRECTORY [PICTURE_DIRECTORY]
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join, resolve } from 'node:path';
 
 import { CheckedPage, check, gridsOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
-const [address, station, pictures] = process.argv.slice(2);
+const [address, station, volume, program, directory, pictures] = process.argv.slice(2);
 await gridsOf(address, [station]);
 const browser = await Browser.start();
 try {
@@ -25,10 +26,22 @@ try {
   const link = await page.until('window.copied');
   const picture = await viewer.pixels();
   check(`the link is the address: ${link.length} characters`, link === (await evaluate('location.href')) && link.includes('height-km=3'));
+
+  // ---- The command runs where the raw volume is
+  await viewer.show(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2`);
+  await press('open');
+  for (let tries = 0; tries < 50 && !page.requests.some((url) => url.includes('/volumes?to=')); ++tries) await new Promise((done) => setTimeout(done, 100));
+  await new Promise((done) => setTimeout(done, 300));
   await evaluate('window.copied = undefined');
   await press('command');
   const command = await page.until('window.copied');
-  check(`the command is for the program: ${command}`, command.startsWith(`stormcellar frame ${station} --moment REF`) && command.includes('--azimuth'));
+  const words = command.split(' ').slice(1);
+  check(`the command reads the raw volume: ${command}`, words[0] === 'frame' && words[1] === basename(volume));
+  const drawn = join(resolve(directory), 'command.png');
+  execFileSync(resolve(program), [...words.slice(0, -1), drawn], { cwd: dirname(resolve(volume)), stdio: 'ignore' });
+  check('and draws a picture', readFileSync(drawn).length > 10000);
+  await press('open');
+  await viewer.show(link.split('#')[1]);
 
   // ---- The picture, with what it needs to be understood
   await evaluate('window.taken = undefined');

@@ -50,4 +50,6 @@ test('what makes no sense in an address is left at its usual value', () => {
 test('the command draws the same view', () => {
     const command = commandOf({ ...usualState, domain: 'KTLX', moment: 'REF' }, 796, 532, '');
     assert.equal(command, 'stormcellar frame KTLX --moment REF --azimuth 180 --tilt 60 --zoom 1 --field-of-view 40 --exaggeration 5 --opacity 1 --light none --width 796 --height 532 -o KTLX.png');
+    const ofFile = commandOf({ ...usualState, domain: 'KTLX', moment: 'REF', time: '1999-05-03T23:56:21Z' }, 796, 532, '', 'KTLX19990503_235621.gz');
+    assert(ofFile.startsWith('stormcellar frame KTLX19990503_235621.gz --moment REF --azimuth'), ofFile);
 });

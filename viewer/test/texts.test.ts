@@ -10,5 +10,5 @@ test('of a region is told how far the volumes of each site are from the instant'
     assert.equal(ofVolumes([0]), 'as it was');
     assert.equal(sitesAt([{ site: 'KCCX', middlesS: [-60, 240] }, { site: 'KDIX', middlesS: [300] }]), 'KCCX from volumes 60 s before and 4 min after; KDIX as it was 5 min after');
     const many = ['KAAA', 'KBBB', 'KCCC'].map((site, i) => ({ site, middlesS: [-100 * i, 200] }));
-    assert.equal(sitesAt([...many, { site: 'KDDD', middlesS: [-600] }]), '3 sites from volumes at most 4 min away; KDDD as it was 10 min before');
+    assert.equal(sitesAt([...many, { site: 'KDDD', middlesS: [-600] }]), '3 sites from volumes at most 4 min away; as they were: KDDD 10 min before');
 });

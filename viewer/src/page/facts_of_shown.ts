@@ -9,6 +9,7 @@ export class FactsOfShown {
     private asking: Promise<GridFacts> | null = null;
     private sitesKey = '';
     private regionSites: RegionSite[] | null = null;
+    private askingSites: Promise<void> = Promise.resolve();
 
     constructor(private app: App) {}
 
@@ -21,13 +22,16 @@ export class FactsOfShown {
     get sites(): RegionSite[] | null {
         return this.sitesKey === this.app.shown?.key ? this.regionSites : null;
     }
-    async askSites(): Promise<void> {
+    askSites(): Promise<void> {
         const { shown } = this.app;
-        if (!shown || !isRegion(shown.domain) || this.sitesKey === shown.key) return;
-        this.sitesKey = shown.key;
+        if (!shown || !isRegion(shown.domain)) return Promise.resolve();
+        if (this.sitesKey === shown.key) return this.askingSites;
+        const key = (this.sitesKey = shown.key);
         this.regionSites = null;
-        const found = await regionSites(shown.domain, shown.moment, shown.time);
-        if (this.sitesKey === shown.key) this.regionSites = found;
+        this.askingSites = regionSites(shown.domain, shown.moment, shown.time).then(found => {
+            if (this.sitesKey === key) this.regionSites = found;
+        });
+        return this.askingSites;
     }
 
     ask(): Promise<GridFacts> {

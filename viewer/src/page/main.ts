@@ -40,7 +40,7 @@ async function begin(): Promise<void> {
     addLegend(app);
     addTimeline(app, keys);
     addUnits(app);
-    addShare(app, drawing, editing);
+    addShare(app, drawing, editing, facts);
     reader.begin(keys);
     hover.begin();
     new StartMap(app).begin();

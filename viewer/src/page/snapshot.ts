@@ -27,7 +27,15 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
         pen.fillRect(left - swatch - 5, y, swatch, swatch);
         pen.strokeStyle = shades.quietText;
         pen.lineWidth = 1;
-        pen.strokeRect(left - swatch - 5, y, swatch, swatch);
+        const from = left - swatch - 5;
+        pen.strokeRect(from, y, swatch, swatch);
+        if (!row.querySelector('.hatched')) return;
+        pen.beginPath();
+        for (const share of [0.35, 0.7, 1]) {
+            pen.moveTo(from, y + share * swatch);
+            pen.lineTo(from + share * swatch, y);
+        }
+        pen.stroke();
     });
 }
 

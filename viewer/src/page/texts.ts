@@ -18,10 +18,12 @@ const mostSitesTold = 3;
 function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     const told = (some: typeof sites) => some.map(({ site, middlesS }) => `${site} ${ofVolumes(middlesS)}`).join('; ');
     if (sites.length <= mostSitesTold) return told(sites);
+    const alone = sites.filter(({ middlesS }) => middlesS.length === 1);
+    const asTheyWere = told(alone).replace(/ as it was/g, '').replace(/;/g, ',');
     const moved = sites.filter(({ middlesS }) => middlesS.length > 1);
     const farthest = Math.max(...moved.flatMap(({ middlesS }) => middlesS.map(Math.abs)));
     const all = moved.length > 0 ? `${moved.length} sites from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
-    return [all, told(sites.filter(({ middlesS }) => middlesS.length === 1))].filter(Boolean).join('; ');
+    return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
 }
 
 const greatestOf = (halvings: number): string => `greatest of ${2 ** halvings} x ${2 ** halvings} cells`;
@@ -100,6 +102,7 @@ export const texts = {
     save: 'Save picture',
     command: 'Copy command',
     commandCopied: 'The command is in the clipboard.',
+    commandOf: (raw: string) => `The command is in the clipboard. It reads ${raw}, which Raw volume gives.`,
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     netcdf: 'Grid (netCDF)',
     noNetcdf: 'This grid was made when it was asked for: there is no file of it.',

@@ -136,9 +136,9 @@ function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): stri
 
 // The command that draws the same, of several layers one, with a table or a file of colors; empty: the
 // usual ones.
-export function commandOf(state: ViewState, width: number, height: number, colors: string): string {
-    const words = ['stormcellar frame', state.domain, '--moment', state.moment];
-    if (state.time !== 'latest') words.push('--time', state.time);
+export function commandOf(state: ViewState, width: number, height: number, colors: string, file = ''): string {
+    const words = ['stormcellar frame', file || state.domain, '--moment', state.moment];
+    if (state.time !== 'latest' && !file) words.push('--time', state.time);
     words.push(...(productOf(state.layers) ?? cameraWords(state)));
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));

@@ -210,6 +210,11 @@ export async function volumeBefore(station: string, time: string): Promise<strin
     const { volumes } = (await (await ask(path)).json()) as { volumes: { time: string | null }[] };
     return volumes[volumes.length - 1]?.time ?? null;
 }
+// The file of the newest volume of a station that began at a time or before.
+export async function rawNameBefore(station: string, time: string): Promise<string | null> {
+    const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: { name: string }[] };
+    return volumes[volumes.length - 1]?.name ?? null;
+}
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;
 }

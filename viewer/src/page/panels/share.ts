@@ -1,10 +1,11 @@
 // Taking along what is shown: the address, the command that draws the same, the picture, the grid.
 
 import { commandOf } from '../../scene/view_state';
-import { address, gridPath, isRegion } from '../../wire/api';
+import { address, gridPath, isRegion, rawNameBefore } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
+import { FactsOfShown } from '../facts_of_shown';
 import { snapshotOf } from '../snapshot';
 import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
@@ -27,23 +28,49 @@ function save(app: App, drawing: Drawing): void {
 
 const savedFiles = new Set<string>(); // of commands that were copied
 
+// The raw file of which the grid was made, if it is one: whoever has it needs no cache for the command. A
+// browser lets the page copy only at once, so that it is asked for before.
+class RawFile {
+    private key = '';
+    private name = '';
+
+    constructor(
+        private app: App,
+        private facts: FactsOfShown,
+    ) {}
+
+    get known(): string {
+        return this.key === this.app.shown?.key ? this.name : '';
+    }
+    async ask(): Promise<void> {
+        const { shown } = this.app;
+        if (!shown || this.key === shown.key || this.app.isBetween(shown.time)) return;
+        const { provenance } = await this.facts.ask();
+        const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1;
+        const name = isOne ? await rawNameBefore(provenance.stations[0]!, shown.time) : null;
+        [this.key, this.name] = [shown.key, name ?? ''];
+    }
+}
+
 // Colors that no table of the program has are in a file that the command names.
-function copyCommand(app: App, drawing: Drawing, editing: TableEditing): void {
+function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: string): void {
     const { width, height } = drawing.picture;
     const { state } = app;
     const preset = app.book?.presets(state.moment).some(table => table.name === state.colors) ? state.colors : '';
-    if (!editing.isEdited && state.least === null) return copy(app, commandOf(state, width, height, preset), texts.commandCopied);
+    if (!editing.isEdited && state.least === null) return copy(app, commandOf(state, width, height, preset, raw), raw ? texts.commandOf(raw) : texts.commandCopied);
     const file = editing.tomlForCommand();
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
     savedFiles.add(file.name);
-    copy(app, commandOf(state, width, height, file.name), texts.commandWithFile(file.name));
+    copy(app, commandOf(state, width, height, file.name, raw), texts.commandWithFile(file.name));
 }
 
-export function addShare(app: App, drawing: Drawing, editing: TableEditing): void {
+export function addShare(app: App, drawing: Drawing, editing: TableEditing, facts: FactsOfShown): void {
+    const raw = new RawFile(app, facts);
+    element('open').addEventListener('click', () => void raw.ask().catch(() => undefined));
     element('actions').append(
         button('share', texts.share, () => copy(app, app.link, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),
-        button('command', texts.command, () => copyCommand(app, drawing, editing)),
+        button('command', texts.command, () => copyCommand(app, drawing, editing, raw.known)),
         button('netcdf', texts.netcdf, () => {
             const { shown } = app;
             if (!shown) return;

@@ -1,6 +1,6 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
-import { rawPath } from '../../wire/api';
+import { rawNameBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
 import { Drawing } from '../drawing';
@@ -68,13 +68,25 @@ export class ToolsPanel {
         this.tell(texts.tools.flyHint);
     }
 
+    // Of a region they are those of its sites; of a frame between volumes, the one before it.
+    private async rawNames(): Promise<string[]> {
+        const { shown } = this.app;
+        if (!shown) return [];
+        await this.facts.askSites();
+        const { sites } = this.facts;
+        if (!sites && !this.app.isBetween(shown.time)) return (await this.facts.ask()).provenance.source_files;
+        const wanted = sites?.flatMap(({ site, volumes }) => volumes.map(({ time }) => [site, time] as const)) ?? [[shown.domain, shown.time] as const];
+        const names = await Promise.all(wanted.map(([station, time]) => rawNameBefore(station, time)));
+        return names.filter((name): name is string => name !== null);
+    }
+
     // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
     private async download(): Promise<void> {
-        const { provenance } = await this.facts.ask().catch(error => {
+        const names = await this.rawNames().catch(error => {
             this.app.fail(error);
-            return { provenance: { source_files: [] as string[] } };
+            return [];
         });
-        const links = provenance.source_files.map(name => {
+        const links = names.map(name => {
             const link = document.createElement('a');
             link.href = rawPath(name.slice(0, 4), name);
             link.download = link.textContent = name;
