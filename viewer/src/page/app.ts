@@ -19,6 +19,8 @@ const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
 const loadedAhead = 12; // of a loop
 const betweenAhead = 3; // of what is made on request
+const addressAfterMs = 150; // less than the picture waits until it is fine
+const addressEveryMs = 1000; // while something moves
 const newOfRegion = 4; // instants that a volume of a site may change
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
@@ -51,6 +53,8 @@ export class App {
     private stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
     private heard = new Map<Happening, (() => void)[]>();
+    private addressTimer = 0;
+    private addressAt = 0; // when it was written
 
     constructor(readonly loader: Loader) {}
 
@@ -83,7 +87,8 @@ export class App {
 
     // The view was changed by a panel.
     changed(): void {
-        this.remember();
+        if (this.player.isPlaying) this.rememberSoon();
+        else this.remember();
         this.tell('view');
     }
     cellsCame(): void {
@@ -97,11 +102,25 @@ export class App {
     }
     moved(camera: Camera): void {
         this.state.camera = camera;
-        this.remember();
+        this.rememberSoon();
         this.tell('camera');
     }
+    // Browsers take long to show an address, and some refuse to do it often: while something moves it mostly waits.
+    private rememberSoon(): void {
+        window.clearTimeout(this.addressTimer);
+        const isLate = performance.now() - this.addressAt > addressEveryMs;
+        const { hash } = location;
+        // An address that somebody else gave meanwhile counts.
+        this.addressTimer = window.setTimeout(() => location.hash === hash && this.remember(), isLate ? 0 : addressAfterMs);
+    }
     private remember(): void {
+        window.clearTimeout(this.addressTimer);
+        this.addressAt = performance.now();
         history.replaceState(null, '', `#${addressOf(this.state)}`);
+    }
+    get link(): string {
+        this.remember();
+        return location.href;
     }
 
     // The address was changed by hand, or by going back.
@@ -137,12 +156,14 @@ export class App {
     }
 
     private openMap(): void {
+        window.clearTimeout(this.addressTimer);
         this.player = { ...this.player, isPlaying: false };
         this.isOnMap = true;
         this.tell('map');
     }
     // Going back in the browser leads here again.
     goToMap(): void {
+        if (!this.isOnMap) this.remember();
         history.pushState(null, '', '#');
         this.openMap();
     }

@@ -68,7 +68,7 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     const raw = new RawFile(app, facts);
     element('open').addEventListener('click', () => void raw.ask().catch(() => undefined));
     element('actions').append(
-        button('share', texts.share, () => copy(app, location.href, texts.shared)),
+        button('share', texts.share, () => copy(app, app.link, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),
         button('command', texts.command, () => copyCommand(app, drawing, editing, raw.known)),
         button('netcdf', texts.netcdf, () => {
