@@ -52,7 +52,7 @@ TEST_F(SceneFileTest, WhatMakesNoSenseTogetherNamesTheFile) {
 TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
     commit();
     const auto draw = [&](const std::string& more) {
-        return run(fmt::format("frame KBGM --cache {} --scene {} --width 200 --height 150 -o {} {}",
+        return run(fmt::format("frame KBGM --cache {} --scene {} --width 400 --height 300 -o {} {}",
                                cache(), at("s.toml"), at("a.png"), more));
     };
     const std::string plan = "[plan]\ntolerance = \"dE 9\"\n[plan.effects]\nevery_pixel = \"on\"\n";
