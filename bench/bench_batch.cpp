@@ -131,8 +131,11 @@ std::optional<BatchOnce> run_batch(const Case& a_case, const fs::path& directory
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     };
+    // Slurm takes half a second to give a place to the next task, and these take two.
+    const std::size_t elements = opened->facts().tasks() / 5 + 1;
     if (!run_stormcellar({"batch", "submit", "--plan", directory.string(), "--engine",
-                          a_case.engine, "--jobs", std::to_string(a_case.threads)})) {
+                          a_case.engine, "--jobs", std::to_string(a_case.threads), "--array-size",
+                          std::to_string(elements)})) {
         return std::nullopt;
     }
     // Slurm has only taken the tasks; nothing says more surely than the records that they are done.

@@ -34,9 +34,10 @@ struct RadialTimes {
     UtcTime first, last;
     static std::optional<RadialTimes> of(const level2::Volume& volume) {
         std::optional<RadialTimes> times;
+        const std::optional<UtcTime> start = volume.start_time();
         for (const level2::Sweep& sweep : volume.sweeps) {
             for (const level2::Radial& radial : sweep.radials) {
-                if (!level2::is_time_of_volume(radial.time, volume.start_time())) continue;
+                if (!level2::is_time_of_volume(radial.time, start)) continue;
                 if (!times) times = RadialTimes{radial.time, radial.time};
                 times->first = std::min(times->first, radial.time);
                 times->last = std::max(times->last, radial.time);
