@@ -29,7 +29,8 @@ const browser = await Browser.start();
 const viewers = new Map();
 for (const memory of new Set(rungs.map(memoryOf))) {
   const viewer = new CheckedPage(await browser.page(width, height), address);
-  await viewer.open(`memory=${memory}`);
+  // Without a domain the page may open the map of the stations.
+  await viewer.open(`domain=${stationsText.split(',')[0]}&memory=${memory}`);
   viewers.set(memory, viewer);
 }
 const stations = stationsText.split(',');
