@@ -1,10 +1,11 @@
 #include "base/service_arguments.h"
 
-#include <string_view>
+#include <algorithm>
 
 namespace stormcellar {
 
-Result<ServiceArguments> parse_service_arguments(int argc, char** argv) {
+Result<ServiceArguments> parse_service_arguments(
+    int argc, char** argv, std::initializer_list<std::string_view> own_flags) {
     ServiceArguments arguments;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
@@ -18,6 +19,8 @@ Result<ServiceArguments> parse_service_arguments(int argc, char** argv) {
             arguments.version = true;
         } else if (word == "--help" || word == "-h") {
             arguments.help = true;
+        } else if (std::ranges::find(own_flags, word) != own_flags.end()) {
+            arguments.flags.insert(word);
         } else if (word == "--config") {
             return fail(ErrorCode::bad_argument, "--config: give a file");
         } else {

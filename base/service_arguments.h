@@ -5,7 +5,10 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "stormcellar/base/result.h"
 
@@ -16,7 +19,10 @@ struct ServiceArguments {
     bool check = false;
     bool help = false;
     bool version = false;
+    std::set<std::string_view> flags;  // those of the service's own that were given
 };
-[[nodiscard]] Result<ServiceArguments> parse_service_arguments(int argc, char** argv);
+// `own_flags` are what this service takes beside, as "--no-loops".
+[[nodiscard]] Result<ServiceArguments> parse_service_arguments(
+    int argc, char** argv, std::initializer_list<std::string_view> own_flags = {});
 
 }  // namespace stormcellar

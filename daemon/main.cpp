@@ -13,6 +13,7 @@
 #include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
+#include "base/service_arguments.h"
 #include "cache/map_guard.h"
 #include "daemon/care/caretaker.h"
 #include "daemon/care/state_keeper.h"
@@ -33,6 +34,7 @@ namespace {
 
 constexpr int exit_failed = 1;
 constexpr int exit_bad_usage = 2;
+constexpr std::string_view no_loops = "--no-loops", loops_only = "--loops-only";
 
 constexpr std::string_view usage =
     "usage: stormcellard --config FILE [--no-loops | --loops-only | --check-config]\n"
@@ -42,43 +44,10 @@ constexpr std::string_view usage =
     "  --check-config   check FILE and its loops' scenes, and exit\n"
     "  --version, --help\n";
 
-struct Arguments {
-    std::optional<std::filesystem::path> config;
-    bool check = false;
-    bool no_loops = false;
-    bool loops_only = false;
-    bool help = false;
-    bool version = false;
-};
-
 // Errors: bad_argument for invalid arguments.
-Result<Arguments> parse(int argc, char** argv) {
-    Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        if (word == "--config" && i + 1 < argc) {
-            arguments.config = argv[++i];
-        } else if (word.starts_with("--config=")) {
-            arguments.config = word.substr(9);
-        } else if (word == "--check-config") {
-            arguments.check = true;
-        } else if (word == "--no-loops") {
-            arguments.no_loops = true;
-        } else if (word == "--loops-only") {
-            arguments.loops_only = true;
-        } else if (word == "--version") {
-            arguments.version = true;
-        } else if (word == "--help" || word == "-h") {
-            arguments.help = true;
-        } else if (word == "--config") {
-            return fail(ErrorCode::bad_argument, "--config: give a file");
-        } else {
-            return fail(ErrorCode::bad_argument, "{}: is not an option", word);
-        }
-    }
-    if (!arguments.help && !arguments.version && !arguments.config)
-        return fail(ErrorCode::bad_argument, "--config FILE must be given");
-    if (arguments.no_loops && arguments.loops_only)
+Result<ServiceArguments> parse(int argc, char** argv) {
+    auto arguments = parse_service_arguments(argc, argv, {no_loops, loops_only});
+    if (arguments && arguments->flags.size() > 1)
         return fail(ErrorCode::bad_argument,
                     "--no-loops and --loops-only cannot be given together");
     return arguments;
@@ -233,7 +202,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
 }
 
 int run(int argc, char** argv) {
-    const Result<Arguments> arguments = parse(argc, argv);
+    const Result<ServiceArguments> arguments = parse(argc, argv);
     if (!arguments) {
         (void)complain(arguments.error());
         fmt::print(stderr, "{}", usage);
@@ -259,8 +228,8 @@ int run(int argc, char** argv) {
     }
     set_added_stations(config->fixed.ingest.added_stations);
     if (const auto path = config->fixed.ingest.bunzip) bunzip::set_usual_path(*path);
-    if (arguments->loops_only) return serve_loops(*config, *arguments->config);
-    return serve(*config, *arguments->config, !arguments->no_loops);
+    if (arguments->flags.contains(loops_only)) return serve_loops(*config, *arguments->config);
+    return serve(*config, *arguments->config, !arguments->flags.contains(no_loops));
 }
 
 }  // namespace
