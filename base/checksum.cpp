@@ -33,6 +33,8 @@ std::uint64_t Xxh3Stream::value() const {
 }
 
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous) {
+    // For a null pointer zlib returns its initial value, and an empty span may have one.
+    if (bytes.empty()) return previous;
     return static_cast<std::uint32_t>(
         ::crc32_z(previous, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

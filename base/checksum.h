@@ -30,7 +30,8 @@ class Xxh3Stream {
     std::unique_ptr<State> state_;
 };
 
-// Returns the CRC-32 of zlib, continued from a previous value (start with 0).
+// Returns the CRC-32 of zlib, continued from a previous value (start with 0). No bytes leave the
+// previous value as it is.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
 }  // namespace stormcellar

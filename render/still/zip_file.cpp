@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <zlib.h>
+#include "base/checksum.h"
 
 namespace stormcellar::render {
 namespace {
@@ -29,13 +29,12 @@ constexpr std::uint16_t first_day = 0x21;  // 1980-01-01, the first that a zip c
 // The fields that a member's own header and its entry in the directory share.
 void append_member(std::vector<std::byte>& to, const ZipMember& member) {
     const auto size = static_cast<std::uint32_t>(member.bytes.size());
-    const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(member.bytes.data()), size);
     append_number(to, needed_version);
     append_number(to, std::uint16_t{0});  // flags
     append_number(to, std::uint16_t{0});  // stored
     append_number(to, std::uint16_t{0});  // time of day
     append_number(to, first_day);
-    append_number(to, static_cast<std::uint32_t>(sum));
+    append_number(to, crc32(member.bytes));
     append_number(to, size);
     append_number(to, size);
     append_number(to, static_cast<std::uint16_t>(member.name.size()));

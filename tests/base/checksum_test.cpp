@@ -18,6 +18,16 @@ TEST(Checksum, Crc32ContinuesFromAPreviousValue) {
     EXPECT_EQ(crc32(testing::text_bytes("6789"), crc32(testing::text_bytes("12345"))), 0xCBF43926U);
 }
 
+// 2026-11-28: every .apng ended in a chunk with a wrong checksum, because no bytes reset the value.
+TEST(Checksum, NoBytesLeaveTheValueAsItIs) {
+    EXPECT_EQ(crc32({}, 0xCBF43926U), 0xCBF43926U);
+    EXPECT_EQ(crc32({}), 0U);
+    Xxh3Stream stream;
+    stream.append(testing::text_bytes("123456789"));
+    stream.append({});
+    EXPECT_EQ(stream.value(), xxh3_64(testing::text_bytes("123456789")));
+}
+
 // The value of XXH3 for no input, from the xxHash specification's sanity tests.
 TEST(Checksum, Xxh3OfNothing) {
     EXPECT_EQ(xxh3_64({}), 0x2D06800538D394C2ULL);
