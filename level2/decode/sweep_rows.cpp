@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace stormcellar::level2::rows {
 namespace {
@@ -167,6 +169,74 @@ void append(SweepMoment& moment, const SweepMoment& from) {
         append_rows(moment.codes8, stride, from.codes8, from_stride);
     } else {
         append_rows(moment.codes16, stride, from.codes16, from_stride);
+    }
+}
+
+namespace {
+
+// Returns the first row with gates, counted from `first`; the number of rows if there is none.
+std::size_t first_row_with_gates(const SweepMoment& moment, std::size_t first, std::size_t end) {
+    const auto begin = moment.gate_counts.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto stop = moment.gate_counts.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto with_gates =
+        std::find_if(begin, stop, [](std::uint16_t gates) { return gates > 0; });
+    return static_cast<std::size_t>(with_gates - begin);
+}
+
+template <class Array>
+Array rows_of(const Array& from, std::size_t first, std::size_t end, std::size_t stride) {
+    return Array(from.begin() + static_cast<std::ptrdiff_t>(first * stride),
+                 from.begin() + static_cast<std::ptrdiff_t>(end * stride));
+}
+
+template <class Array>
+void rotate_rows(Array& array, std::size_t count, std::size_t at, std::size_t stride) {
+    std::rotate(array.begin() + static_cast<std::ptrdiff_t>(at * stride),
+                array.end() - static_cast<std::ptrdiff_t>(count * stride), array.end());
+}
+
+}  // namespace
+
+Sweep part_of(Sweep& sweep, std::size_t first, std::size_t end) {
+    Sweep part;
+    part.elevation_number = sweep.elevation_number;
+    part.message_type = sweep.message_type;
+    part.azimuth_spacing_deg = sweep.azimuth_spacing_deg;
+    part.radials = rows_of(sweep.radials, first, end, 1);
+    // Kinds are in the order in which the radials of this part bring them.
+    std::vector<std::pair<std::size_t, const SweepMoment*>> kinds;
+    for (SweepMoment& moment : sweep.moments) {
+        pad(moment, sweep.radials.size());
+        const std::size_t row = first_row_with_gates(moment, first, end);
+        if (row < end - first) kinds.emplace_back(row, &moment);
+    }
+    std::ranges::stable_sort(kinds, {}, [](const auto& kind) { return kind.first; });
+    for (const auto& [row, moment] : kinds) {
+        SweepMoment& own = part.moments.emplace_back(empty_like(*moment));
+        own.gate_counts = rows_of(moment->gate_counts, first, end, 1);
+        with_codes(own, [&](auto& codes) {
+            const auto stride = static_cast<std::size_t>(moment->gate_stride);
+            if constexpr (sizeof(codes[0]) == 1) {
+                codes = rows_of(moment->codes8, first, end, stride);
+            } else {
+                codes = rows_of(moment->codes16, first, end, stride);
+            }
+        });
+        // As long as the longest row of the part, as if it had come by itself.
+        const auto longest = *std::max_element(own.gate_counts.begin(), own.gate_counts.end());
+        if (longest < own.gate_stride) set_stride(own, longest);
+    }
+    return part;
+}
+
+void move_last_rows(Sweep& sweep, std::size_t count, std::size_t at) {
+    rotate_rows(sweep.radials, count, at, 1);
+    for (SweepMoment& moment : sweep.moments) {
+        pad(moment, sweep.radials.size());
+        rotate_rows(moment.gate_counts, count, at, 1);
+        with_codes(moment, [&](auto& codes) {
+            rotate_rows(codes, count, at, static_cast<std::size_t>(moment.gate_stride));
+        });
     }
 }
 

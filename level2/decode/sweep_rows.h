@@ -38,6 +38,10 @@ void pad(SweepMoment& moment, std::size_t rows);
 void append(SweepMoment& moment, const MomentBlock& block);
 // Appends all rows of another moment of this kind, whose stride is at most that of this one.
 void append(SweepMoment& moment, const SweepMoment& from);
+// Returns the rows [first, end) of a sweep as a sweep of its own, with the kinds that these have.
+[[nodiscard]] Sweep part_of(Sweep& sweep, std::size_t first, std::size_t end);
+// Moves the last `count` rows of a sweep so that they begin at row `at`.
+void move_last_rows(Sweep& sweep, std::size_t count, std::size_t at);
 // Returns the room beyond their codes in arrays that are larger than reserve() makes them.
 [[nodiscard]] std::uint64_t idle_bytes(const SweepMoment& moment);
 // Gives every moment a row for every radial, none longer than the longest, and frees what was

@@ -1,12 +1,14 @@
 #include "level2/decode/volume_builder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "level2/containers/archive_header.h"
 #include "level2/decode/fragment_builder.h"
+#include "level2/decode/late_radials.h"
 #include "level2/decode/sweep_rows.h"
 #include "level2/decode/volume_checks.h"
 #include "stormcellar/level2/live_sweep.h"
@@ -36,6 +38,13 @@ std::uint64_t held_by(const Sweep& sweep) {
     return bytes;
 }
 
+// Returns true if a radial of a piece may be late after the one before it.
+bool falls_back(const Sweep& sweep, std::size_t radial) {
+    const Radial& before = sweep.radials[radial - 1];
+    const Radial& own = sweep.radials[radial];
+    return own.azimuth_number <= before.azimuth_number && goes_back(own, before.time);
+}
+
 bool continues(int elevation_number, int message_type, const Sweep& next) {
     return !begins_sweep(next.radials.front()) && elevation_number == next.elevation_number &&
            message_type == next.message_type;
@@ -55,6 +64,17 @@ void VolumeBuilder::set_pattern(Vcp vcp) {
     }
     current_vcp_ = std::move(vcp);
     vcp_is_new_ = true;
+    if (!header_is_late_) return;
+    for (Sweep& sweep : volume_.sweeps) {
+        if (!sweep.vcp_elevation_deg) sweep.vcp_elevation_deg = elevation_of_cut(sweep);
+    }
+}
+
+// Returns the fixed angle of the sweep's cut by the current pattern.
+std::optional<float> VolumeBuilder::elevation_of_cut(const Sweep& sweep) const {
+    const auto cut = static_cast<std::size_t>(sweep.elevation_number) - 1;
+    if (sweep.elevation_number < 1 || !current_vcp_ || cut >= current_vcp_->cuts.size()) return {};
+    return current_vcp_->cuts[cut].elevation_deg;
 }
 
 bool VolumeBuilder::note_marks(FragmentMarks marks) {
@@ -62,8 +82,21 @@ bool VolumeBuilder::note_marks(FragmentMarks marks) {
         if (!room_.add(bytes_of(vcp))) return false;
         set_pattern(std::move(vcp));
     }
-    if (marks.header) pending_header_ = std::move(marks.header);
+    if (marks.header) note_header(std::move(*marks.header));
     return true;
+}
+
+// A first header after the first radials, but not newer than they, is the header of their volume
+// that comes late. A copy of the volume's own header begins no other one.
+void VolumeBuilder::note_header(VolumeHeader header) {
+    constexpr std::chrono::seconds apart{15};  // of the header and the first radial
+    const bool is_first = !volume_.header && report_.further_volume_starts.empty();
+    if (is_first && first_time_ && header.time() <= *first_time_ + apart) {
+        volume_.header = std::move(header);
+        header_is_late_ = true;
+    } else {
+        pending_header_ = std::move(header);
+    }
 }
 
 void VolumeBuilder::note_facts(const Fragment& fragment) {
@@ -112,12 +145,16 @@ bool VolumeBuilder::begins_sweep_here(const Fragment::Piece& piece) const {
 
 bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
     if (!previous_) return false;
-    const bool marked = status_of(piece.sweep.radials.front()) == RadialStatus::start_of_volume;
+    const Radial& first = piece.sweep.radials.front();
+    const bool marked = status_of(first) == RadialStatus::start_of_volume;
     if (marked || pending_header_) return true;
+    // Records in the wrong order make the numbers fall too, but then time goes back.
+    if (goes_back(first, previous_->time)) return false;
     // The cuts of a pattern only count upward, so a lower number begins another pass, even if the
     // radials that would say so are lost.
     return piece.sweep.elevation_number < previous_->elevation_number ||
-           (previous_->ended_volume && piece.sweep.elevation_number == previous_->elevation_number);
+           (previous_->end_of_volume &&
+            piece.sweep.elevation_number == previous_->elevation_number);
 }
 
 bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
@@ -134,6 +171,7 @@ bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
             {sweep, *pending_header_, report_.further_volume_starts.size()});
     }
     report_.further_volume_starts.push_back(sweep);
+    late_place_.reset();
     report_.further_patterns.push_back(std::move(pattern));
     return true;
 }
@@ -144,10 +182,7 @@ Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
     sweep.elevation_number = from.elevation_number;
     sweep.message_type = from.message_type;
     sweep.azimuth_spacing_deg = from.azimuth_spacing_deg;
-    const auto cut = static_cast<std::size_t>(from.elevation_number) - 1;
-    if (from.elevation_number >= 1 && current_vcp_ && cut < current_vcp_->cuts.size()) {
-        sweep.vcp_elevation_deg = current_vcp_->cuts[cut].elevation_deg;
-    }
+    sweep.vcp_elevation_deg = elevation_of_cut(from);
     sweep.radials.reserve(expected_radials(from.azimuth_spacing_deg));
     return sweep;
 }
@@ -199,21 +234,31 @@ void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     }
 }
 
-// Appends a piece: it continues the open sweep or begins a new one, and perhaps a new volume. A
-// piece of a cut that is not selected is only counted.
-bool VolumeBuilder::append_piece(Fragment::Piece piece) {
-    if (!note_marks(std::move(piece.before))) return false;
+// Appends a piece whose first radial is not late, or has no place in an earlier sweep: it continues
+// the open sweep or begins a new one, and perhaps a new volume. A piece of a cut that is not
+// selected is only counted.
+bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
+    Sweep& from = piece.sweep;
+    const Radial& first = from.radials.front();
+    const Radial& last = from.radials.back();
     const bool begins = begins_sweep_here(piece);
+    std::optional<UtcTime> end_of_volume;
+    if (previous_ && previous_->end_of_volume > last.time) end_of_volume = previous_->end_of_volume;
     if (begins) {
-        if (begins_volume(piece) && !begin_volume(piece)) return false;
+        const bool begins_another = begins_volume(piece);
+        if (begins_another && !begin_volume(piece)) return false;
+        if (begins_another) end_of_volume.reset();
+        const bool goes_on = !previous_ || begins_another || !goes_back(first, previous_->time);
+        is_disordered_ = is_disordered_ || !goes_on;
         pending_header_.reset();
         vcp_is_new_ = false;
         end_sweep();
         if (!room_.begin_sweep()) return false;
     }
-    Sweep& from = piece.sweep;
-    previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(from.radials.back()),
-                         status_of(from.radials.back()) == RadialStatus::end_of_volume};
+    if (status_of(last) == RadialStatus::end_of_volume) end_of_volume = last.time;
+    if (!first_time_) first_time_ = first.time;
+    previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(last),
+                         end_of_volume,         last.time,         last.azimuth_number};
     if (piece.left_out) {
         if (begins) ++report_.sweeps_left_out;
         return true;
@@ -227,6 +272,45 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
         sweep.moments = std::move(from.moments);
     } else {
         append_rows(sweep, from);
+    }
+    return true;
+}
+
+// Returns true if a radial is older than the one before it and does not go on where that one is:
+// its number does not rise, or it is of another sweep. The answer does not depend on where
+// fragments end.
+bool VolumeBuilder::is_late(const Sweep& sweep, std::size_t radial) const {
+    const Radial& own = sweep.radials[radial];
+    if (!previous_ || !goes_back(own, previous_->time)) return false;
+    return pending_header_ || begins_sweep(own) ||
+           own.azimuth_number <= previous_->azimuth_number ||
+           previous_->elevation_number != sweep.elevation_number ||
+           previous_->message_type != sweep.message_type;
+}
+
+// Appends a piece. Of its radials, those that come late go where they belong; the others follow.
+bool VolumeBuilder::append_piece(Fragment::Piece piece) {
+    if (!note_marks(std::move(piece.before))) return false;
+    if (piece.left_out) {
+        const bool older = !pending_header_ && is_late(piece.sweep, 0);
+        return older || append_in_order(std::move(piece));
+    }
+    const std::size_t count = piece.sweep.radials.size();
+    for (std::size_t at = 0; at < count;) {
+        const Result<std::size_t> late = take_late(piece.sweep, at);
+        if (!late) late_failure_ = pass_on(late);
+        if (!late) return false;
+        at = *late;
+        if (at == count) break;
+        std::size_t end = at + 1;
+        while (end < count && !falls_back(piece.sweep, end))
+            ++end;
+        Fragment::Piece part;
+        part.vcp = piece.vcp;
+        const bool is_all = at == 0 && end == count;
+        part.sweep = is_all ? std::move(piece.sweep) : rows::part_of(piece.sweep, at, end);
+        if (!append_in_order(std::move(part))) return false;
+        at = end;
     }
     return true;
 }
@@ -334,6 +418,7 @@ Status VolumeBuilder::append(Fragment fragment) {
     note_volume_facts(fragment);
     count_errors(fragment);
     if (fragment.failure == Fragment::Failure::too_large_arrays || !append_all(fragment)) {
+        if (!late_failure_) return pass_on(late_failure_);
         return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
                     array_limit_bytes_);
     }
@@ -346,6 +431,7 @@ Status VolumeBuilder::append(Fragment fragment) {
 Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     const bool last_is_newest = sweep_is_open_;
     end_sweep();
+    if (is_disordered_) put_sweeps_in_order();
     const auto& counts = report_.message_counts;
     const bool anything = std::any_of(counts.begin(), counts.end(),
                                       [](const auto& count) { return count.first != 0; });
@@ -361,6 +447,7 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
                                  report_.message_station, volume_.station));
     }
     const bool ended = volume_has_ended();
+    report_late();
     const bool all_cuts = report_.sweeps_left_out == 0 && report_.records_skipped == 0;
     const VolumeFacts facts{
         previous_.has_value(), ended, all_cuts, last_is_newest, report_.further_volume_starts,

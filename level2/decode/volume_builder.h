@@ -3,6 +3,12 @@
 // A sweep continues in the next fragment unless the elevation number or the message type changes, a
 // radial has status 0, 3 or 5, or there is a 24-byte header in between.
 //
+// Records may come in another order than the radar sent them, as in a file to which LDM appends. A
+// radial that is older than the one before it is put into the gap of the sweep that it left, and a
+// radial that is there already is left out, so the volume is that of the right order. A volume
+// begins at a radial marked so, after a further header, or where the elevation number falls while
+// time goes on.
+//
 // Limits    Neither the decompressed bytes nor the arrays exceed the given limits: append() then
 //           returns unsupported, and the builder must not be used any more. The arrays of one sweep
 //           do not exceed most_sweep_bytes.
@@ -11,12 +17,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "level2/decode/array_room.h"
+#include "level2/decode/late_radials.h"
 #include "level2/decode/report_writer.h"
 #include "stormcellar/level2/decoded.h"
 #include "stormcellar/level2/fragment.h"
@@ -26,6 +36,9 @@ namespace stormcellar::level2 {
 // Messages are read, and their radials handed on, in stretches of this size, so that few of them
 // are held.
 inline constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
+// Places for late radials are looked for this often in a file: more than a file of known records
+// needs, however they are ordered, and few enough for a file that was made to take time.
+inline constexpr std::size_t most_late_searches = 500;
 inline constexpr std::size_t rows_of_a_stretch = 128;  // radials for which room is made
 
 // Returns true if a piece continues the sweep of the piece before it, provided that no header is
@@ -73,8 +86,18 @@ class VolumeBuilder {
     [[nodiscard]] std::size_t closed_sweeps() const;
     // Frees the arrays of a closed sweep that is not the last. An equal sweep must be put back in
     // its place before finish().
-    void drop_sweep(std::size_t index) { volume_.sweeps.at(index) = {}; }
-    void put_back(std::size_t index, Sweep sweep) { volume_.sweeps.at(index) = std::move(sweep); }
+    void drop_sweep(std::size_t index);
+    // Gives the function that returns a sweep that was dropped, for radials of it that come late.
+    using DroppedSweeps = std::function<Result<Sweep>(std::size_t)>;
+    void set_dropped_sweeps(DroppedSweeps dropped) { dropped_ = std::move(dropped); }
+    // Returns the closed sweeps that have got late radials since the last call, and those that were
+    // fetched back and are as they were dropped.
+    struct Touched {
+        std::set<std::size_t> changed, fetched;
+    };
+    [[nodiscard]] Touched take_touched() { return std::exchange(touched_, {}); }
+    // Does nothing if the sweep was fetched back before.
+    void put_back(std::size_t index, Sweep sweep);
     // Returns what the arrays of the sweeps take that were not dropped.
     [[nodiscard]] std::uint64_t held_bytes() const;
     // Returns the part of it that the open sweep takes.
@@ -85,7 +108,7 @@ class VolumeBuilder {
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
     // Returns everything but the sweeps.
     [[nodiscard]] Volume facts(const std::string& fallback_station) const;
-    [[nodiscard]] bool volume_has_ended() const { return previous_ && previous_->ended_volume; }
+    [[nodiscard]] bool volume_has_ended() const { return previous_ && previous_->end_of_volume; }
 
     // Returns the volume with its report, which names what is missing and where it contradicts
     // itself. The builder is empty afterward. The station is the fallback if the file does not name
@@ -97,16 +120,38 @@ class VolumeBuilder {
     struct Previous {
         int elevation_number = 0;
         int message_type = 0;
-        bool ended_sweep = false;   // its last radial had status 2 or 4
-        bool ended_volume = false;  // 4
+        bool ended_sweep = false;  // its last radial had status 2 or 4
+        // The time of the volume's last radial (status 4), if it has come and is not older.
+        std::optional<UtcTime> end_of_volume;
+        UtcTime time;
+        std::uint16_t azimuth_number = 0;
+    };
+    // Where late radials belong: the next one of them comes before the radial `at` of the sweep.
+    struct LatePlace {
+        std::size_t sweep = 0;
+        std::size_t at = 0;
     };
     [[nodiscard]] std::string station(const std::string& fallback) const;
     [[nodiscard]] bool append_all(Fragment& fragment);
     [[nodiscard]] bool note_marks(FragmentMarks marks);
+    void note_header(VolumeHeader header);
     void set_pattern(Vcp vcp);
+    [[nodiscard]] std::optional<float> elevation_of_cut(const Sweep& sweep) const;
     void note_volume_facts(const Fragment& fragment);
     void count_errors(const Fragment& fragment);
     [[nodiscard]] bool append_piece(Fragment::Piece piece);
+    [[nodiscard]] bool append_in_order(Fragment::Piece piece);
+    [[nodiscard]] bool is_late(const Sweep& sweep, std::size_t radial) const;
+    [[nodiscard]] bool header_is_repeated() const;
+    [[nodiscard]] Status fetch_back(std::size_t index);
+    [[nodiscard]] bool may_follow_late(const Sweep& from, std::size_t radial) const;
+    [[nodiscard]] LateFit fit_of_late(const Radial& radial, const Radial* before) const;
+    [[nodiscard]] Result<bool> find_late_place(const Sweep& from, std::size_t radial);
+    // Takes the radials from `first` on that come late, and returns where they end.
+    [[nodiscard]] Result<std::size_t> take_late(Sweep& from, std::size_t first);
+    [[nodiscard]] Status insert_late(Sweep& from, std::size_t first, std::size_t end);
+    void put_sweeps_in_order();
+    void report_late();
     [[nodiscard]] bool begins_sweep_here(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begins_volume(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begin_volume(const Fragment::Piece& piece);
@@ -131,6 +176,16 @@ class VolumeBuilder {
     std::optional<Vcp> current_vcp_;
     bool vcp_is_new_ = false;  // came after the newest sweep began
     std::optional<VolumeHeader> pending_header_;
+    std::optional<UtcTime> first_time_;  // of the first radial
+    // The first header came after radials of its volume.
+    bool header_is_late_ = false;
+    std::optional<LatePlace> late_place_;
+    std::size_t late_searches_ = 0;
+    std::uint64_t late_radials_ = 0, repeated_radials_ = 0;
+    bool is_disordered_ = false;  // a sweep is older than the one before it
+    Status late_failure_;
+    DroppedSweeps dropped_;
+    Touched touched_;
 };
 
 }  // namespace stormcellar::level2

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <set>
 #include <utility>
 
 #include "level2/containers/archive_header.h"
@@ -46,6 +47,9 @@ class GrowingVolume::Reader {
     std::size_t droppable_sweeps() const;
     void drop_sweep(std::size_t index) { volume_.drop_sweep(index); }
     void put_back(std::size_t index, Sweep sweep) { volume_.put_back(index, std::move(sweep)); }
+    void set_dropped_sweeps(DroppedSweeps dropped) {
+        volume_.set_dropped_sweeps(std::move(dropped));
+    }
     Result<Decoded> finish();
     // The system has no more memory for this file.
     Status give_up() { return failed_ = no_memory(); }
@@ -54,6 +58,7 @@ class GrowingVolume::Reader {
     enum class Kind : std::uint8_t { undecided, records, messages, held };
     void decide();
     Status append_stretch(std::span<const std::byte> bytes);
+    void note_late_radials();
     Status hold(std::span<const std::byte> bytes);
     Status look_through_unknown();
     Status read_records(bool last);
@@ -73,6 +78,7 @@ class GrowingVolume::Reader {
     MessageFeed feed_{reader_};
     std::size_t next_sweep_ = 0;      // sweeps below this one are closed and were handed out
     std::size_t radials_handed_ = 0;  // radials of that sweep
+    std::set<std::size_t> changed_;   // sweeps that have got late radials since
 };
 
 void GrowingVolume::Reader::decide() {
@@ -173,8 +179,18 @@ Status GrowingVolume::Reader::append_stretch(std::span<const std::byte> bytes) {
 Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
     for (std::size_t at = 0; at < bytes.size() && failed_; at += stretch_bytes) {
         failed_ = append_stretch(bytes.subspan(at, std::min(stretch_bytes, bytes.size() - at)));
+        note_late_radials();
     }
     return failed_;
+}
+
+// Sweeps that were only looked at are dropped again.
+void GrowingVolume::Reader::note_late_radials() {
+    VolumeBuilder::Touched touched = volume_.take_touched();
+    for (const std::size_t index : touched.fetched) {
+        if (!changed_.contains(index)) volume_.drop_sweep(index);
+    }
+    changed_.merge(touched.changed);
 }
 
 std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
@@ -190,6 +206,13 @@ std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
         taken.push_back({std::move(sweep), index, whole});
     };
     const auto& sweeps = volume_.so_far().sweeps;
+    while (!changed_.empty() && bytes < most_live_bytes) {
+        const std::size_t index = changed_.extract(changed_.begin()).value();
+        if (index >= next_sweep_) continue;  // it comes by itself
+        const std::size_t handed = radials_handed_;
+        hand_out(index);
+        radials_handed_ = handed;
+    }
     for (; next_sweep_ < closed && bytes < most_live_bytes; ++next_sweep_) {
         if (sweeps[next_sweep_].radials.size() != radials_handed_) hand_out(next_sweep_);
         radials_handed_ = 0;
@@ -289,6 +312,10 @@ void GrowingVolume::drop_sweep(std::size_t index) {
 
 void GrowingVolume::put_back(std::size_t index, Sweep sweep) {
     reader_->put_back(index, std::move(sweep));
+}
+
+void GrowingVolume::set_dropped_sweeps(DroppedSweeps dropped) {
+    reader_->set_dropped_sweeps(std::move(dropped));
 }
 
 Result<Decoded> GrowingVolume::finish() {

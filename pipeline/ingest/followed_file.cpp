@@ -161,7 +161,10 @@ FollowedFile::FollowedFile(fs::path path, const Options& options)
                                      .open_sweep_limit_bytes = options.open_sweep_limit_bytes,
                                      .selection = options.selection,
                                      .fallback_station = options.fallback_station}),
-      kept_(std::make_unique<ShelvedVolume>()) {}
+      kept_(std::make_unique<ShelvedVolume>()) {
+    growing_.set_dropped_sweeps(
+        [this](std::size_t index) { return kept_->shelf->get(kept_->places.at(index)); });
+}
 
 Result<std::unique_ptr<FollowedFile>> FollowedFile::begin(const fs::path& path,
                                                           const Options& options) {
@@ -229,6 +232,7 @@ Status FollowedFile::shelve_new_sweeps() {
             newest_ = std::max(newest_.value_or(UtcTime{}), live.sweep.radials.back().time);
         }
         if (moments.any()) news_.add(moments, kept_->is_lowest(live.sweep.mean_elevation_deg()));
+        if (live.index < dropped_) growing_.drop_sweep(live.index);
     }
     for (; dropped_ < growing_.droppable_sweeps(); ++dropped_) {
         if (!kept_->places.contains(dropped_)) break;
@@ -268,9 +272,12 @@ Result<level2::Decoded> FollowedFile::finish() {
     if (!decoded) return decoded;
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
-    // Only now may the last sweep have closed.
-    for (std::size_t index = dropped_; index < decoded->volume.sweeps.size(); ++index) {
+    // Only now may the last sweep have closed, and sweeps that came late are in their places.
+    for (std::size_t index = 0; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
+        const auto before = kept_->sweeps.find(index);
+        if (index < dropped_ && before->second.elevation_deg == sweep.mean_elevation_deg())
+            continue;
         const auto place = kept_->shelf->put(sweep);
         if (!place) break;  // it is then missing only in the next volume's living grids
         kept_->places.insert_or_assign(index, *place);

@@ -40,12 +40,16 @@ Result<Decoded> grow_dropping(std::span<const std::byte> bytes, std::size_t most
     GrowingVolume volume;
     std::map<std::size_t, Sweep> outside;
     std::size_t dropped = 0;
+    volume.set_dropped_sweeps(
+        [&](std::size_t index) -> Result<Sweep> { return outside.at(index); });
     for (std::size_t at = 0; at < bytes.size();) {
         const std::size_t length = std::min(bytes.size() - at, 1 + random() % most);
         if (Status taken = volume.append(bytes.subspan(at, length)); !taken) break;
         at += length;
-        for (LiveSweep& live : volume.take_sweeps())
+        for (LiveSweep& live : volume.take_sweeps()) {
             outside.insert_or_assign(live.index, std::move(live.sweep));
+            if (live.index < dropped) volume.drop_sweep(live.index);
+        }
         for (; dropped < volume.droppable_sweeps(); ++dropped)
             volume.drop_sweep(dropped);
     }

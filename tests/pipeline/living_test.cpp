@@ -64,6 +64,42 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     EXPECT_EQ(rows->at(0).volume.radial_count, same->at(0).volume.radial_count);
 }
 
+// 2026-11-28: two records in the wrong order at the boundary of two sweeps made two volumes of one,
+// of which the first had no living grids after these and a grid that was nearly empty.
+TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
+    const std::vector<std::byte> right = real_bytes(busy);
+    const std::vector<std::size_t> ends = synth::piece_ends(right);
+    std::vector<std::byte> bytes(right.begin(), right.begin() + static_cast<long>(ends[0]));
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        const std::size_t pair = i % 2 == 1 ? i + 1 : i - 1;
+        const std::size_t piece = pair < ends.size() ? pair : i;
+        bytes.insert(bytes.end(), right.begin() + static_cast<long>(ends[piece - 1]),
+                     right.begin() + static_cast<long>(ends[piece]));
+    }
+    ASSERT_EQ(bytes.size(), right.size());
+    const fs::path path = directory_ / "KLOT20220317_000842_V06";
+    const auto outcomes = grow(house_, path, bytes);
+    EXPECT_EQ(outcomes.back().result(), IngestResult::gridded);
+    const auto sweeps = level2::decode(right)->volume.sweeps.size();
+    std::size_t shown = 0;
+    for (const IngestOutcome& outcome : outcomes)
+        shown += outcome.living.size();
+    EXPECT_GE(shown, sweeps - 1) << "each sweep, some without a record that comes late";
+
+    House whole(directory_ / "whole", false);
+    const fs::path right_path = directory_ / "right" / path.filename();
+    fs::create_directories(right_path.parent_path());
+    append_to(right_path, right);
+    date(right_path);
+    ASSERT_EQ(whole.ingestor->ingest(right_path, false)->result(), IngestResult::gridded);
+    ASSERT_EQ(house_.grids("KLOT").size(), 1U);
+    EXPECT_EQ(*read_file(house_.grids("KLOT")[0].path), *read_file(whole.grids("KLOT")[0].path));
+    const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+    ASSERT_EQ(rows->size(), 1U);
+    EXPECT_EQ(rows->at(0).volume.sweep_count, static_cast<int>(sweeps));
+    EXPECT_TRUE(rows->at(0).volume.complete);
+}
+
 // Each moment's grids are those of a house that makes this moment alone, at every record of two
 // volumes: also while sweeps of the first stand for moments that have not come again.
 TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {

@@ -66,9 +66,9 @@ struct DecodeReport {
     // records of such sweeps that were not even decompressed; offsets do not count them
     std::uint64_t records_skipped = 0;
     // The sweep indices at which a further volume begins: at a start-of-volume radial, after a
-    // second header, where the elevation number falls, and where it does not rise after an end of
-    // volume. Volume 0 begins at sweep 0. A volume of which a selection leaves no sweep has the
-    // same start as the next one.
+    // second header, and, if time goes on, where the elevation number falls and where it does not
+    // rise after an end of volume. Volume 0 begins at sweep 0. A volume of which a selection leaves
+    // no sweep has the same start as the next one.
     std::vector<std::size_t> further_volume_starts;
     // The 24-byte headers found inside the stream, each with the sweep that follows it.
     struct FurtherHeader {

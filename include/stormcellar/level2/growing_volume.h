@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,8 +39,8 @@ class GrowingVolume {
     // Returns the sweeps that have closed since the last call, in the order of the file. A sweep is
     // closed by the status of its last radial or by the sweep that follows. If a sweep goes on
     // after its last radial, it is returned again when it has grown by a quarter, and again when
-    // another sweep follows. Once the sweeps exceed most_live_bytes, the rest comes with the next
-    // call.
+    // another sweep follows. If radials of it come late, it is returned again with these. Once the
+    // sweeps exceed most_live_bytes, the rest comes with the next call.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
     // Returns station, position and pattern as far as they are known, without sweeps.
     [[nodiscard]] Volume facts() const;
@@ -62,10 +63,14 @@ class GrowingVolume {
 
     // These three let the caller hold less memory. Sweeps below droppable_sweeps() are closed and
     // were handed out, and take_sweeps() last returned exactly what the volume holds of them. Each
-    // may be dropped once, and must be put back, bit for bit, before finish().
+    // may be dropped once, and again when it was returned again, and must be put back, bit for bit,
+    // before finish(). Who drops sweeps also gives the function that returns a dropped sweep: it is
+    // called when radials of that sweep come late.
     [[nodiscard]] std::size_t droppable_sweeps() const;
     void drop_sweep(std::size_t index);
     void put_back(std::size_t index, Sweep sweep);
+    using DroppedSweeps = std::function<Result<Sweep>(std::size_t index)>;
+    void set_dropped_sweeps(DroppedSweeps dropped);
 
     [[nodiscard]] Result<Decoded> finish();
 
