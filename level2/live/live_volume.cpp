@@ -9,6 +9,7 @@
 
 #include "base/checksum.h"
 #include "level2/containers/archive_header.h"
+#include "level2/containers/chunk_once.h"
 #include "level2/decode/part_decoder.h"
 #include "level2/decode/volume_builder.h"
 #include "level2/live/open_sweep.h"
@@ -74,6 +75,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
                     largest_number, number);
     }
     try {
+        bytes = chunk_once(bytes);
         Result<LiveChunk> chunk = read_live_chunk(bytes, options_.decode, room_for(number));
         if (chunk) {
             chunk->kind = kind;

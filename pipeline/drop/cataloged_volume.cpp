@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "level2/containers/chunk_once.h"
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/drop_names.h"
 #include "stormcellar/catalog/read_cataloged.h"
@@ -13,8 +14,9 @@ namespace {
 using catalog::CatalogEntry;
 using catalog::CatalogReader;
 
-// Appends the bytes of a file to those read before.
-Status append(const CatalogReader& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
+// Returns the bytes of a file.
+Result<std::vector<std::byte>> read(const CatalogReader& catalog, const CatalogEntry& entry,
+                                    CatalogedVolume& volume) {
     auto read = catalog::read_cataloged(catalog, entry);
     if (!read) return pass_on(read);
     if (!read->is_compared) {
@@ -22,12 +24,7 @@ Status append(const CatalogReader& catalog, const CatalogEntry& entry, Cataloged
             "{}: was still growing when it was cataloged, so its contents were not compared",
             entry.path.native()));
     }
-    if (volume.bytes.empty()) {
-        volume.bytes = std::move(read->bytes);
-    } else {
-        volume.bytes.insert(volume.bytes.end(), read->bytes.begin(), read->bytes.end());
-    }
-    return {};
+    return std::move(read->bytes);
 }
 
 Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogEntry& entry,
@@ -53,7 +50,10 @@ Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogE
                 fmt::format("{}: chunks are missing before this one", chunk.path.native()));
         }
         due = chunk.name.number + 1;
-        if (Status appended = append(catalog, **row, volume); !appended) return pass_on(appended);
+        const auto bytes = read(catalog, **row, volume);
+        if (!bytes) return pass_on(bytes);
+        const auto once = level2::chunk_once(*bytes);
+        volume.bytes.insert(volume.bytes.end(), once.begin(), once.end());
     }
     return volume;
 }
@@ -90,7 +90,9 @@ Result<CatalogedVolume> read_cataloged_volume(const CatalogReader& catalog,
     const auto chunk = ChunkPath::of(entry.path);
     if (chunk && is_of_chunks(entry)) return read_chunks(catalog, entry, *chunk);
     CatalogedVolume volume;
-    if (Status appended = append(catalog, entry, volume); !appended) return pass_on(appended);
+    auto bytes = read(catalog, entry, volume);
+    if (!bytes) return pass_on(bytes);
+    volume.bytes = std::move(*bytes);
     return volume;
 }
 

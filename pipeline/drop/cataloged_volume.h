@@ -40,7 +40,8 @@ struct CatalogedVolume {
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     bool is_partial);
 
-// Chunks are joined in the order of their numbers, one for each number, as far as they exist.
+// Chunks are joined in the order of their numbers, one for each number, as far as they exist. A
+// chunk that its file holds twice is taken once.
 // Chunks without a row are left out. Errors: those of read_cataloged().
 [[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);

@@ -132,6 +132,36 @@ TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
     EXPECT_EQ(changed.error().message.find(paths_[5].native() + ": is not the file"), 0U);
 }
 
+// 2026-11-28: after a crash, pqact appended every chunk to its file again. The volume then had a
+// row of one sweep and one of 31, and its raw file had twice the size.
+TEST_F(ChunkFiles, AChunkThatItsFileHoldsTwiceIsReadOnce) {
+    CatalogWriter catalog = *CatalogWriter::open(directory_ / "catalog");
+    auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+    IngestOptions options = small_grid();
+    options.living.scratch = directory_.path();
+    Ingestor ingestor(catalog, store, options);
+    const auto take_all = [&] {
+        for (const fs::path& path : paths_)
+            ASSERT_TRUE(ingestor.ingest(path, false));
+    };
+    take_all();
+    const auto whole = read_cataloged_volume(catalog, catalog.latest("KLOT")->value());
+    ASSERT_TRUE(whole) << whole.error().message;
+    for (const fs::path& path : paths_) {
+        const auto bytes = read_file(path).value();
+        std::ofstream(path, std::ios::binary | std::ios::app)
+            .write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+    }
+    take_all();
+    take_all();
+    expect_one_volume(catalog);
+    EXPECT_EQ(store.list("KLOT", level2::Moment::ref, std::nullopt, std::nullopt)->size(), 1U);
+    const auto again = read_cataloged_volume(catalog, catalog.latest("KLOT")->value());
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_TRUE(again->bytes == whole->bytes);
+}
+
 // Of chunks, too, an archive's grids are made of what was cataloged alone.
 TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     RebuildOptions options;

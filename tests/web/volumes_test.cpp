@@ -140,5 +140,31 @@ TEST_F(Volumes, AVolumeThatGrowsIsGivenWithWhatIsThere) {
     EXPECT_FALSE(take(1000)) << "its last chunk came";
 }
 
+// 2026-11-28: the raw file of a volume whose chunks pqact had appended again had twice the size.
+TEST_F(Volumes, AChunkThatItsFileHoldsTwiceIsGivenOnce) {
+    ServedVolumes served(false);
+    const std::string bytes = served.take_chunks(1000);
+    testing::TemporaryDirectory directory;
+    std::vector<std::filesystem::path> chunks;
+    for (const auto& entry : std::filesystem::directory_iterator(served.drop() / "KLOT"))
+        chunks.push_back(entry.path());
+    std::ranges::sort(chunks);
+    for (const std::filesystem::path& chunk : chunks) {
+        const auto once = read_file(chunk).value();
+        std::vector<std::byte> twice = once;
+        twice.insert(twice.end(), once.begin(), once.end());
+        const std::filesystem::path copy = directory / chunk.filename().string();
+        ASSERT_TRUE(write_file_atomically(real_file_system(), copy, twice));
+        served.take(copy, "KLOT/" + chunk.filename().string());
+    }
+    door_ = std::make_unique<VolumesDoor>(
+        RawFiles::open_catalog({.catalog = served.state() / "catalog", .scratch = {}}));
+    const auto row = [&] { return list("/volumes/KLOT/").at("volumes").at(0); };
+    const Answer answer = get("/volumes/KLOT/" + row().at("name").get<std::string>());
+    EXPECT_EQ(answer.status, 200U);
+    EXPECT_TRUE(body_of(answer) == bytes);
+    EXPECT_EQ(row().at("size_bytes"), bytes.size());
+}
+
 }  // namespace
 }  // namespace stormcellar::web

@@ -9,6 +9,7 @@
 
 #include "base/beneath.h"
 #include "base/checksum.h"
+#include "level2/containers/chunk_once.h"
 #include "pipeline/drop/cataloged_volume.h"
 #include "pipeline/drop/chunk_path.h"
 #include "stormcellar/catalog/read_cataloged.h"
@@ -119,6 +120,11 @@ RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks, bool grows) {
     return facts;
 }
 
+std::string facts_key(const CatalogEntry& entry) {
+    return fmt::format("{}\n{:x}\n{}", entry.path.native(), entry.content_hash,
+                       entry.volume.radial_count);
+}
+
 }  // namespace
 
 RawOpener::State RawOpener::state_of(const struct stat& facts) {
@@ -200,11 +206,12 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
         if (!read) return missing(read.error());
         // The row does not know what was written to the chunk since.
         if (grows && read->bytes.size() != chunk.size_bytes && size_bytes > 0) break;
-        size_bytes += read->bytes.size();
+        const auto once = level2::chunk_once(read->bytes);
+        size_bytes += once.size();
         if (size_bytes > most_raw_bytes) {
             return missing(RawMissing::changed, chunk.path.native() + ": the chunks exceed 1 GiB");
         }
-        if (!write_all(*file, read->bytes))
+        if (!write_all(*file, once))
             return missing(RawMissing::trouble, "joined chunks cannot be written");
         joined.push_back(chunk);
     }
@@ -230,7 +237,12 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
     const std::string key = entry.path.native() + '\n' + facts.tag;
     if (const auto known = find_joined(key)) return *known;
     auto joined = join(catalog, *chunks, grows);
-    if (joined && joined->size_bytes == facts.size_bytes) keep_joined(key, *joined);
+    const bool is_as_listed = joined && joined->size_bytes == facts.size_bytes;
+    if (joined && (is_as_listed || !grows)) keep_joined(key, *joined);
+    // A chunk that its file holds twice is given once, so lists say the smaller size from now on.
+    if (joined && !is_as_listed && !grows) {
+        remember_facts(entry, {joined->size_bytes, joined->modified, joined->tag});
+    }
     return joined;
 }
 
@@ -258,22 +270,22 @@ Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const Catalog
         if (!grows) facts.tag = settled_tag(entry.content_hash, entry.size_bytes);
         return facts;
     }
-    const std::string key = fmt::format("{}\n{:x}\n{}", entry.path.native(), entry.content_hash,
-                                        entry.volume.radial_count);
     if (!grows) {
         const std::scoped_lock lock(mutex_);
-        const auto known = facts_.find(key);
+        const auto known = facts_.find(facts_key(entry));
         if (known != facts_.end()) return known->second;
     }
     const auto chunks = chunk_rows(catalog, entry);
     if (!chunks) return pass_on(chunks);
     RawFacts facts = facts_of_rows(*chunks, grows);
-    if (!grows) {
-        const std::scoped_lock lock(mutex_);
-        if (facts_.size() >= most_remembered) facts_.clear();
-        facts_.insert_or_assign(key, facts);
-    }
+    if (!grows) remember_facts(entry, facts);
     return facts;
+}
+
+void RawOpener::remember_facts(const CatalogEntry& entry, const RawFacts& facts) {
+    const std::scoped_lock lock(mutex_);
+    if (facts_.size() >= most_remembered) facts_.clear();
+    facts_.insert_or_assign(facts_key(entry), facts);
 }
 
 }  // namespace stormcellar::web

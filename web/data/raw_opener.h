@@ -61,6 +61,7 @@ class RawOpener {
                                           bool grows) const;
     [[nodiscard]] std::optional<OpenedRaw> find_joined(const std::string& key);
     void keep_joined(const std::string& key, const OpenedRaw& joined);
+    void remember_facts(const catalog::CatalogEntry& entry, const RawFacts& facts);
 
     const std::filesystem::path scratch_;
     const std::size_t most_joined_;
