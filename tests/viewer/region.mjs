@@ -36,7 +36,9 @@ await page.evaluate("document.getElementById('raw').click()");
 const raw = await page.until("document.querySelector('#tool-says a') && [...document.querySelectorAll('#tool-says a')].map((link) => link.textContent).join(' ')", 10).catch(() => '');
 check(`the raw volumes are those of both: ${raw}`, [one, other].every((station) => raw.includes(station)));
 await page.evaluate("document.getElementById('netcdf').click()");
-check('there is no file of a grid that was made on request, and the page says so', (await page.evaluate("document.documentElement.dataset.state")).includes('no file'));
+check('there is no file of a grid that was made on request, and the page says so', (await page.evaluate("document.documentElement.dataset.state")).includes('cannot be downloaded'))
+await page.evaluate("document.getElementById('command').click()");
+check('there is no command of a region, and the page says so', (await page.evaluate("document.documentElement.dataset.state")).includes('No command') && (await page.evaluate("document.getElementById('command').getAttribute('aria-disabled')")) === 'true');
 
 // ---- Its address alone shows the same
 const link = await page.evaluate('location.href');

@@ -25,7 +25,9 @@ try {
   await press('share');
   const link = await page.until('window.copied');
   const picture = await viewer.pixels();
-  check(`the link is the address: ${link.length} characters`, link === (await evaluate('location.href')) && link.includes('height-km=3'));
+  const newest = (await evaluate('document.documentElement.dataset.drawn')).split('/').pop();
+  const pinned = (await evaluate('location.href')).replace('time=latest', `time=${encodeURIComponent(newest)}`);
+  check(`the link is the address with the time that is shown: ${link.length} characters`, link === pinned && link.includes('height-km=3'));
 
   // ---- The command runs where the raw volume is
   await viewer.show(`domain=${station}&moment=REF&azimuth=200&tilt=60&zoom=2`);
@@ -35,13 +37,20 @@ try {
   await evaluate('window.copied = undefined');
   await press('command');
   const command = await page.until('window.copied');
-  const words = command.split(' ').slice(1);
+  // As a shell reads them.
+  const words = execFileSync('sh', ['-c', `printf '%s\\n' ${command}`], { encoding: 'utf8' }).trimEnd().split('\n').slice(1);
   check(`the command reads the raw volume: ${command}`, words[0] === 'frame' && words[1] === basename(volume));
   const drawn = join(resolve(directory), 'command.png');
   execFileSync(resolve(program), [...words.slice(0, -1), drawn], { cwd: dirname(resolve(volume)), stdio: 'ignore' });
   check('and draws a picture', readFileSync(drawn).length > 10000);
-  await press('open');
+  check('it names the colors and the size of the page', command.includes('--colors ') && command.includes(`--width ${width} --height ${height}`));
+  // What cannot be said is not offered (2026-11-28: of several layers it drew one without a word).
   await viewer.show(link.split('#')[1]);
+  await evaluate('window.copied = undefined');
+  await press('command');
+  const why = await evaluate("document.getElementById('state').textContent");
+  check(`two layers have no command: ${why}`, why.includes('one layer') && !(await evaluate('window.copied')));
+  await press('open');
 
   // ---- The picture, with what it needs to be understood
   await evaluate('window.taken = undefined');

@@ -214,6 +214,13 @@ TEST_F(Region, LargeOnesAreCoarserAndLargerOnesRefused) {
     EXPECT_EQ(far_too_large.error().code, ErrorCode::bad_argument);
 }
 
+// 2026-11-28: a comma behind the last number was taken, so that links could hide more behind it.
+TEST_F(Region, ItsNameIsFourNumbersAndNothingElse) {
+    EXPECT_TRUE(region_box_of("-80,40,-75,43"));
+    for (const char* name : {"-80,40,-75,43,", "-80,40,-75,43,1", "-80,40,-75", "-80,40,-75,", ""})
+        EXPECT_FALSE(region_box_of(name)) << name;
+}
+
 TEST_F(Region, TheApiNamesSitesTimesAndPathsAndPacksThem) {
     const Json region = json(both_query);
     EXPECT_EQ(region["domain"], "region:-78.8,40.3,-75,42.9");

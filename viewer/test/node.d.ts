@@ -13,3 +13,6 @@ declare module 'node:assert/strict' {
     const assert: Assert;
     export default assert;
 }
+declare module 'node:child_process' {
+    export function execFileSync(program: string, words: string[], options: { encoding: 'utf8' }): string;
+}

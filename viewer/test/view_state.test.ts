@@ -1,6 +1,10 @@
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import test from 'node:test';
 
+import { beyondCommand, usualLayers } from '../src/scene/layers';
+import { isPrintable } from '../src/scene/shell';
+import { isRegion, regionName } from '../src/wire/region';
 import { addressOf, commandOf, stateOf, usualState } from '../src/scene/view_state';
 
 const chosen = {
@@ -37,4 +41,37 @@ test('the command names what stormcellar frame knows', () => {
     const command = commandOf({ ...chosen, domain: 'KLBB' }, 796, 532, 'safe-velocity');
     for (const part of ['stormcellar frame KLBB', '--moment VEL', '--azimuth 217.25', '--tilt 71.5', '--zoom 3.5', '--field-of-view 0', '--look-at-km 12.345,-6.789,4', '--exaggeration 2.5', '--opacity 1.8', '--colors safe-velocity', '--width 796', '--height 532'])
         assert(command.includes(part), `${part} in ${command}`);
+});
+
+// What a shell makes of the words of a command.
+const words = (command: string): string[] => execFileSync('sh', ['-c', `printf '%s\\0' ${command}`], { encoding: 'utf8' }).split('\0').slice(0, -1);
+
+test('a shell takes each word of the command as it is (2026-11-28: names of others ran commands)', () => {
+    const names = ['KLBB20160601_150025_V06;touch pwned;:', "it's $(id) `id` \"x\" \\ * ~ # & | > <", '!!', ' ', '$HOME', '-o'];
+    for (const name of names) {
+        const read = words(commandOf({ ...chosen, domain: name }, 796, 532, name, name));
+        assert.deepEqual(read.slice(0, 5), ['stormcellar', 'frame', name.replace(/^-/, './-'), '--moment', 'VEL']);
+        assert.equal(read[read.indexOf('--colors') + 1], name);
+        assert.equal(read[read.length - 1], `${name}.png`);
+    }
+    assert.equal(words(commandOf({ ...chosen, domain: "x'y" }, 796, 532, '')).includes("x'y"), true);
+    for (const name of ['a\nb', 'a\u001b[201~b', 'a\u0003', 'a\u202eb']) assert.equal(isPrintable(name), false);
+    assert.equal(isPrintable("Zürich; it's"), true);
+});
+
+test('a region has four numbers, and nothing behind them (2026-11-28: the rest went into commands)', () => {
+    assert.equal(isRegion(regionName({ west: -100.25, south: -5, east: -95, north: 37.1234 })), true);
+    for (const name of ['region:-100,33,-95,37,', 'region:-100,33,-95,37,/REF#;touch pwned;:', 'region:1,2,3', 'region:1,2,3,x', 'KLBB', 'region:1e9,2,3,4'])
+        assert.equal(isRegion(name), false, name);
+});
+
+test('the command is of one layer, and says none of what it cannot draw', () => {
+    const sweep = { ...usualLayers, hasVolume: false, sweepDeg: 0.5 };
+    assert.equal(beyondCommand(usualLayers), null);
+    assert.equal(beyondCommand(sweep), null);
+    assert.equal(beyondCommand({ ...sweep, hasVolume: true }), 'several');
+    assert.equal(beyondCommand({ ...sweep, sweepDeg: null }), 'none');
+    assert.equal(beyondCommand({ ...sweep, hasHaze: true }), 'haze');
+    assert.equal(beyondCommand({ ...usualLayers, surface: { value: 40, moment: '' } }), 'surface');
+    assert.equal(beyondCommand({ ...usualLayers, crop: { westM: 0, eastM: 1, southM: 0, northM: 1, bottomM: 0, topM: 1 } }), 'box');
 });

@@ -184,15 +184,15 @@ Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const Re
 Result<RegionBox> region_box_of(std::string_view text) {
     RegionBox box;
     for (double* side : {&box.west_deg, &box.south_deg, &box.east_deg, &box.north_deg}) {
-        const std::string_view part = text.substr(0, text.find(','));
+        // Nothing may follow the last number, not even a comma.
+        const std::string_view part =
+            side == &box.north_deg ? text : text.substr(0, text.find(','));
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), *side);
         if (error != std::errc{} || end != part.data() + part.size()) {
             return fail(ErrorCode::bad_argument, "a region is WEST,SOUTH,EAST,NORTH in degrees");
         }
         text.remove_prefix(std::min(text.size(), part.size() + 1));
     }
-    if (!text.empty())
-        return fail(ErrorCode::bad_argument, "a region is WEST,SOUTH,EAST,NORTH in degrees");
     if (Status good = check_region_box(box); !good) return pass_on(good);
     return box;
 }

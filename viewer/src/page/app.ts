@@ -118,9 +118,12 @@ export class App {
         this.addressAt = performance.now();
         history.replaceState(null, '', `#${addressOf(this.state)}`);
     }
+    // Who gets the link sees what is shown now, also where the newest is followed here.
     get link(): string {
         this.remember();
-        return location.href;
+        const { shown, state } = this;
+        const isShown = shown?.domain === state.domain && shown.moment === state.moment;
+        return new URL(`#${addressOf(isShown ? { ...state, time: shown.time } : state)}`, location.href).href;
     }
 
     // The address was changed by hand, or by going back.

@@ -118,6 +118,15 @@ export function layersOf(query: URLSearchParams): Layers {
     };
 }
 
+// What keeps `stormcellar frame` from drawing the layers as they are: it draws one, without surfaces and boxes.
+export function beyondCommand(layers: Layers): 'surface' | 'box' | 'several' | 'none' | 'haze' | null {
+    if (layers.surface) return 'surface';
+    if (layers.hasVolume && layers.crop) return 'box';
+    if (!layers.hasVolume && layers.hasHaze) return 'haze';
+    const drawn = [layers.hasVolume, layers.planeM !== null, layers.section !== null, layers.hasMaximum, layers.sweepDeg !== null].filter(Boolean).length;
+    return drawn === 0 ? 'none' : drawn > 1 ? 'several' : null;
+}
+
 // The words with which `stormcellar frame` draws one of the layers; null if it draws the volume. Of several
 // the one that is named first here.
 export function productOf(layers: Layers): string[] | null {

@@ -4,6 +4,7 @@ import { Camera, usualCamera } from '../camera/geometry';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
+import { quoted } from './shell';
 import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
 
 export interface ViewState {
@@ -137,11 +138,12 @@ function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): stri
 // The command that draws the same, of several layers one, with a table or a file of colors; empty: the
 // usual ones.
 export function commandOf(state: ViewState, width: number, height: number, colors: string, file = ''): string {
-    const words = ['stormcellar frame', file || state.domain, '--moment', state.moment];
+    // A name that begins with a dash would be an option.
+    const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', state.moment];
     if (state.time !== 'latest' && !file) words.push('--time', state.time);
     words.push(...(productOf(state.layers) ?? cameraWords(state)));
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
-    return words.join(' ');
+    return words.map(quoted).join(' ');
 }

@@ -3,6 +3,9 @@
 // Errors: an ApiError with the status and the server's own sentence.
 
 import { ColorTable } from '../tables/color_table';
+import { isRegion, sidesOf } from './region';
+
+export { isRegion, regionName } from './region';
 
 export class ApiError extends Error {
     constructor(
@@ -132,14 +135,8 @@ export async function stations(): Promise<Station[]> {
 export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
 }
-const regionBegins = 'region:';
-export const isRegion = (domain: string): boolean => domain.startsWith(regionBegins);
-// "region:west,south,east,north", in degrees.
-export function regionName({ west, south, east, north }: { west: number; south: number; east: number; north: number }): string {
-    return regionBegins + [west, south, east, north].map(degrees => Number(degrees.toFixed(3))).join(',');
-}
 export async function region(domain: string): Promise<Region> {
-    const [west, south, east, north] = domain.slice(regionBegins.length).split(',');
+    const [west, south, east, north] = sidesOf(domain).split(',');
     const query = new URLSearchParams({ west: west ?? '', south: south ?? '', east: east ?? '', north: north ?? '' });
     const found = (await (await ask(`api/v1/regions?${query}`)).json()) as Omit<Region, 'part_of'>;
     return { ...found, domain, part_of: null };
@@ -169,7 +166,7 @@ export async function times(domain: string, moment: string, limit: number, to?: 
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
     isRegion(domain)
-        ? `api/v1/regions/${domain.slice(regionBegins.length)}/${moment}/${encodeURIComponent(time)}`
+        ? `api/v1/regions/${sidesOf(domain)}/${moment}/${encodeURIComponent(time)}`
         : `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
 export const rawPath = (station: string, name: string): string => address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
 // `query`: the parameters of docs/web/packed-grid.md.

@@ -1,5 +1,7 @@
 // Taking along what is shown: the address, the command that draws the same, the picture, the grid.
 
+import { beyondCommand } from '../../scene/layers';
+import { isPrintable } from '../../scene/shell';
 import { commandOf } from '../../scene/view_state';
 import { address, gridPath, isRegion, rawNameBefore } from '../../wire/api';
 import { App } from '../app';
@@ -40,7 +42,7 @@ class RawFile {
     ) {}
 
     get known(): string {
-        return this.key === this.app.shown?.key ? this.name : '';
+        return this.key === this.app.shown?.key && isPrintable(this.name) ? this.name : '';
     }
     async ask(): Promise<void> {
         const { shown } = this.app;
@@ -52,21 +54,42 @@ class RawFile {
     }
 }
 
+// Why no command draws what is shown; empty if one does.
+function whyNoCommand(app: App): string {
+    const { shown, state } = app;
+    const words = texts.noCommand;
+    if (!shown) return words.nothing;
+    if (isRegion(shown.domain)) return words.region;
+    if (!isPrintable(shown.domain)) return words.name;
+    if (app.isBetween(shown.time)) return words.between;
+    if (!state.hasGround) return words.ground;
+    const beyond = beyondCommand(state.layers);
+    return beyond ? words[beyond] : '';
+}
+
+// The command of what is shown: of its time also while the newest is followed, and as large as the page shows it.
 // Colors that no table of the program has are in a file that the command names.
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: string): void {
-    const { width, height } = drawing.picture;
-    const { state } = app;
-    const preset = app.book?.presets(state.moment).some(table => table.name === state.colors) ? state.colors : '';
-    if (!editing.isEdited && state.least === null) return copy(app, commandOf(state, width, height, preset, raw), raw ? texts.commandOf(raw) : texts.commandCopied);
+    const why = whyNoCommand(app);
+    const size = drawing.geometry();
+    if (why || !size) return app.say(why);
+    const { domain, moment, time } = app.shown!;
+    const state = { ...app.state, domain, moment, time };
+    const notes = [state.layers.hasVolume ? '' : texts.commandFlat, state.layers.hasVolume && state.layers.hasFolded ? texts.commandWithoutFolded : ''];
+    const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
+    if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', raw ? texts.commandOf(raw) : texts.commandCopied);
     const file = editing.tomlForCommand();
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
     savedFiles.add(file.name);
-    copy(app, commandOf(state, width, height, file.name, raw), texts.commandWithFile(file.name));
+    give(file.name, texts.commandWithFile(file.name));
 }
 
 export function addShare(app: App, drawing: Drawing, editing: TableEditing, facts: FactsOfShown): void {
     const raw = new RawFile(app, facts);
     element('open').addEventListener('click', () => void raw.ask().catch(() => undefined));
+    // What cannot be said is not offered; a press says why.
+    const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app) !== ''));
+    for (const happening of ['view', 'shown', 'choices'] as const) app.on(happening, mark);
     element('actions').append(
         button('share', texts.share, () => copy(app, app.link, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),
