@@ -25,8 +25,9 @@ const newOfRegion = 4; // instants that a volume of a site may change
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
 // where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
-// 'map': the map of all stations is opened or left; 'cells': more of a grid in parts is there.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells';
+// 'map': the map of all stations is opened or left; 'cells': more of a grid in parts is there; 'notice': what a user must know
+// of the server, the radars, or what was asked for.
+export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells' | 'notice';
 
 export interface Shown {
     key: string;
@@ -50,11 +51,15 @@ export class App {
     shown: Shown | null = null;
     isOnMap = false; // of all stations, where a domain is chosen
     framesASecond = 4; // of playback
+    isCutOff = false; // the server does not answer
+    silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
+    missed = ''; // what was asked for and is not there
     private stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
     private heard = new Map<Happening, (() => void)[]>();
     private addressTimer = 0;
     private addressAt = 0; // when it was written
+    private turn = 0; // of what is to be shown
 
     constructor(readonly loader: Loader) {}
 
@@ -72,6 +77,8 @@ export class App {
         document.documentElement.dataset['state'] = text;
     }
     fail(error: unknown): void {
+        // Of fetch(): there was no answer at all.
+        if (error instanceof TypeError) return this.say(texts.notice.noServer);
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
         this.say(isGone ? texts.notFound : texts.failed(error instanceof Error ? error.message : String(error)));
     }
@@ -152,6 +159,32 @@ export class App {
         this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
     }
 
+    takeServer(answers: boolean): void {
+        if (this.isCutOff === !answers) return;
+        this.isCutOff = !answers;
+        this.tell('notice');
+    }
+    // `silentS`: for how long; null: it spoke.
+    takeSilence(station: string, silentS: number | null): void {
+        if (silentS === null) this.silentSince.delete(station);
+        else this.silentSince.set(station, Date.now() - 1000 * silentS);
+        this.tell('notice');
+    }
+    // News were lost: all lists are asked for anew.
+    async catchUp(): Promise<void> {
+        if (!this.book || this.domains.length === 0) return this.begin();
+        await this.findDomains();
+        this.tell('choices');
+        const { domain, moment } = this.state;
+        if (this.isOnMap || !this.shown) return;
+        if (isRegion(domain)) return this.takeNewsOfSite();
+        await this.takeNews(domain, moment, this.stored[this.stored.length - 1]);
+    }
+    private miss(text: string): void {
+        this.missed = text;
+        this.tell('notice');
+    }
+
     // A region is a domain once its sites and times are known. Errors: what the server says of its box.
     async findRegion(domain: string): Promise<void> {
         const found = await region(domain);
@@ -188,22 +221,36 @@ export class App {
         await this.choose(domain, this.state.moment);
     }
 
-    // Shows a domain and a moment of it, the first of each if there is none of the name.
+    // Shows a domain and a moment of it. Of a domain that is not there the map of all is opened; if there is only
+    // one domain, or no such moment, the first is shown, and the page says so.
     async choose(domain: string, moment: string): Promise<void> {
+        this.miss('');
         if (isRegion(domain) && !this.domains.some(one => one.domain === domain)) {
             try {
                 await this.findRegion(domain);
             } catch (error) {
+                this.miss(error instanceof Error ? error.message : '');
                 return this.fail(error);
             }
+        }
+        const isThere = domain === '' || this.domains.some(one => one.domain === domain);
+        if (!isThere && this.domains.length > 1) {
+            if (this.shown) this.state = { ...this.state, domain: this.shown.domain, moment: this.shown.moment };
+            this.openMap();
+            return this.miss(texts.notice.noDomain(domain));
         }
         if (this.isOnMap) {
             this.isOnMap = false;
             this.tell('map');
         }
-        this.state.domain = this.domains.some(one => one.domain === domain) ? domain : (this.domains[0]?.domain ?? '');
+        this.state.domain = domain !== '' && isThere ? domain : (this.domains[0]?.domain ?? '');
         const moments = (this.domain?.moments ?? []).map(one => one.moment);
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
+        const missed = [
+            isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),
+            moment === '' || moment === this.state.moment ? '' : texts.notice.otherMoment(this.state.domain, moment, this.state.moment),
+        ];
+        this.miss(missed.filter(Boolean).join(' '));
         this.tell('choices');
         this.say(texts.loading);
         this.missing.clear();
@@ -211,9 +258,13 @@ export class App {
             const soon = await times(this.state.domain, this.state.moment, soonTimes);
             this.player = { ...this.player, times: [], at: -1 };
             this.takeTimes(soon.times);
-            if (!this.player.follows) this.findTime(this.state.time);
+            const { time } = this.state;
+            // A time before those of the first answer is looked for among all.
+            const isOlder = soon.more && !this.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
+            if (isOlder) await this.findOlder();
+            if (!this.player.follows) this.findTime(time);
             await this.showTime();
-            if (soon.more) await this.findOlder();
+            if (soon.more && !isOlder) await this.findOlder();
         } catch (error) {
             this.fail(error);
         }
@@ -226,8 +277,11 @@ export class App {
     }
     // The first time that is not before the wanted one.
     private findTime(wanted: string): void {
-        const index = this.player.times.findIndex(time => Date.parse(time) >= Date.parse(wanted));
-        this.player = { ...this.player, at: index < 0 ? this.player.times.length - 1 : index };
+        const { times: all } = this.player;
+        const index = all.findIndex(time => Date.parse(time) >= Date.parse(wanted));
+        this.player = { ...this.player, at: index < 0 ? all.length - 1 : index };
+        const found = all[this.player.at];
+        if (found !== undefined && Date.parse(found) !== Date.parse(wanted)) this.miss([this.missed, texts.notice.otherTime(wanted)].filter(Boolean).join(' '));
     }
     // The timeline has every grid; the older ones come after the first picture.
     private async findOlder(): Promise<void> {
@@ -258,9 +312,11 @@ export class App {
         this.tell('time');
         if (time === undefined) return this.say(texts.notFound);
         const { domain, moment } = this.state;
+        const turn = ++this.turn;
         try {
             const loaded = await this.load(time);
-            if (this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain) return;
+            // Another version of the same grid may be on its way.
+            if (turn !== this.turn || this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain) return;
             this.take({ key: Loader.key(domain, moment, time), loaded, domain, moment, time });
         } catch (error) {
             if (!this.leaveOut(time, error)) return this.fail(error);
@@ -307,18 +363,22 @@ export class App {
     }
 
     goTo(index: number): void {
+        this.miss('');
         this.player = at(this.player, index);
         void this.showTime();
     }
     step(by: number): void {
+        this.miss('');
         this.player = stepped(this.player, by);
         void this.showTime();
     }
     follow(): void {
+        this.miss('');
         this.player = followed(this.player);
         void this.showTime();
     }
     play(): void {
+        this.miss('');
         this.player = { ...this.player, isPlaying: !this.player.isPlaying, follows: false };
         this.tell('time');
         if (this.player.isPlaying) {
@@ -362,6 +422,7 @@ export class App {
     // The server has other times now; `changedTime` is that of a grid that was made again.
     async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined): Promise<void> {
         if (this.domains.length === 0) {
+            if (!this.book) return this.begin();
             await this.findDomains();
             if (this.domains.length > 0) await this.choose(this.state.domain, this.state.moment);
             return;

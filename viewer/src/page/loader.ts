@@ -105,6 +105,8 @@ export class Loader {
     forget(key: string): void {
         const old = this.kept.get(key);
         this.kept.delete(key);
+        // What is on its way may be the old one.
+        this.loading.delete(key);
         if (old?.stream) void this.decoder.ask({ kind: 'forget', key });
     }
 
@@ -114,8 +116,15 @@ export class Loader {
         if (kept) return Promise.resolve(kept);
         let loading = this.loading.get(key);
         if (!loading) {
-            loading = this.fetch(domain, moment, time, isBetween).finally(() => this.loading.delete(key));
-            this.loading.set(key, loading);
+            const isNewest = () => this.loading.get(key) === mine;
+            const mine = this.fetch(domain, moment, time, isBetween).then(loaded => {
+                if (isNewest()) this.keep(key, loaded);
+                return loaded;
+            });
+            loading = mine;
+            this.loading.set(key, mine);
+            const end = () => void (isNewest() && this.loading.delete(key));
+            mine.then(end, end);
         }
         return loading;
     }
@@ -128,9 +137,7 @@ export class Loader {
         this.onPlace?.(domain, place);
         const answer = await decoded;
         const { grid, atlas, coverage } = answer;
-        const loaded = atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : await this.fetchFirst(domain, moment, time, answer);
-        this.keep(key, loaded);
-        return loaded;
+        return atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : this.fetchFirst(domain, moment, time, answer);
     }
 
     // The halved grid that is shown until there is more.

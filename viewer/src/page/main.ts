@@ -57,9 +57,10 @@ async function begin(): Promise<void> {
     window.addEventListener('hashchange', () => app.takeAddress());
     try {
         await app.begin();
-    } finally {
-        hear(app);
+    } catch (error) {
+        app.fail(error);
     }
+    hear(app);
 }
 
 begin().catch(error => {

@@ -1,11 +1,12 @@
 // Every text of the page in one place, ready for other languages.
 
-function age(seconds: number): string {
+function span(seconds: number): string {
     const [minutes, hours, days] = [seconds / 60, seconds / 3600, seconds / 86400];
-    if (minutes < 90) return `${Math.max(0, Math.round(minutes))} min ago`;
-    if (hours < 48) return `${Math.round(hours)} h ago`;
-    return days < 730 ? `${Math.round(days)} days ago` : `${Math.round(days / 365.25)} years ago`;
+    if (minutes < 90) return `${Math.max(0, Math.round(minutes))} min`;
+    if (hours < 48) return `${Math.round(hours)} h`;
+    return days < 730 ? `${Math.round(days)} days` : `${Math.round(days / 365.25)} years`;
 }
+const age = (seconds: number): string => `${span(seconds)} ago`;
 
 // How far from an instant volumes are of which a site is shown.
 function ofVolumes(middlesS: number[]): string {
@@ -34,12 +35,21 @@ export const texts = {
     drawing: 'Drawing',
     noGrids: 'There are no grids yet. The page shows the first one as soon as it is there.',
     noWebgl: 'This browser has no WebGL 2, which the view needs.',
-    notFound: 'There is no grid of this domain, moment and time any more.',
+    notFound: 'There is no picture of this radar, moment and time any more.',
+    notice: {
+        noServer: 'The server does not answer. Trying again …',
+        silent: (station: string, ageS: number) => `${station} is silent: nothing came for ${span(ageS)}.`,
+        noDomain: (domain: string) => `No data for ${domain}. Choose another radar.`,
+        otherDomain: (domain: string, shown: string) => `No data for ${domain}. This is ${shown}.`,
+        otherMoment: (domain: string, moment: string, shown: string) => `${domain} has no ${moment}. This is ${shown}.`,
+        otherTime: (time: string) => `No volume of ${time.slice(0, 19).replace('T', ' ')} UTC. This is the nearest that is here.`,
+    },
     failed: (what: string) => `This did not work: ${what}`,
     domain: 'Domain',
     moment: 'Moment',
     time: 'Time',
-    latest: 'Follow the newest',
+    latest: 'Newest',
+    live: 'Live',
     settings: 'Settings',
     play: 'Play',
     pause: 'Pause',

@@ -20,13 +20,34 @@ function putChoices(app: App): void {
     for (const { moment } of domain?.moments ?? []) press(`moment-${moment}`, moment === state.moment);
 }
 
+const newsS = 48 * 3600; // older data are an archive, whose date says enough
+const liveS = 30 * 60; // no radar takes so long from one volume to the next
+const againAfterMs = 20_000; // ages grow
+
 function putTitle(app: App): void {
     const { grid } = app.shown!.loaded;
     const names = grid.sites.map(site => site.icao).join(', ');
     const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
-    const notes = [grid.isPartial ? texts.partial : '', app.isBetween(app.shown!.time) ? texts.isBetween : ''];
+    const ageS = (Date.now() - grid.timeMs) / 1000;
+    const notes = [ageS >= 0 && ageS < newsS ? texts.start.age(ageS) : '', grid.isPartial ? texts.partial : '', app.isBetween(app.shown!.time) ? texts.isBetween : ''];
     element('title').textContent = [names, time, ...notes.filter(note => note !== '')].join('  ');
     document.title = `${app.state.domain} ${app.state.moment} ${time} · ${texts.title}`;
+}
+
+// What is wrong with the server, the radars, or what was asked for. It stays until it is over.
+function putNotice(app: App): void {
+    const sites = app.shown?.loaded.grid.sites.map(site => site.icao) ?? [];
+    const silent = sites.flatMap(site => {
+        const sinceMs = app.silentSince.get(site);
+        const ageS = sinceMs === undefined ? Infinity : (Date.now() - sinceMs) / 1000;
+        return ageS < newsS ? [texts.notice.silent(site, ageS)] : [];
+    });
+    const text = [app.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
+    for (const id of ['notice', 'start-notice']) if (element(id).textContent !== text) element(id).textContent = text;
+    press('follow', app.player.follows && !app.isCutOff && silent.length === 0);
+    const newest = app.player.times[app.player.times.length - 1];
+    const isLive = newest !== undefined && Date.now() - Date.parse(newest) < 1000 * liveS;
+    element('follow').textContent = isLive ? texts.live : texts.latest;
 }
 
 // When each site of a region was seen.
@@ -42,6 +63,11 @@ export function addChoices(app: App, facts: FactsOfShown): void {
     sites.hidden = true;
     element('title').after(sites);
     app.on('choices', () => putChoices(app));
+    for (const happening of ['notice', 'time', 'shown', 'map'] as const) app.on(happening, () => putNotice(app));
+    window.setInterval(() => {
+        if (app.shown && !app.isOnMap) putTitle(app);
+        putNotice(app);
+    }, againAfterMs);
     app.on('shown', () => {
         putTitle(app);
         putSites(facts);

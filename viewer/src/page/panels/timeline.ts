@@ -2,7 +2,7 @@
 // settings.
 
 import { App } from '../app';
-import { button, element, press } from '../dom';
+import { button, element } from '../dom';
 import { Keys } from '../keys';
 import { texts } from '../texts';
 
@@ -29,7 +29,6 @@ function putTimes(app: App): void {
     slider.setAttribute('aria-valuetext', player.times[player.at] ?? '');
     putLoop(app, slider);
     element('play').textContent = player.isPlaying ? texts.pause : texts.play;
-    press('follow', player.follows);
     element<HTMLSelectElement>('between').value = String(app.state.betweenS);
 }
 
@@ -63,7 +62,6 @@ function addPlaying(app: App): void {
 
 export function addTimeline(app: App, keys: Keys): void {
     element('play').textContent = texts.play;
-    element('follow').textContent = texts.latest;
     for (const [id, sign, text, by] of [
         ['earlier', '‹', texts.earlier, -1],
         ['later', '›', texts.later, 1],

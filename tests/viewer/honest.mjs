@@ -1,0 +1,106 @@
+// What the page says of what is not there: a radar, a moment or a time of a link, the server, news, the graphics
+// processor (scripts/check-viewer). It passes requests on to the server, so that it can cut them off.
+//   node honest.mjs ADDRESS STATION OTHER_STATION
+import { createServer, request } from 'node:http';
+
+import { CheckedPage, check, gridsOf } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, station, other] = process.argv.slice(2);
+await gridsOf(address, [station, other]);
+const upstream = new URL(address);
+
+// ---- A server that can go away, tell of events, and have another list of times
+let events = [];
+let listed = (path, body) => body;
+const streams = new Set();
+function pass(asked, answer) {
+  if (asked.url.startsWith('/api/v1/events')) {
+    answer.writeHead(200, { 'Content-Type': 'text/event-stream' });
+    answer.write(`retry: 200\n\n${events.join('')}`);
+    streams.add(answer);
+    answer.on('close', () => streams.delete(answer));
+    return;
+  }
+  const { host, hostname, port } = upstream;
+  const to = request({ hostname, port, path: asked.url, headers: { ...asked.headers, host, 'accept-encoding': 'identity' } }, (from) => {
+    const parts = [];
+    from.on('data', (part) => parts.push(part));
+    from.on('end', () => {
+      const body = listed(asked.url, Buffer.concat(parts));
+      const { 'content-length': length, ...headers } = from.headers;
+      answer.writeHead(from.statusCode, headers);
+      answer.end(body);
+    });
+  });
+  to.on('error', () => answer.destroy());
+  to.end();
+}
+let server;
+const begin = (port) => new Promise((done) => (server = createServer(pass).listen(port, '127.0.0.1', () => done(server.address().port))));
+const port = await begin(0);
+const cut = () => new Promise((done) => {
+  server.close(done);
+  server.closeAllConnections();
+});
+const tell = (kind, data) => streams.forEach((stream) => stream.write(`event: ${kind}\ndata: ${JSON.stringify(data)}\n\n`));
+
+const browser = await Browser.start();
+try {
+  const page = await browser.page(700, 440);
+  const viewer = new CheckedPage(page, `http://127.0.0.1:${port}`);
+  const text = (id) => page.evaluate(`document.getElementById('${id}').textContent`);
+  const says = (id, part, seconds = 30) => page.until(`document.getElementById('${id}').textContent.includes(${JSON.stringify(part)}) && document.getElementById('${id}').textContent`, seconds).catch(() => '');
+
+  // ---- Links to what is not there (2026-11-28: another radar was opened without a word)
+  await page.goto(`${viewer.address}/view/#domain=KXXX&moment=REF&time=latest`);
+  const isAlone = station === other; // then it is shown, and the map is not
+  check(`a radar that is not there: ${await says('notice', 'No data for KXXX')}`, (await text('notice')).includes('KXXX') && (await page.evaluate("document.getElementById('start').hidden")) === isAlone);
+  check('the map says it too', (await text('start-notice')) === (await text('notice')));
+  await viewer.open(`domain=${station}&moment=XXX&time=2099-01-01T00:00:00Z`);
+  check(`a moment and a time that are not there: ${await text('notice')}`, (await text('notice')).includes(`${station} has no XXX`) && (await text('notice')).includes('2099-01-01 00:00:00'));
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  check('what is there needs no notice', (await text('notice')) === '');
+  check('what is no link of ours is no region', await page.evaluate(`(location.hash = 'domain=' + encodeURIComponent('region:-100,33,-95,37,/REF;x'), true)`) && (await says('notice', 'No data for region')) !== '');
+  await page.goto('about:blank');
+
+  // ---- A server that is gone (2026-11-28: the page looked as if it were live)
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  const lit = "document.getElementById('follow').getAttribute('aria-pressed')";
+  check('the newest is followed', (await page.evaluate(lit)) === 'true');
+  await cut();
+  check(`a server that is gone: ${await says('notice', 'does not answer')}`, (await text('notice')).includes('does not answer') && (await page.evaluate(lit)) === 'false');
+
+  // ---- News that came meanwhile (2026-11-28: the page stayed with the old picture)
+  const before = page.requests.filter((url) => url.includes('/api/v1/grids?')).length;
+  events = ['event: reset\ndata: {"type":"reset","reason":"another run"}\n\n'];
+  await begin(port);
+  await page.until("document.getElementById('notice').textContent === ''", 30).catch(() => undefined);
+  check('the server is back, and nothing is said', (await text('notice')) === '' && (await page.evaluate(lit)) === 'true');
+  for (let tries = 0; tries < 300 && page.requests.filter((url) => url.includes('/api/v1/grids?')).length < before + 2; ++tries) await new Promise((done) => setTimeout(done, 50));
+  check('it asks for the lists anew', page.requests.filter((url) => url.includes('/api/v1/grids?')).length >= before + 2);
+  const asked = page.requests.filter((url) => url.includes('/api/v1/grids?')).length;
+  tell('reset', { type: 'reset', reason: 'events were lost' });
+  for (let tries = 0; tries < 300 && page.requests.filter((url) => url.includes('/api/v1/grids?')).length === asked; ++tries) await new Promise((done) => setTimeout(done, 50));
+  check('and so it does when events were lost', page.requests.filter((url) => url.includes('/api/v1/grids?')).length > asked);
+
+  // ---- A radar that is silent, and speaks again
+  tell('station_silent', { type: 'station_silent', station, silent_s: 840 });
+  check(`a silent radar: ${await says('notice', 'silent')}`, (await text('notice')).includes(`${station} is silent: nothing came for 14 min`) && (await page.evaluate(lit)) === 'false');
+  tell('station_spoke', { type: 'station_spoke', station });
+  await page.until("document.getElementById('notice').textContent === ''", 30).catch(() => undefined);
+  check('it speaks again', (await text('notice')) === '');
+
+  // ---- How old the data are
+  const timeAt = 136; // of a packed grid
+  const hour = BigInt(Date.now() - 3600e3);
+  listed = (path, body) => (path.includes('/packed') ? (body.writeBigInt64LE(hour, timeAt), body) : body);
+  await page.send('Network.setCacheDisabled', { cacheDisabled: true });
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  check(`the title tells the age of what is shown: ${await text('title')}`, /6[01] min ago/.test(await text('title')));
+} finally {
+  await browser.end();
+  await cut();
+}
