@@ -90,10 +90,13 @@ await viewer.settled(() => page.drag([x, y], [30, 10], { modifiers: shift }));
 check(`dragging with Shift moves: ${await viewer.told('look-at-km')}`, (await viewer.told('look-at-km')) !== null);
 await viewer.changes('an arrow turns', 'azimuth', () => page.key('ArrowRight'), (before, after) => after !== before);
 await viewer.changes('+ zooms', 'zoom', () => page.key('+'), (before, after) => after > before);
-await viewer.changes('T looks from the top', 'tilt', () => page.key('t'), (_, after) => after === 0);
+await viewer.changes('P makes a perspective', 'field-of-view', () => page.key('p'), (before, after) => before === 0 && after > 0);
+await viewer.changes('T makes a map without perspective', 'field-of-view', () => page.key('t'), (before, after) => before > 0 && after === 0);
+const above = await viewer.told('look-at-km');
+await viewer.settled(() => page.drag([x, y], [40, 20]));
+check(`a drag moves the map, and north stays up: ${await viewer.told('look-at-km')}`, (await viewer.number('tilt')) === 0 && (await viewer.number('azimuth')) === 180 && (await viewer.told('look-at-km')) !== above);
 await viewer.changes('S looks from the south', 'tilt', () => page.key('s'), (_, after) => after > 80);
 await viewer.changes('O looks obliquely', 'tilt', () => page.key('o'), (_, after) => after > 30 && after < 80);
-await viewer.changes('P makes a perspective', 'field-of-view', () => page.key('p'), (before, after) => before === 0 && after > 0);
 await viewer.changes('two fingers zoom', 'zoom', async () => {
   await page.touch('touchStart', [[280, 300], [320, 300]]);
   for (const apart of [10, 20, 30]) await page.touch('touchMove', [[280 - apart, 300], [320 + apart, 300]]);

@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { namedView, orbited, panned, zoomed } from '../src/camera/controls';
+import { dragged, isMap, namedView, orbited, panned, zoomed } from '../src/camera/controls';
+import { beamAt } from '../src/fields/sweep_cone';
 import { Box, Camera, ViewGeometry, usualCamera } from '../src/camera/geometry';
 
 const box: Box = { halfXM: 230000, halfYM: 230000, bottomM: 0, topM: 16000 };
@@ -50,4 +51,32 @@ test('named views are where their names say, and keep the rest', () => {
     assert.deepEqual([namedView(camera, 'top').tiltDeg, namedView(camera, 'east').azimuthDeg], [0, 90]);
     assert.equal(namedView(camera, 'south').zoom, 7);
     assert.deepEqual(namedView(camera, 'south').lookAtM, [1, 2, 3]);
+});
+
+test('Top is a map: things aloft are drawn above their places, with north up (2026-11-28: a sweep was 4.1 km off at 184 km)', () => {
+    const seen: Camera = { ...usualCamera, fieldOfViewDeg: 40, azimuthDeg: 75, tiltDeg: 60, zoom: 1.5 };
+    const map = namedView(seen, 'top');
+    assert.equal(isMap(map), true);
+    const geometry = geometryOf(map);
+    const site = { latitudeDeg: 35.3, altitudeM: 400 };
+    for (const azimuth of [0, 0.7, 2, 4]) {
+        const { arcM, heightM } = beamAt(site, 0.5, 184000);
+        const [x, y] = [arcM * Math.sin(azimuth), arcM * Math.cos(azimuth)];
+        const aloft = geometry.project([x, y, heightM * geometry.exaggeration])!;
+        const ground = geometry.project([x, y, 0])!;
+        assert(Math.hypot(aloft[0] - ground[0], aloft[1] - ground[1]) * geometry.metersPerPixel < 1, `${azimuth}`);
+    }
+    const [south, north] = [-100000, 100000].map(y => geometry.project([0, y, 0])!);
+    assert(north![1] < south![1] && Math.abs(north![0] - south![0]) < 1e-6);
+});
+
+test('a drag moves a map, and turns what is no map; with Shift the other way round (2026-11-28: the map was soon turned by 122°)', () => {
+    const map = namedView({ ...usualCamera, fieldOfViewDeg: 40 }, 'top');
+    const moved = dragged(map, geometryOf(map), 60, -40, 2, false);
+    assert.deepEqual([moved.azimuthDeg, moved.tiltDeg], [180, 0]);
+    assert.deepEqual(moved, panned(map, geometryOf(map), 120, -80));
+    const turned = dragged(map, geometryOf(map), 60, -40, 2, true);
+    assert.deepEqual(turned, orbited(map, 60, -40));
+    assert.deepEqual(dragged(turned, geometryOf(turned), 10, 0, 2, false), orbited(turned, 10, 0));
+    assert.equal(namedView(map, 'oblique').fieldOfViewDeg, 40, 'who leaves the map sees in perspective again');
 });

@@ -5,6 +5,7 @@ import { Camera, Vec3, ViewGeometry, plus } from './geometry';
 const degreesAPixel = 0.35;
 const leastZoom = 0.2;
 const mostZoom = 200;
+export const usualFieldOfViewDeg = 40;
 
 function bounded(value: number, least: number, most: number): number {
     return Math.min(most, Math.max(least, value));
@@ -34,6 +35,18 @@ export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: n
     return { ...camera, lookAtM: plus(plus(at, -dx * scale, geometry.right), (dy * scale) / foreshortened, ahead) };
 }
 
+// A map is seen straight from above and without perspective, so that each thing is drawn above its place,
+// however high it is.
+export function isMap(camera: Camera): boolean {
+    return camera.tiltDeg === 0 && camera.fieldOfViewDeg === 0;
+}
+
+// What a plain drag does, and one that means the other (with Shift, or the right button): the first moves a map and
+// turns every other view.
+export function dragged(camera: Camera, geometry: ViewGeometry, dx: number, dy: number, ratio: number, isOther: boolean): Camera {
+    return isMap(camera) !== isOther ? panned(camera, geometry, dx * ratio, dy * ratio) : orbited(camera, dx, dy);
+}
+
 export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x?: number, y?: number): Camera {
     const zoom = bounded(camera.zoom * factor, leastZoom, mostZoom);
     const at = lookAtOf(camera, geometry);
@@ -46,6 +59,7 @@ export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x
 }
 
 export type NamedView = 'top' | 'south' | 'east' | 'north' | 'west' | 'oblique';
+// From the top it is a map with north up; whoever leaves a map sees in perspective again.
 export function namedView(camera: Camera, view: NamedView): Camera {
     const [azimuthDeg, tiltDeg] = {
         top: [180, 0],
@@ -55,5 +69,6 @@ export function namedView(camera: Camera, view: NamedView): Camera {
         west: [270, 85],
         oblique: [180, 55],
     }[view] as [number, number];
-    return { ...camera, azimuthDeg, tiltDeg };
+    const fieldOfViewDeg = view === 'top' ? 0 : isMap(camera) ? usualFieldOfViewDeg : camera.fieldOfViewDeg;
+    return { ...camera, azimuthDeg, tiltDeg, fieldOfViewDeg };
 }

@@ -1,11 +1,11 @@
 // The keys of the picture.
 
-import { NamedView, namedView, orbited, panned, zoomed } from '../camera/controls';
+import { NamedView, dragged, namedView, usualFieldOfViewDeg, zoomed } from '../camera/controls';
 import { App } from './app';
 import { Drawing } from './drawing';
 
-const usualFieldOfViewDeg = 40;
 const keyStep = 20; // pixels of a drag that an arrow stands for
+const farther = 2; // where it moves
 
 export class Keys {
     private actions = new Map<string, () => void>();
@@ -70,7 +70,7 @@ export class Keys {
         const action = this.actions.get(event.key.length === 1 ? event.key.toLowerCase() : event.key);
         if (way && geometry) {
             const { camera } = this.app.state;
-            this.app.moved(event.shiftKey ? panned(camera, geometry, 2 * way[0], 2 * way[1]) : orbited(camera, way[0], way[1]));
+            this.app.moved(dragged(camera, geometry, way[0], way[1], farther, event.shiftKey));
         } else if (action) {
             action();
         } else {

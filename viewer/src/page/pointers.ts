@@ -1,6 +1,6 @@
 // Mouse and fingers on the picture. They move the camera, unless a tool takes them.
 
-import { orbited, panned, zoomed } from '../camera/controls';
+import { dragged, panned, zoomed } from '../camera/controls';
 import { App } from './app';
 import { Drawing } from './drawing';
 
@@ -79,10 +79,8 @@ export class Pointers {
             this.pinch(before, event, dx, dy);
         } else if (this.isTaken) {
             this.tool.drag?.(...this.at(event));
-        } else if (event.shiftKey || (event.buttons & 2) !== 0) {
-            this.app.moved(panned(camera, geometry, dx * this.ratio, dy * this.ratio));
         } else {
-            this.app.moved(orbited(camera, dx, dy));
+            this.app.moved(dragged(camera, geometry, dx, dy, this.ratio, event.shiftKey || (event.buttons & 2) !== 0));
         }
     }
 

@@ -133,9 +133,9 @@ export const texts = {
     close: 'Close',
     help: 'Keys',
     helpText: [
-        'Drag to turn, with Shift or the right button to move, wheel or pinch to zoom.',
-        'Arrow keys turn, with Shift they move; + and - zoom.',
-        'T top, S from the south, O oblique, P perspective.',
+        'Drag to turn, with Shift or the right button to move, wheel or pinch to zoom. On the map it is the other way round.',
+        'Arrow keys turn, with Shift they move (on the map the other way round); + and - zoom.',
+        'T map with north up, S from the south, O oblique, P perspective.',
         'Space plays, comma and period step, L follows the newest; < and > begin and end a loop.',
         'E edits colors and opacity: there, arrows move a point, page keys choose the next, Insert adds one, Delete removes it.',
         'V volume, C plane with [ and ] for its height, X section, A looks at it, I surface, M column maximum, W sweep, B box.',
