@@ -93,10 +93,12 @@ void write_titles(const CfradialParts& parts, const VolumeWriteOptions& options)
     file.text(global, "history",
               source.empty() ? software + ": decoded"
                              : fmt::format("{}: decoded from {}", software, source));
-    file.text(global, "comment",
-              "Gates stand where they were measured, none is resampled: moments that differ in "
-              "range, scale or offset are variables of their own, as the attribute moment says. "
-              "Whatever is no value is _FillValue; the status variable of each moment says why.");
+    file.text(
+        global, "comment",
+        "Codes are those of the radar, none is resampled: moments that differ in range, scale "
+        "or offset are variables of their own, as the attribute moment says, or gates longer "
+        "than those of range are repeated, as the variables gate_repeats say. Whatever is no "
+        "value is _FillValue; the status variable of each moment says why.");
     file.text(global, "instrument_name", name);
     file.text(global, "site_name",
               station ? fmt::format("{}, {}", station->name, station->state) : "unknown");
@@ -235,7 +237,7 @@ Status write_volume(FileSystem& file_system, const std::filesystem::path& path,
         return fail(ErrorCode::bad_argument, "the deflate level must be 0 to 9, not {}",
                     options.deflate_level);
     }
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, options.ranges);
     if (!layout) return fail(layout.error().code, "{}: {}", path.string(), layout.error().message);
     const auto bytes = build(volume, *layout, options);
     if (!bytes) return fail(bytes.error().code, "{}: {}", path.string(), bytes.error().message);

@@ -131,32 +131,65 @@ struct SweepGates {
 };
 
 // Unpacks the rows of one sweep. A null moment gives rows without gates. The vectors are reused.
-void unpack(const SweepMoment* moment, std::size_t radials, std::size_t gates, SweepGates& to) {
-    to.codes.assign(radials * gates, fill_code);
-    to.states.assign(radials * gates, static_cast<signed char>(GateStatus::no_data));
+void unpack(const SweepMoment* moment, const RangeAxis& axis, std::size_t radials, SweepGates& to) {
+    to.codes.assign(radials * axis.gates, fill_code);
+    to.states.assign(radials * axis.gates, static_cast<signed char>(GateStatus::no_data));
     if (moment == nullptr) return;
+    const GatePlacement placed = place_gates(axis, *moment);
     for (std::size_t radial = 0; radial < radials; ++radial) {
-        const std::size_t row = radial * gates;
+        std::size_t at = radial * axis.gates + placed.first;
         const auto count = static_cast<std::int32_t>(moment->gate_counts[radial]);
-        for (std::int32_t gate = 0; gate < count; ++gate) {
-            const std::size_t at = row + static_cast<std::size_t>(gate);
+        for (std::int32_t gate = 0; gate < count; ++gate, at += placed.repeats) {
             const int status = status_of(*moment, radial, gate);
-            to.states[at] = static_cast<signed char>(status);
-            if (status == static_cast<int>(GateStatus::valid)) {
-                to.codes[at] = moment->code(radial, gate);
-            }
+            const bool valid = status == static_cast<int>(GateStatus::valid);
+            const auto begin = static_cast<std::ptrdiff_t>(at);
+            const auto repeats = static_cast<std::ptrdiff_t>(placed.repeats);
+            std::fill_n(to.states.begin() + begin, repeats, static_cast<signed char>(status));
+            if (valid) std::fill_n(to.codes.begin() + begin, repeats, moment->code(radial, gate));
         }
     }
+}
+
+// Says of each sweep how its measured gates can be had back, if any of them is not where the axis
+// has its own.
+void write_placement(const CfradialParts& parts, const CfradialField& field) {
+    std::vector<int> repeats;
+    std::vector<int> first;
+    std::vector<int> first_gate_m;
+    bool moved = false;
+    for (const SweepMoment* moment : field.sweeps) {
+        const GatePlacement placed = moment == nullptr
+                                         ? GatePlacement{0, 0}
+                                         : place_gates(parts.layout.axes[field.axis], *moment);
+        moved = moved || placed.repeats > 1 || placed.first > 0;
+        repeats.push_back(static_cast<int>(placed.repeats));
+        first.push_back(static_cast<int>(placed.first));
+        first_gate_m.push_back(moment == nullptr ? 0 : moment->first_gate_m);
+    }
+    if (!moved) return;
+    const auto write = [&](const char* ending, const char* long_name, const char* units,
+                           const std::vector<int>& values) {
+        const int made =
+            parts.variable((field.name + ending).c_str(), NC_INT, {parts.sweep}, long_name, units);
+        parts.file.write(made, std::span<const int>(values));
+    };
+    write("_gate_repeats", "elements of range that one measured gate fills; 0: no gates", "1",
+          repeats);
+    write("_gate_start", "element of range where the first measured gate begins, from 0", "1",
+          first);
+    write("_first_gate", "distance to the center of the first measured gate", "meters",
+          first_gate_m);
 }
 
 void write_field(const CfradialParts& parts, const CfradialField& field, SweepGates& gates) {
     const int codes = define_codes(parts, field);
     const int status = define_status(parts, field);
-    const std::size_t width = parts.layout.axes[field.axis].gates;
+    write_placement(parts, field);
+    const RangeAxis& axis = parts.layout.axes[field.axis];
     for (std::size_t sweep = 0; sweep < field.sweeps.size(); ++sweep) {
         const NetcdfBuilder::Rows rows{parts.layout.first_radials[sweep],
-                                       parts.volume.sweeps[sweep].radials.size(), width};
-        unpack(field.sweeps[sweep], rows.count, width, gates);
+                                       parts.volume.sweeps[sweep].radials.size(), axis.gates};
+        unpack(field.sweeps[sweep], axis, rows.count, gates);
         parts.file.write_rows(codes, rows, std::span<const int>(gates.codes));
         parts.file.write_rows(status, rows, std::span<const signed char>(gates.states));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -15,10 +16,13 @@ bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-bool same_kind(const SweepMoment& a, const SweepMoment& b) {
-    return a.moment == b.moment && a.first_gate_m == b.first_gate_m &&
-           a.gate_spacing_m == b.gate_spacing_m && a.word_size_bits == b.word_size_bits &&
+bool same_packing(const SweepMoment& a, const SweepMoment& b) {
+    return a.moment == b.moment && a.word_size_bits == b.word_size_bits &&
            same_bits(a.scale, b.scale) && same_bits(a.offset, b.offset);
+}
+
+bool same_geometry(const SweepMoment& a, const SweepMoment& b) {
+    return a.first_gate_m == b.first_gate_m && a.gate_spacing_m == b.gate_spacing_m;
 }
 
 std::size_t radials_with_gates(const SweepMoment& moment) {
@@ -27,14 +31,66 @@ std::size_t radials_with_gates(const SweepMoment& moment) {
                                                   [](std::uint16_t gates) { return gates > 0; }));
 }
 
-std::size_t most_gates(const CfradialField& field) {
-    std::size_t most = 0;
-    for (const SweepMoment* moment : field.sweeps) {
-        if (moment == nullptr) continue;
-        for (const std::uint16_t gates : moment->gate_counts)
-            most = std::max<std::size_t>(most, gates);
+std::size_t most_gates(const SweepMoment& moment) {
+    const auto most = std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
+    return most == moment.gate_counts.end() ? 0 : *most;
+}
+
+// Returns the element of an axis that holds the first part of a gate, counted from the axis's first
+// center; below 0 for a gate that begins before it. An element belongs to the gate if its center is
+// beyond the gate's near edge. A gate of the axis's own spacing begins at its own center.
+std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
+                           const SweepMoment& moment) {
+    const std::int64_t doubled = 2 * (moment.first_gate_m - axis_first_m) - moment.gate_spacing_m;
+    const std::int64_t step = 2 * spacing_m;
+    const std::int64_t floor = doubled / step - (doubled % step < 0 ? 1 : 0);
+    return floor + 1;
+}
+
+// A radial to 460 km has 1840 gates of 250 m. More elements than this mean a damaged file.
+constexpr std::int64_t most_elements = 8192;
+constexpr std::int32_t most_repeats = 8;
+
+// Every moment that has gates.
+std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
+    std::vector<const SweepMoment*> moments;
+    for (const level2::Sweep& sweep : volume.sweeps) {
+        for (const SweepMoment& moment : sweep.moments)
+            if (most_gates(moment) > 0) moments.push_back(&moment);
     }
-    return most;
+    return moments;
+}
+
+// Whether the moment's gates can stand on an axis with the gates of `finest`.
+bool fits(const SweepMoment& moment, const SweepMoment& finest) {
+    const std::int32_t spacing_m = finest.gate_spacing_m;
+    if (spacing_m <= 0 || moment.gate_spacing_m % spacing_m != 0) return false;
+    if (moment.gate_spacing_m / spacing_m > most_repeats) return false;
+    return moment.gate_spacing_m != spacing_m ||
+           (moment.first_gate_m - finest.first_gate_m) % spacing_m == 0;
+}
+
+// Returns the one axis on which all gates of the volume can stand, if there is one.
+std::optional<RangeAxis> common_axis(const level2::Volume& volume) {
+    const std::vector<const SweepMoment*> moments = moments_of(volume);
+    const auto finest = std::min_element(
+        moments.begin(), moments.end(),
+        [](const auto* a, const auto* b) { return a->gate_spacing_m < b->gate_spacing_m; });
+    if (finest == moments.end()) return std::nullopt;
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+    for (const SweepMoment* moment : moments) {
+        if (!fits(*moment, **finest)) return std::nullopt;
+        const std::int64_t first =
+            first_element((*finest)->first_gate_m, (*finest)->gate_spacing_m, *moment);
+        const std::int64_t repeats = moment->gate_spacing_m / (*finest)->gate_spacing_m;
+        begin = std::min(begin, first);
+        end = std::max(end, first + repeats * static_cast<std::int64_t>(most_gates(*moment)));
+    }
+    if (end - begin > most_elements) return std::nullopt;
+    const std::int64_t first_m = (*finest)->first_gate_m + begin * (*finest)->gate_spacing_m;
+    return RangeAxis{"range", static_cast<std::int32_t>(first_m), (*finest)->gate_spacing_m,
+                     static_cast<std::size_t>(end - begin)};
 }
 
 Status check_arrays(const SweepMoment& moment, std::size_t sweep, std::size_t radials) {
@@ -53,11 +109,12 @@ Status check_arrays(const SweepMoment& moment, std::size_t sweep, std::size_t ra
 // Puts the gates of a sweep into the field of their kind, or into a new field. A sweep that holds
 // one kind twice needs two fields.
 void add(CfradialLayout& layout, const SweepMoment& moment, std::size_t sweep,
-         std::size_t sweep_count) {
+         std::size_t sweep_count, bool one_axis) {
     const std::size_t radials = radials_with_gates(moment);
     if (radials == 0) return;
     auto field = std::find_if(layout.fields.begin(), layout.fields.end(), [&](const auto& made) {
-        return made.sweeps[sweep] == nullptr && same_kind(*made.kind, moment);
+        return made.sweeps[sweep] == nullptr && same_packing(*made.kind, moment) &&
+               (one_axis || same_geometry(*made.kind, moment));
     });
     if (field == layout.fields.end()) {
         field = layout.fields.emplace(field);
@@ -96,7 +153,8 @@ void find_axes(CfradialLayout& layout) {
                 layout.axes.insert(axis, {number == 1 ? "range" : fmt::format("range_{}", number),
                                           kind.first_gate_m, kind.gate_spacing_m, 0});
         }
-        axis->gates = std::max(axis->gates, most_gates(field));
+        for (const SweepMoment* moment : field.sweeps)
+            if (moment != nullptr) axis->gates = std::max(axis->gates, most_gates(*moment));
         field.axis = static_cast<std::size_t>(axis - layout.axes.begin());
     }
     if (layout.axes.empty()) layout.axes.push_back({"range", 0, 0, 0});
@@ -104,7 +162,14 @@ void find_axes(CfradialLayout& layout) {
 
 }  // namespace
 
-Result<CfradialLayout> lay_out(const level2::Volume& volume) {
+GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment) {
+    if (axis.gate_spacing_m <= 0) return {};  // an axis of damaged gates, which all have it
+    const std::int64_t first = first_element(axis.first_gate_m, axis.gate_spacing_m, moment);
+    return {static_cast<std::size_t>(first),
+            static_cast<std::size_t>(moment.gate_spacing_m / axis.gate_spacing_m)};
+}
+
+Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges) {
     CfradialLayout layout;
     for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep) {
         const level2::Sweep& from = volume.sweeps[sweep];
@@ -117,8 +182,12 @@ Result<CfradialLayout> lay_out(const level2::Volume& volume) {
             if (auto good = check_arrays(moment, sweep, from.radials.size()); !good) {
                 return pass_on(good);
             }
-            add(layout, moment, sweep, volume.sweeps.size());
         }
+    }
+    const auto axis = ranges == RangeAxes::one_if_possible ? common_axis(volume) : std::nullopt;
+    for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep) {
+        for (const SweepMoment& moment : volume.sweeps[sweep].moments)
+            add(layout, moment, sweep, volume.sweeps.size(), axis.has_value());
         if (layout.fields.size() > most_cfradial_fields) {
             return fail(ErrorCode::unsupported,
                         "more than {} kinds of gates that differ in moment, range, scale or offset",
@@ -126,7 +195,11 @@ Result<CfradialLayout> lay_out(const level2::Volume& volume) {
         }
     }
     order_and_name(layout.fields);
-    find_axes(layout);
+    if (axis) {
+        layout.axes = {*axis};  // the axis of every field
+    } else {
+        find_axes(layout);
+    }
     return layout;
 }
 

@@ -1,9 +1,10 @@
 // export/cfradial_layout.h -- finds the variables and range axes that a volume needs; internal to
 // export.
 //
-// Gates are written where they were measured. So the gates of a moment that agree in first gate,
-// spacing, word size, scale and offset make one field, and each pair of first gate and spacing
-// makes one range axis. Nearly every moment of a modern volume is one field on the one axis.
+// Gates of a moment that agree in word size, scale and offset make one field if the volume has one
+// range axis (RangeAxes); otherwise they must agree in first gate and spacing, too, and each pair
+// of first gate and spacing makes an axis. Nearly every moment of a modern volume is one field on
+// one axis in either case.
 //   names   The kind of a moment that most radials have is named REF; the others are REF_2, REF_3,
 //           .... Axes are range, range_2, ... in the order in which the fields need them.
 //   order   The order of the moments (REF VEL SW ZDR PHI RHO CFP), then by number of radials, then
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "stormcellar/base/result.h"
+#include "stormcellar/export/cfradial.h"
 #include "stormcellar/level2/volume.h"
 
 namespace stormcellar::netcdf {
@@ -27,6 +29,13 @@ struct RangeAxis {
     std::int32_t first_gate_m = 0;  // to the center
     std::int32_t gate_spacing_m = 0;
     std::size_t gates = 0;  // the largest number of any radial
+};
+
+// Where the gates of one sweep's moment are on the axis of their field: gate i fills the elements
+// first + i * repeats to first + (i + 1) * repeats - 1.
+struct GatePlacement {
+    std::size_t first = 0;
+    std::size_t repeats = 1;
 };
 
 struct CfradialField {
@@ -49,9 +58,12 @@ struct CfradialLayout {
 // Real volumes need at most ten fields. More than this number means a damaged file.
 inline constexpr std::size_t most_cfradial_fields = 64;
 
+// Places the gates of a moment on an axis of the layout that has it.
+[[nodiscard]] GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment);
+
 // Makes the layout, which refers to the volume; the volume must outlive it. Errors: bad_argument
 // for a sweep without radials, or whose arrays do not fit each other; unsupported for more than
 // most_cfradial_fields fields.
-[[nodiscard]] Result<CfradialLayout> lay_out(const level2::Volume& volume);
+[[nodiscard]] Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges);
 
 }  // namespace stormcellar::netcdf

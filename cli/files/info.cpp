@@ -29,6 +29,7 @@ struct InfoOptions {
     int threads = 0;  // 0: as many as the machine has
     std::string to;   // CfRadial file to write; empty: none
     int volume = 0;   // of the file, from 1; 0: its only one
+    bool own_ranges = false;
     SiteOptions site;
 };
 
@@ -200,7 +201,8 @@ Status write_chosen(const InfoOptions& options, const std::string& source,
     if (!chosen) return pass_on(chosen);
     auto output = OutputFile::open(options.to);
     if (!output) return pass_on(output);
-    Status written = export_volume(volumes, *chosen, report, source, output->path());
+    Status written =
+        export_volume(volumes, *chosen, report, source, output->path(), options.own_ranges);
     return written ? output->finish() : written;
 }
 
@@ -298,6 +300,7 @@ Run set_up_info(CLI::App& info) {
                     "Number of the volume to write, from 1, if the file holds several")
         ->check(CLI::Range(1, 1000))
         ->needs(to);
+    add_own_ranges(info, options->own_ranges)->needs(to);
     add_site_options(info, options->site);
     info.add_option("--threads", options->threads,
                     "Number of threads for decompression. Default: all processors")

@@ -5,16 +5,22 @@
 #include <filesystem>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/decode.h"
 
 namespace stormcellar::cli {
 
 // Writes volumes[number] of the volumes of `source`. Problems found in the file become notes. An
-// existing file is replaced. Errors: those of netcdf::write_volume().
+// existing file is replaced. With own_ranges each gate geometry has a range axis of its own.
+// Errors: those of netcdf::write_volume().
 [[nodiscard]] Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
                                    const level2::DecodeReport& report,
                                    const std::filesystem::path& source,
-                                   const std::filesystem::path& to);
+                                   const std::filesystem::path& to, bool own_ranges);
+
+// The flag --own-ranges, for every command that writes volumes.
+CLI::Option* add_own_ranges(CLI::App& app, bool& own_ranges);
 
 }  // namespace stormcellar::cli

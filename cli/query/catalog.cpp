@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cli/files/volume_export.h"
 #include "cli/query/catalog_care.h"
 #include "cli/query/catalog_get.h"
 #include "cli/shared/commands.h"
@@ -241,8 +242,10 @@ Run set_up_catalog(CLI::App& command) {
                     "Directory to write into; - writes one file to standard output")
         ->required();
     get->add_flag("--force", options->get.force, "Replace files that exist already");
-    get->add_flag("--decode", options->get.decode,
-                  "Write each volume as CfRadial netCDF instead of copying its file");
+    CLI::Option* decode =
+        get->add_flag("--decode", options->get.decode,
+                      "Write each volume as CfRadial netCDF instead of copying its file");
+    add_own_ranges(*get, options->get.own_ranges)->needs(decode);
     CLI::App* check = add_query(command, *options, "check",
                                 "Examine the databases and compare their rows with the files");
     CLI::App* rebuild =

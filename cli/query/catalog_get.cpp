@@ -137,7 +137,7 @@ std::vector<std::size_t> matched_volumes(const MatchedFile& file,
 }
 
 Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& file,
-                     Targets& targets) {
+                     Targets& targets, bool own_ranges) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
@@ -149,7 +149,8 @@ Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& f
         const auto to =
             targets.claim(alone ? name + ".nc" : fmt::format("{}_volume{}.nc", name, i + 1));
         if (!to) return pass_on(to);
-        if (auto done = export_volume(volumes, i, report, file.entry.path, *to); !done) return done;
+        auto done = export_volume(volumes, i, report, file.entry.path, *to, own_ranges);
+        if (!done) return done;
         fmt::print("{}\n", printable(to->native()));
     }
     if (!matched.empty()) return {};
@@ -157,7 +158,8 @@ Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& f
                 file.entry.path.native());
 }
 
-Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile& file) {
+Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile& file,
+                        bool own_ranges) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
@@ -169,18 +171,18 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
     }
     auto output = OutputFile::open("-");
     if (!output) return pass_on(output);
-    Status written =
-        export_volume(volumes, matched.front(), report, file.entry.path, output->path());
+    Status written = export_volume(volumes, matched.front(), report, file.entry.path,
+                                   output->path(), own_ranges);
     return written ? output->finish() : written;
 }
 
 // For the one file that matched.
 Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<MatchedFile>& files,
-                     bool decode) {
+                     const GetOptions& options) {
     if (files.size() != 1) {
         return fail(ErrorCode::bad_argument, "-o - takes one file, but {} matched", files.size());
     }
-    if (decode) return decode_to_stdout(catalog, files.front());
+    if (options.decode) return decode_to_stdout(catalog, files.front(), options.own_ranges);
     const auto bytes = read_raw(catalog, files.front().entry);
     if (!bytes) return pass_on(bytes);
     return write_output("-", *bytes);
@@ -191,7 +193,7 @@ Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<Ma
 int get_files(const catalog::CatalogReader& catalog, const std::vector<CatalogEntry>& entries,
               const GetOptions& options) {
     if (is_stdout(options.output)) {
-        const Status done = get_to_stdout(catalog, files_of(entries), options.decode);
+        const Status done = get_to_stdout(catalog, files_of(entries), options);
         return done ? exit_done : report_error(done.error());
     }
     std::error_code error;
@@ -203,8 +205,9 @@ int get_files(const catalog::CatalogReader& catalog, const std::vector<CatalogEn
     Targets targets(options);
     int status = exit_done;
     for (const MatchedFile& file : files_of(entries)) {
-        const Status done = options.decode ? write_decoded(catalog, file, targets)
-                                           : copy_raw(catalog, file, targets);
+        const Status done = options.decode
+                                ? write_decoded(catalog, file, targets, options.own_ranges)
+                                : copy_raw(catalog, file, targets);
         if (!done) status = report_error(done.error());
     }
     return status;

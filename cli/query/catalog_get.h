@@ -9,9 +9,10 @@
 namespace stormcellar::cli {
 
 struct GetOptions {
-    std::string output;   // a directory, made if it is missing; "-": standard output
-    bool force = false;   // replaces existing files
-    bool decode = false;  // writes volumes as CfRadial instead of copying files
+    std::string output;       // a directory, made if it is missing; "-": standard output
+    bool force = false;       // replaces existing files
+    bool decode = false;      // writes volumes as CfRadial instead of copying files
+    bool own_ranges = false;  // of CfRadial: an axis for each gate geometry
 };
 
 // Copies each file once under its own name; or writes each volume as NAME.nc, without the ending of

@@ -34,7 +34,7 @@ TEST(CfradialLayout, MomentsOfOneGeometryShareOneAxisAsLongAsTheLongestRadial) {
         small_volume({small_sweep(1, {small_moment(Moment::vel, {{2, 3}, {4}}),
                                       small_moment(Moment::ref, {{2, 3, 4}, {}})}),
                       small_sweep(2, {small_moment(Moment::ref, {{2, 3, 4, 5, 6}})})});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "VEL on range"));
     EXPECT_EQ(layout->axes.at(0).gates, 5U);
@@ -51,7 +51,7 @@ TEST(CfradialLayout, LegacyMomentsHaveAxesOfTheirOwn) {
         small_volume({small_sweep(1, {at_1km(small_moment(Moment::ref, {{2, 3}})),
                                       small_moment(Moment::vel, {{2, 3, 4, 5, 6, 7, 8, 9}}),
                                       small_moment(Moment::sw, {{2, 3, 4, 5, 6, 7, 8, 9}})})});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "VEL on range_2", "SW on range_2"));
     EXPECT_EQ(layout->axes.at(0).gates, 2U);
@@ -62,7 +62,7 @@ TEST(CfradialLayout, TheKindThatMostRadialsHaveTakesThePlainName) {
     const auto volume =
         small_volume({small_sweep(1, {at_1km(small_moment(Moment::ref, {{2}, {3}}))}),
                       small_sweep(2, {small_moment(Moment::ref, {{2}, {3}, {4}})})});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "REF_2 on range_2"));
     EXPECT_EQ(layout->axes.at(0).gate_spacing_m, 250);
@@ -75,7 +75,7 @@ TEST(CfradialLayout, ADifferenceInScaleOffsetOrWordSizeMakesAField) {
     kinds[2].offset = 129;
     kinds[3] = wide_moment(Moment::vel, {{}, {}, {}, {2}});
     const auto volume = small_volume({small_sweep(1, kinds)});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout),
                 ElementsAre("VEL on range", "VEL_2 on range", "VEL_3 on range", "VEL_4 on range"));
@@ -85,7 +85,7 @@ TEST(CfradialLayout, ASweepThatHoldsOneKindTwiceLosesNeither) {
     const SweepMoment first = small_moment(Moment::ref, {{2}, {3}});
     const SweepMoment again = small_moment(Moment::ref, {{4}, {5}});
     const auto volume = small_volume({small_sweep(1, {first, again})});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "REF_2 on range"));
 }
@@ -94,14 +94,14 @@ TEST(CfradialLayout, AScaleThatIsNoNumberIsOneScale) {
     SweepMoment odd = small_moment(Moment::ref, {{2}});
     odd.scale = std::numeric_limits<float>::quiet_NaN();
     const auto volume = small_volume({small_sweep(1, {odd}), small_sweep(2, {odd})});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range"));
 }
 
 TEST(CfradialLayout, WhatHasNoGatesIsNoField) {
     const auto volume = small_volume({small_sweep(1, {small_moment(Moment::ref, {{}, {}})})});
-    const auto layout = lay_out(volume);
+    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_TRUE(layout->fields.empty());
     ASSERT_EQ(layout->axes.size(), 1U);
@@ -112,9 +112,9 @@ TEST(CfradialLayout, WhatHasNoGatesIsNoField) {
 TEST(CfradialLayout, RefusesWhatDoesNotFitItself) {
     const auto refused = [](auto spoil) {
         auto volume = small_volume({small_sweep(1, {small_moment(Moment::ref, {{2, 3}, {4}})})});
-        EXPECT_TRUE(lay_out(volume));
+        EXPECT_TRUE(lay_out(volume, RangeAxes::of_each_geometry));
         spoil(volume.sweeps[0]);
-        const auto layout = lay_out(volume);
+        const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
         return !layout && layout.error().code == ErrorCode::bad_argument;
     };
     using level2::Sweep;
@@ -127,6 +127,77 @@ TEST(CfradialLayout, RefusesWhatDoesNotFitItself) {
     EXPECT_TRUE(refused([](Sweep& sweep) { sweep.moments[0].word_size_bits = 12; }));
 }
 
+// 2026-11-28: Py-ART and xradar, which read one axis, saw no VEL of a volume before 2008.
+TEST(CfradialLayout, OnOneAxisALegacyGateOfOneKilometerStandsFourTimes) {
+    SweepMoment doppler = small_moment(Moment::vel, {{2, 3, 4, 5, 6, 7, 8, 9}});
+    doppler.first_gate_m = -375;
+    const auto volume =
+        small_volume({small_sweep(1, {at_1km(small_moment(Moment::ref, {{2, 3, 4}})), doppler})});
+    const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+    ASSERT_TRUE(layout);
+    EXPECT_THAT(names(*layout), ElementsAre("REF on range", "VEL on range"));
+    ASSERT_EQ(layout->axes.size(), 1U);
+    EXPECT_EQ(layout->axes[0].first_gate_m, -375);
+    EXPECT_EQ(layout->axes[0].gate_spacing_m, 250);
+    EXPECT_EQ(layout->axes[0].gates, 12U);
+    const GatePlacement ref = place_gates(layout->axes[0], *layout->fields[0].sweeps[0]);
+    EXPECT_EQ(ref.first, 0U) << "-500 to 500 m are the centers -375 to 375 m";
+    EXPECT_EQ(ref.repeats, 4U);
+    const GatePlacement vel = place_gates(layout->axes[0], *layout->fields[1].sweeps[0]);
+    EXPECT_EQ(vel.first, 0U);
+    EXPECT_EQ(vel.repeats, 1U);
+}
+
+// 2026-11-28: of a TDWR the long sweep, with REF at 300 m, was empty to them.
+TEST(CfradialLayout, OnOneAxisAMomentOfTwoGateLengthsIsOneField) {
+    SweepMoment far = small_moment(Moment::ref, {{2, 3, 4}});
+    far.first_gate_m = 0;
+    far.gate_spacing_m = 300;
+    SweepMoment near = small_moment(Moment::ref, {{5, 6}});
+    near.first_gate_m = 0;
+    near.gate_spacing_m = 150;
+    const auto volume = small_volume({small_sweep(1, {far}), small_sweep(2, {near})});
+    const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+    ASSERT_TRUE(layout);
+    EXPECT_THAT(names(*layout), ElementsAre("REF on range"));
+    EXPECT_EQ(layout->axes.at(0).gates, 6U);
+    EXPECT_EQ(place_gates(layout->axes[0], far).repeats, 2U);
+    EXPECT_EQ(place_gates(layout->axes[0], far).first, 0U) << "the gate ends at 150 m";
+}
+
+TEST(CfradialLayout, TheOneAxisBeginsWithTheNearestGate) {
+    const SweepMoment doppler = small_moment(Moment::vel, {{2}});  // 250 m from 2125 m
+    SweepMoment ref = at_1km(small_moment(Moment::ref, {{2, 3}}));
+    ref.first_gate_m = 1000;  // from 500 m
+    const auto volume = small_volume({small_sweep(1, {ref, doppler})});
+    const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+    ASSERT_TRUE(layout);
+    ASSERT_EQ(layout->axes.size(), 1U);
+    EXPECT_EQ(layout->axes[0].first_gate_m, 625);
+    EXPECT_EQ(place_gates(layout->axes[0], ref).first, 0U);
+    EXPECT_EQ(place_gates(layout->axes[0], doppler).first, 6U);
+    EXPECT_EQ(layout->axes[0].gates, 8U) << "625 to 2375 m";
+}
+
+TEST(CfradialLayout, GatesThatNoAxisCanHoldHaveAxesOfTheirOwn) {
+    const auto axes = [](std::int32_t first_gate_m, std::int32_t spacing_m) {
+        SweepMoment odd = small_moment(Moment::vel, {{2}});
+        odd.first_gate_m = first_gate_m;
+        odd.gate_spacing_m = spacing_m;
+        const auto volume = small_volume({small_sweep(1, {small_moment(Moment::ref, {{2}}), odd})});
+        const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+        return layout ? layout->axes.size() : 0;
+    };
+    EXPECT_EQ(axes(2125, 500), 1U);
+    EXPECT_EQ(axes(2375, 250), 1U) << "a gate further";
+    EXPECT_EQ(axes(2000, 250), 2U) << "half a gate off";
+    EXPECT_EQ(axes(2125, 300), 2U) << "no multiple";
+    EXPECT_EQ(axes(2125, 2250), 2U) << "nine times";
+    EXPECT_EQ(axes(2125, 0), 2U);
+    EXPECT_EQ(axes(2125, -250), 2U);
+    EXPECT_EQ(axes(2125 + 250 * 9000, 250), 2U) << "thousands of gates away";
+}
+
 TEST(CfradialLayout, MoreKindsThanAnyRadarHasAreADamagedFile) {
     std::vector<level2::Sweep> sweeps;
     const auto add = [&] {
@@ -136,9 +207,9 @@ TEST(CfradialLayout, MoreKindsThanAnyRadarHasAreADamagedFile) {
     };
     while (sweeps.size() < most_cfradial_fields)
         add();
-    EXPECT_TRUE(lay_out(small_volume(sweeps)));
+    EXPECT_TRUE(lay_out(small_volume(sweeps), RangeAxes::of_each_geometry));
     add();
-    const auto layout = lay_out(small_volume(sweeps));
+    const auto layout = lay_out(small_volume(sweeps), RangeAxes::of_each_geometry);
     ASSERT_FALSE(layout);
     EXPECT_EQ(layout.error().code, ErrorCode::unsupported);
 }

@@ -113,8 +113,11 @@ TEST_F(Cfradial, GatesStayOnTheirOwnRange) {
     SweepMoment far = small_moment(Moment::ref, {{100, 101}});
     far.first_gate_m = -375;
     far.gate_spacing_m = 1000;
+    VolumeWriteOptions options;
+    options.ranges = RangeAxes::of_each_geometry;
     write(small_volume(
-        {small_sweep(1, {small_moment(Moment::ref, {{2}, {3}})}), small_sweep(2, {far})}));
+              {small_sweep(1, {small_moment(Moment::ref, {{2}, {3}})}), small_sweep(2, {far})}),
+          options);
     Reader reader(path_);
     EXPECT_EQ(reader.values("range", 1), Values{2125});
     EXPECT_EQ(reader.values("range_2", 2), (Values{-375, 625}));
@@ -125,6 +128,31 @@ TEST_F(Cfradial, GatesStayOnTheirOwnRange) {
     EXPECT_EQ(reader.number("range_2", "meters_to_center_of_first_gate"), -375);
     EXPECT_EQ(reader.number("range_2", "meters_between_gates"), 1000);
     EXPECT_EQ(reader.text(nullptr, "field_names"), "REF,REF_status,REF_2,REF_2_status");
+}
+
+TEST_F(Cfradial, OnOneRangeLongGatesAreRepeatedAndSoMarked) {
+    SweepMoment far = small_moment(Moment::ref, {{100, 1}});
+    far.first_gate_m = 2500;
+    far.gate_spacing_m = 1000;
+    write(small_volume(
+        {small_sweep(1, {small_moment(Moment::ref, {{2, 3}, {4}})}), small_sweep(2, {far})}));
+    Reader reader(path_);
+    EXPECT_FALSE(reader.has_variable("range_2"));
+    EXPECT_EQ(reader.values("range", 8), (Values{2125, 2375, 2625, 2875, 3125, 3375, 3625, 3875}));
+    EXPECT_EQ(reader.values("REF", 24), (Values{2,   3,   -1,  -1,  -1, -1, -1, -1,  //
+                                                4,   -1,  -1,  -1,  -1, -1, -1, -1,  //
+                                                100, 100, 100, 100, -1, -1, -1, -1}));
+    EXPECT_EQ(reader.values("REF_status", 24)[20], folded);
+    EXPECT_EQ(reader.values("REF_status", 24)[23], folded);
+    EXPECT_EQ(reader.values("REF_status", 24)[2], none);
+    EXPECT_EQ(reader.values("REF_gate_repeats", 2), (Values{1, 4}));
+    EXPECT_EQ(reader.values("REF_gate_start", 2), (Values{0, 0}));
+    EXPECT_EQ(reader.values("REF_first_gate", 2), (Values{2125, 2500}));
+}
+
+TEST_F(Cfradial, GatesOfOneLengthAreNotMarked) {
+    write(one_moment(small_moment(Moment::ref, {{2, 3}})));
+    EXPECT_FALSE(Reader(path_).has_variable("REF_gate_repeats"));
 }
 
 TEST_F(Cfradial, SweepsAndRadialsAreWhereTheirIndicesSay) {

@@ -1,7 +1,7 @@
 """Opens volumes as a scientist would, with netCDF4 and with xarray, and compares every gate.
 
 Usage: check_cfradial.py PROGRAM LEVEL2_FILE GOLDEN_JSON
-Writes each volume of the file with PROGRAM and compares sweeps, radials and moments with what an
+Writes each volume of the file with PROGRAM, on one range axis and with --own-ranges, and compares sweeps, radials and moments with what an
 independent decoder found: counts of each state, minimum, maximum and mean of the values, and the
 CRC of the codes, which are put together again from values and states.
 """
@@ -35,10 +35,10 @@ def time_of(text):
     return datetime.datetime.fromisoformat(text.rstrip("Z"))
 
 
-def export(program, level2_file, directory):
+def export(program, level2_file, directory, options):
     """The facts that info prints, and the path of each volume of the file."""
     path = directory + "/out.nc"
-    command = [program, "info", level2_file, "--json", "--to", path]
+    command = [program, "info", level2_file, "--json", *options, "--to", path]
     ran = subprocess.run(command, capture_output=True, text=True)
     if ran.returncode == 0:
         facts = json.loads(ran.stdout)
@@ -60,21 +60,38 @@ def fields_of(data, moment):
             if getattr(variable, "moment", None) == moment and not name.endswith("_status")]
 
 
-def check_axis(data, name, expected, what):
+def placement(data, name, sweep):
+    """Element of the axis where the first gate of a sweep begins, and how many each gate fills."""
+    if name + "_gate_repeats" not in data.variables:
+        return 0, 1
+    return int(data[name + "_gate_start"][sweep]), int(data[name + "_gate_repeats"][sweep])
+
+
+def check_axis(data, name, sweep, expected, what):
     """The centres of the gates of a field."""
     axis = data[data[name].dimensions[1]]
     same(axis.standard_name, "projection_range_coordinate", what)
     same(axis.units, "meters", what)
-    same(axis[0], expected["first_gate_m"], what + " first gate")
-    same(axis.meters_to_center_of_first_gate, expected["first_gate_m"], what + " first gate")
-    same(axis.meters_between_gates, expected["gate_spacing_m"], what + " spacing")
-    assert np.all(np.diff(axis[:]) == expected["gate_spacing_m"]), what + " spacing"
+    step = axis.meters_between_gates
+    same(axis[0], axis.meters_to_center_of_first_gate, what + " first gate")
+    assert np.all(np.diff(axis[:]) == step), what + " spacing"
+    start, repeats = placement(data, name, sweep)
+    same(step * repeats, expected["gate_spacing_m"], what + " spacing")
+    if name + "_first_gate" not in data.variables:
+        same(axis[start], expected["first_gate_m"], what + " first gate")
+        return
+    same(data[name + "_first_gate"][sweep], expected["first_gate_m"], what + " first gate")
+    # The axis lies within the measured gate, or on its far edge.
+    offsets = axis[start:start + repeats] - expected["first_gate_m"]
+    half = expected["gate_spacing_m"] / 2
+    assert np.all((offsets > -half) & (offsets <= half)), f"{what} is at {offsets}"
+    same(data[name].dimensions[1], "range", what)
 
 
 class SweepField:
     """One sweep of one field: values as netCDF4 gives them, and the raw codes put together."""
 
-    def __init__(self, data, name, rows):
+    def __init__(self, data, name, rows, sweep):
         self.values = data[name][rows]
         self.states = np.ma.getdata(data[name + "_status"][rows]).astype(int)
         raw = data[name]
@@ -89,10 +106,25 @@ class SweepField:
         self.codes[self.states == RANGE_FOLDED] = 1
         flags = self.states >= FIRST_FILTER_FLAG
         self.codes[flags] = self.states[flags] - FIRST_FILTER_FLAG
+        self.take_measured(*placement(data, name, sweep), name)
         there = self.states != NO_DATA
         self.gates = there.sum(axis=1)
         columns = np.arange(there.shape[1])
         assert np.array_equal(there, columns < self.gates[:, None]), name + ": gaps in a radial"
+
+    def take_measured(self, start, repeats, name):
+        """Leaves each measured gate once; what repeats it must be the same."""
+        repeats = max(repeats, 1)
+        assert np.all(self.states[:, :start] == NO_DATA), name + ": values before the first gate"
+        width = (self.states.shape[1] - start) // repeats
+        end = start + width * repeats
+        assert np.all(self.states[:, end:] == NO_DATA), name + ": half a gate"
+        parts = [array[:, start:end].reshape(len(array), width, repeats)
+                 for array in (self.codes, self.states)]
+        for part in parts:
+            assert np.all(part == part[:, :, :1]), name + ": a gate differs from its repetition"
+        self.codes, self.states = (part[:, :, 0] for part in parts)
+        self.values = self.values[:, start:end:repeats]
 
 
 def check_values(fields, expected, what):
@@ -123,12 +155,12 @@ def check_codes(fields, expected, what):
     same(f"{crc:08x}", expected["crc32"], what + " CRC of the codes")
 
 
-def check_moment(data, moment, rows, expected, what):
-    fields = [(name, SweepField(data, name, rows)) for name in fields_of(data, moment)]
+def check_moment(data, moment, sweep, rows, expected, what):
+    fields = [(name, SweepField(data, name, rows, sweep)) for name in fields_of(data, moment)]
     fields = [(name, field) for name, field in fields if np.any(field.gates)]
     assert fields, what + " is missing"
     name = fields[0][0]
-    check_axis(data, name, expected, what)
+    check_axis(data, name, sweep, expected, what)
     same(data[name].units, UNITS[moment], what)
     same(data[name].ancillary_variables, name + "_status", what)
     same(data[name].level2_scale, expected["scale"], what + " scale")
@@ -173,7 +205,7 @@ def check_sweep(data, sweep, expected):
     check_radials(data, rows, expected, what)
     for moment in UNITS:
         if moment in expected["moments"]:
-            check_moment(data, moment, rows, expected["moments"][moment], f"{what} {moment}")
+            check_moment(data, moment, sweep, rows, expected["moments"][moment], f"{what} {moment}")
             continue
         for name in fields_of(data, moment):
             states = np.ma.getdata(data[name + "_status"][rows])
@@ -203,7 +235,8 @@ def check_documented(data):
     known = set(re.findall(r"`([^`]+)`", prose))
     found = set(data.variables) | set(data.dimensions) | set(data.ncattrs())
     for name in found:
-        plain = re.sub(r"_\d+(?=$|_status$)", "", name)
+        plain = re.sub(r"_\d+(?=$|_status$|_gate_|_first_)", "", name)
+        plain = re.sub(r"^[A-Z]+_(?=gate_|first_)", "REF_", plain)
         if plain.removesuffix("_status") in UNITS:
             plain = plain.removesuffix("_status")
         assert plain in known, f"{name} is not in {page}"
@@ -221,11 +254,15 @@ def check_xarray(path, sweeps):
                 assert {"time", "azimuth", "elevation", array.dims[1]} <= set(array.coords)
             for sweep, expected in enumerate(sweeps):
                 rows = slice(int(starts[sweep]), int(ends[sweep]) + 1)
-                counts = [int(array[rows].notnull().sum()) for array in arrays]
+                weights = [1 / max(1, int(dataset[name + "_gate_repeats"][sweep]))
+                           if name + "_gate_repeats" in dataset else 1 for name in names]
+                counts = [round(int(array[rows].notnull().sum()) * weight, 6)
+                          for array, weight in zip(arrays, weights)]
                 golden = expected["moments"].get(moment, {"valid": 0})
                 same(sum(counts), golden["valid"], f"xarray: sweep {sweep} {moment} valid")
                 if golden["valid"]:
-                    total = sum(float(array[rows].sum(dtype=np.float64)) for array in arrays)
+                    total = sum(float(array[rows].sum(dtype=np.float64)) * weight
+                                for array, weight in zip(arrays, weights))
                     tolerance = 1e-5 * max(1, abs(golden["mean"]))
                     near(total / golden["valid"], golden["mean"], tolerance,
                          f"xarray: sweep {sweep} {moment} mean")
@@ -234,12 +271,9 @@ def check_xarray(path, sweeps):
             near(float(error / np.timedelta64(1, "s")), 0, 1e-5, "xarray: time")
 
 
-def main():
-    program, level2_file, golden_file = sys.argv[1:4]
-    with open(golden_file, encoding="utf-8") as file:
-        golden = json.load(file)
+def check_export(program, level2_file, golden, options):
     with tempfile.TemporaryDirectory() as directory:
-        facts, paths = export(program, level2_file, directory)
+        facts, paths = export(program, level2_file, directory, options)
         same(facts["n_sweeps"], golden["n_sweeps"], "sweeps that info tells of")
         rest = golden["sweeps"]
         for path in paths:
@@ -251,8 +285,20 @@ def main():
                 same(len(data.dimensions["time"]), sum(s["n_radials"] for s in sweeps), "radials")
                 for sweep, expected in enumerate(sweeps):
                     check_sweep(data, sweep, expected)
+                if not options:
+                    # 2026-11-28: Py-ART and xradar read the fields on `range` alone.
+                    same([name for name in data.dimensions if name.startswith("range_")], [],
+                         "further axes")
             check_xarray(path, sweeps)
         same(len(rest), 0, "sweeps that were not written")
+
+
+def main():
+    program, level2_file, golden_file = sys.argv[1:4]
+    with open(golden_file, encoding="utf-8") as file:
+        golden = json.load(file)
+    for options in ([], ["--own-ranges"]):
+        check_export(program, level2_file, golden, options)
 
 
 if __name__ == "__main__":

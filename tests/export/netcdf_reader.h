@@ -53,6 +53,13 @@ class Reader {
         EXPECT_EQ(nc_inq_dimlen(id_, found, &length), NC_NOERR) << dimension;
         return length;
     }
+    bool is_unlimited(const char* dimension) {
+        int wanted = -1;
+        int unlimited = -1;
+        EXPECT_EQ(nc_inq_dimid(id_, dimension, &wanted), NC_NOERR) << dimension;
+        EXPECT_EQ(nc_inq_unlimdim(id_, &unlimited), NC_NOERR);
+        return unlimited == wanted;
+    }
     bool has_variable(const char* name) {
         int found = -1;
         return nc_inq_varid(id_, name, &found) == NC_NOERR;

@@ -1,13 +1,14 @@
-// stormcellar/export/cfradial.h -- writes a volume as CfRadial 1.4 netCDF-4, with every gate where
-// it was measured.
+// stormcellar/export/cfradial.h -- writes a volume as CfRadial 1.4 netCDF-4, with the codes as the
+// radar sent them.
 //
-// The dimensions are time (the radials of all sweeps, in file order), sweep, string_length, and
-// range, range_2, ... for each pair of first gate and spacing in the volume. A moment is a packed
-// integer variable named REF, VEL, SW, ZDR, PHI, RHO or CFP on (time, range): it holds the codes as
-// they came, with scale_factor and add_offset in double. Gates that differ from the most common
-// range, scale or word size go to a second variable (REF_2 on range_2) instead of being resampled.
-// Whatever is not a value is _FillValue; REF_status tells valid, below threshold, range folded and
-// no data, and the flags of CFP, apart. docs/export.md lists every variable.
+// The dimensions are time (the radials of all sweeps, in file order), sweep, string_length and
+// range. A moment is a packed integer variable named REF, VEL, SW, ZDR, PHI, RHO or CFP on (time,
+// range): it holds the codes as they came, with scale_factor and add_offset in double. If the gates
+// of a volume differ in length, RangeAxes chooses between one axis, on which long gates are
+// repeated, and one axis for each pair of first gate and spacing (REF_2 on range_2). Gates that
+// differ in scale or word size are variables of their own (REF_2). No code is changed. Whatever is
+// not a value is _FillValue; REF_status tells valid, below threshold, range folded and no data, and
+// the flags of CFP, apart. docs/export.md lists every variable.
 //
 // If the volume has no radials, time and sweep have no elements. If it has no position, latitude,
 // longitude and altitude are _FillValue. If it has no VCP, there is no scan_id, and fixed_angle is
@@ -20,11 +21,13 @@
 // Threads   Any thread may call. Calls wait for each other, because the netCDF library is not
 //           thread-safe.
 // Errors    See write_volume().
-// Accuracy  Unpacked in double, a value is within 1e-12 (8-bit codes) or 1e-11 (16-bit codes) of
-//           (code - offset) / scale.
+// Accuracy  On one axis, the center of each gate lies within the measured gate that it repeats, or
+//           on its far edge. Unpacked in double, a value is within 1e-12 (8-bit codes) or 1e-11
+//           (16-bit codes) of (code - offset) / scale.
 // Source    CfRadial Data File Format, version 1.4, NCAR/EOL, 2016-08-01.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -35,11 +38,21 @@
 
 namespace stormcellar::netcdf {
 
+enum class RangeAxes : std::uint8_t {
+    // One axis with the shortest spacing of the volume. A gate of N times that length stands N
+    // times: a gate of 1 km four times at 250 m. REF_gate_repeats and so on say so of each sweep.
+    // Programs that read one axis only (Py-ART, xradar) then find every moment. If a spacing is not
+    // 1 to 8 times the shortest, or gates of the shortest do not meet, each geometry has its own.
+    one_if_possible,
+    of_each_geometry,  // Every gate stands once, where it was measured.
+};
+
 struct VolumeWriteOptions {
     std::string source_file;         // name of the raw file; empty: not written
     bool complete = true;            // the volume is whole
     std::vector<std::string> notes;  // what readers should know of the volume, e.g. its problems
     int deflate_level = 1;           // 0 to 9; 0: not compressed
+    RangeAxes ranges = RangeAxes::one_if_possible;
 };
 
 // Writes the file. Errors: bad_argument for a deflate level out of range, a sweep without radials,
