@@ -68,10 +68,10 @@ void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
                      time_attributes(grid.frame_time ? "frame time" : "start of the volume"));
     const int z = file.variable("z", NC_DOUBLE, {size.z});
     write_attributes(file, z, height_attributes());
-    const std::array<double, 1> seconds = {
-        std::chrono::duration<double>(grid.frame_time.value_or(grid.time).time_since_epoch())
-            .count()};
-    file.write(time, seconds);
+    // One time a file: netCDF's own choice for an unlimited dimension would take 4 kB.
+    file.chunks(time, {1});
+    const auto instant = grid.frame_time.value_or(grid.time).time_since_epoch();
+    file.write_first(time, std::chrono::duration<double>(instant).count());
     file.write(z, std::span(grid.spec.levels_m));
     write_map_axes(file, grid.spec, {size.y, size.x});
 }
@@ -339,7 +339,11 @@ Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWrit
     NetcdfBuilder file;
     const grid::GridSpec& spec = grids.front().spec;
     const MapNames names = map_names(spec);
-    const Dimensions size{file.dimension("time", 1), file.dimension("z", spec.levels_m.size()),
+    // Unlimited, so that programs can join files along it (ncrcat). Axes come first: they give it
+    // its one element.
+    constexpr std::size_t unlimited = 0;
+    const Dimensions size{file.dimension("time", unlimited),
+                          file.dimension("z", spec.levels_m.size()),
                           file.dimension(names.y, static_cast<std::size_t>(spec.ny)),
                           file.dimension(names.x, static_cast<std::size_t>(spec.nx))};
     write_provenance(file, grids);

@@ -137,6 +137,12 @@ void NetcdfBuilder::write(int variable, std::span<const char> characters) {
     good(nc_put_var_text(id_, variable, characters.data()), "write");
 }
 
+void NetcdfBuilder::write_first(int variable, double value) {
+    if (failure_ != NC_NOERR) return;
+    const std::size_t first = 0;
+    good(nc_put_var1_double(id_, variable, &first, &value), "write");
+}
+
 void NetcdfBuilder::write_rows(int variable, const Rows& rows, std::span<const int> values) {
     if (failure_ != NC_NOERR || values.empty()) return;
     const std::array<std::size_t, 2> start = {rows.first, 0};

@@ -62,6 +62,9 @@ class NetcdfBuilder {
         std::size_t count = 0;
         std::size_t width = 0;
     };
+    // Writes element 0 of a variable on an unlimited dimension; the dimension then has a length of
+    // 1, as write() needs it for the other variables.
+    void write_first(int variable, double value);
     void write_rows(int variable, const Rows& rows, std::span<const int> values);
     void write_rows(int variable, const Rows& rows, std::span<const signed char> values);
 

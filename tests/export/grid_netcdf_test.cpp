@@ -79,6 +79,8 @@ TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
     EXPECT_EQ(reader.values("x", 5), (std::vector<double>{-2000, -1000, 0, 1000, 2000}));
     EXPECT_EQ(reader.values("y", 4), (std::vector<double>{-1500, -500, 500, 1500}));
     EXPECT_NEAR(reader.values("time", 1)[0], 19068 * 86400 + 522.596, 1e-6);
+    EXPECT_EQ(reader.length("time"), 1U);
+    EXPECT_TRUE(reader.is_unlimited("time")) << "2026-11-28: ncrcat joined no files";
 }
 
 TEST_F(GridNetcdf, CountsAndWeightsOfAMosaicAreThereWhenAskedFor) {
