@@ -88,6 +88,10 @@ export class App {
     get table(): ColorTable | undefined {
         return this.book?.of(this.state, this.state.moment);
     }
+    // The one of what is drawn: while another moment comes, the old one keeps its colors.
+    get shownTable(): ColorTable | undefined {
+        return this.shown ? this.book?.of(this.state, this.shown.moment) : undefined;
+    }
     get unit(): string {
         return this.domain?.moments.find(one => one.moment === this.state.moment)?.units ?? '';
     }

@@ -22,6 +22,7 @@ const mostMovingDE = 20;
 const leastStillAfterMs = 180;
 const mostStillAfterMs = 1000;
 const leastBetweenMs = 150; // of pictures as bricks come
+const longestWishMs = 30_000;
 
 // Draws over the picture in pixels of the page.
 export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) => void;
@@ -48,6 +49,7 @@ export class Drawing {
     private lastMs = 0; // of the last frame
     private frames = 0;
     private isFinal = false;
+    private wish: { act: () => void } | null = null; // what waits for a fine picture
 
     begin(app: App): void {
         this.app = app;
@@ -150,14 +152,31 @@ export class Drawing {
         this.lookedAt = view;
     }
 
+    // Acts once a fine picture of what is shown is drawn, while it is on the canvas; not at all if none comes.
+    whenFine(act: () => void, giveUp: () => void): void {
+        const wish = (this.wish = { act });
+        window.setTimeout(() => {
+            if (this.wish !== wish) return;
+            this.wish = null;
+            giveUp();
+        }, longestWishMs);
+        this.draw();
+    }
+
+    // All of what the view asks for is in the picture, but for the detail of a grid in parts.
+    private get isComplete(): boolean {
+        const { shown, state } = this.app!;
+        return !this.layers!.isWaiting && !this.ground!.isWaiting && shown?.moment === state.moment && shown.domain === state.domain && !this.renderer.isLost;
+    }
+
     private drawNow(): void {
         this.isDrawing = false;
         const app = this.app!;
         const geometry = this.geometry();
-        const { table, shown, state } = app;
+        const { shownTable: table, shown, state } = app;
         if (!geometry || !table || !shown) return;
-        const isMoving = performance.now() - this.movedAt < this.stillAfterMs;
-        const rung = this.rung(isMoving || app.player.isPlaying);
+        const isMoving = !this.wish && performance.now() - this.movedAt < this.stillAfterMs;
+        const rung = this.rung(isMoving || (app.player.isPlaying && !this.wish));
         this.stream(geometry, rung);
         const frame: Frame = {
             geometry: rung.grain > 1 ? this.geometry(rung.grain)! : geometry,
@@ -180,24 +199,31 @@ export class Drawing {
         this.drawOver(geometry);
         this.bar.show(table, shownUnit(table.unit, state.units), state.least);
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
-        if (isMoving) {
-            window.setTimeout(() => this.draw(), this.stillAfterMs);
-        } else if (!this.isFinal && !this.layers!.isWaiting && !this.ground!.isWaiting && shown.moment === state.moment && shown.domain === state.domain) {
-            this.isFinal = true;
-            const detail = this.streaming!.detail;
-            const said = [
-                texts.drawn(ms, rung, fetches),
-                detail && texts.detail(detail.coarsest, detail.missing),
-                this.windows!.coarsest !== (detail?.coarsest ?? 0) && texts.detailOfLayers(this.windows!.coarsest),
-                this.layers!.isLeftOut && texts.surfaceLeftOut,
-            ];
-            app.say(said.filter(Boolean).join(' · '), false);
-            const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
-            element('held').textContent = held;
-            this.tell({ fetches, missing: detail?.missing ?? 0, held });
-            document.documentElement.dataset['drawn'] = shown.key;
-            document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
-        }
+        if (isMoving) window.setTimeout(() => this.draw(), this.stillAfterMs);
+        else if (!this.isFinal && this.isComplete) this.end(rung, ms, fetches);
+    }
+
+    // The picture is as it stays, until something changes.
+    private end(rung: Rung, ms: number, fetches: number | null): void {
+        const app = this.app!;
+        this.isFinal = true;
+        const detail = this.streaming!.detail;
+        const said = [
+            texts.drawn(ms, rung, fetches),
+            detail && texts.detail(detail.coarsest, detail.missing),
+            this.windows!.coarsest !== (detail?.coarsest ?? 0) && texts.detailOfLayers(this.windows!.coarsest),
+            this.layers!.isLeftOut && texts.surfaceLeftOut,
+        ];
+        app.say(said.filter(Boolean).join(' · '), false);
+        const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
+        element('held').textContent = held;
+        this.tell({ fetches, missing: detail?.missing ?? 0, held });
+        document.documentElement.dataset['drawn'] = app.shown!.key;
+        document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
+        if (!this.wish || (detail?.missing ?? 0) > 0) return;
+        const { act } = this.wish;
+        this.wish = null;
+        act();
     }
 
     // What tools mark has changed, the scene has not.

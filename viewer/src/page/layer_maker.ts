@@ -112,7 +112,7 @@ export class LayerMaker {
     // grid is asked for.
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
         this.isLeftOut = false;
-        const { shown, table, state } = this.app;
+        const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
         if (!shown || !table || isUsual) return this.nothing();

@@ -39,15 +39,16 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
     });
 }
 
-// `moment`: with its unit, as the title does not name it.
+// As large as the page shows it: a picture that was drawn coarser is enlarged below the labels, as on the page.
+// `moment` is named because the title does not name it.
 export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement, moment: string): HTMLCanvasElement {
     const all = document.createElement('canvas');
-    all.width = picture.width;
-    all.height = picture.height;
+    all.width = labels.width;
+    all.height = labels.height;
     const pen = all.getContext('2d')!;
-    pen.drawImage(picture, 0, 0);
+    pen.drawImage(picture, 0, 0, all.width, all.height);
     pen.drawImage(labels, 0, 0);
-    const ratio = picture.width / picture.clientWidth;
+    const ratio = all.width / labels.clientWidth;
     const bar = element<HTMLCanvasElement>('bar');
     const place = bar.getBoundingClientRect();
     pen.drawImage(bar, place.left * ratio, place.top * ratio, place.width * ratio, place.height * ratio);
@@ -59,6 +60,6 @@ export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement
     haloed(pen, `${first ?? ''}  ${moment}`, 14, 18, shades.text);
     pen.font = fontOf(12);
     more.forEach((line, i) => haloed(pen, line, 14, 18 + (i + 1) * lineHeight, shades.text));
-    drawLegend(pen, picture.width / scale - 12, (place.bottom * ratio) / scale + 8);
+    drawLegend(pen, all.width / scale - 12, (place.bottom * ratio) / scale + 8);
     return all;
 }

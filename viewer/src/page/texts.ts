@@ -110,6 +110,8 @@ export const texts = {
     share: 'Copy link',
     shared: 'The link is in the clipboard.',
     save: 'Save picture',
+    saving: 'Saving the picture',
+    notSaved: 'No picture was saved, because it did not become complete. Try again.',
     command: 'Copy command',
     commandCopied: 'The command is in the clipboard.',
     commandOf: (raw: string) => `The command is in the clipboard. It reads ${raw}, which Raw volume gives.`,

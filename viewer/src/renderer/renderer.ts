@@ -106,6 +106,10 @@ export class Renderer {
     get isSoftware(): boolean {
         return this.graphics.isSoftware;
     }
+    // The graphics processor forgot all, and nothing is drawn.
+    get isLost(): boolean {
+        return this.gl.isContextLost();
+    }
     get compiledVariants(): string[] {
         return this.graphics.compiledVariants;
     }

@@ -107,7 +107,7 @@ export class SectionPlot {
         const pen = this.canvas.getContext('2d')!;
         const { field } = section;
         const image = new ImageData(field.width, field.height);
-        image.data.set(sectionPixels(section, this.app.table!, this.app.state.least));
+        image.data.set(sectionPixels(section, this.app.shownTable!, this.app.state.least));
         pen.putImageData(image, Math.round(left * ratio), Math.round(top * ratio));
         pen.scale(ratio, ratio);
         this.drawAxes(pen, section, width, height);

@@ -21,11 +21,19 @@ function copy(app: App, text: string, said: string): void {
     );
 }
 
+// A picture of what is on the screen, or none: with the time and the moment of what is drawn, not of what is coming.
 function save(app: App, drawing: Drawing): void {
-    const link = document.createElement('a');
-    link.download = `${app.state.domain}_${app.state.moment}_${(app.shown?.time ?? '').replace(/:/g, '')}.png`;
-    link.href = snapshotOf(drawing.picture, drawing.labels, app.state.moment).toDataURL('image/png');
-    link.click();
+    app.say(texts.saving);
+    drawing.whenFine(
+        () => {
+            const { domain, moment, time } = app.shown!;
+            const link = document.createElement('a');
+            link.download = `${domain}_${moment}_${time.replace(/:/g, '')}.png`;
+            link.href = snapshotOf(drawing.picture, drawing.labels, moment).toDataURL('image/png');
+            link.click();
+        },
+        () => app.say(texts.notSaved),
+    );
 }
 
 const savedFiles = new Set<string>(); // of commands that were copied
