@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "archive/packed_stream.h"
+#include "archive/plain_source.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::archive {
@@ -26,6 +27,11 @@ constexpr std::size_t read_block_bytes = std::size_t{256} << 10;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // the most that are named
+// What libarchive may read for one header, a block of its own in addition. A long name has a header
+// of a few kilobytes.
+constexpr std::uint64_t most_header_bytes = std::uint64_t{1} << 20;
+// A zip's directory is read with its first header: a member takes some 100 bytes.
+constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
     return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
@@ -98,6 +104,8 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
         return "is a link";
     }
     if (archive_entry_filetype(entry) != AE_IFREG) return "is not a regular file";
+    // Nobody packs radar data so, and libarchive would make the holes of it.
+    if (archive_entry_sparse_count(entry) > 0) return "is a sparse file";
     if (archive_entry_is_encrypted(entry) != 0) return "is encrypted";
     if (name.empty()) return "has no name";
     if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";
@@ -110,7 +118,9 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
 
 struct ArchiveReader::Impl {
     Limits limits;
+    HeaderBudget header;
     std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
+    std::unique_ptr<PlainSource> plain;    // null: it is packed
     Handle handle;                         // must end before what it reads from
     // size of the archive; 0: not known, so what was read of it counts
     std::uint64_t source_bytes = 0;
@@ -130,18 +140,35 @@ struct ArchiveReader::Impl {
     std::unique_ptr<Impl> inner;
 
     // Returns false if it is not an archive. The library may take zeros for an empty archive.
-    bool begin(std::span<const std::byte> start, const PackedStream::OpenSource& source) {
+    bool begin(std::span<const std::byte> start, const PackedStream::OpenSource& source,
+               PlainSource::ReadAt read_at) {
         handle = new_reader();
         if (!handle) return false;
+        if (source_bytes > limits.archive_bytes) {
+            end_with(fmt::format("has more than {} bytes: it is not read", limits.archive_bytes));
+            return true;
+        }
         if (is_packed(start)) {
             packed = PackedStream::open(source, limits.small_codecs,
                                         [this](std::uint64_t read) { return most_bytes(read); });
-            if (!packed || !packed->feed(handle.get())) return false;
-        } else if (!source(handle.get())) {
-            return false;
+            if (!packed || !packed->feed(handle.get(), header)) return false;
+        } else {
+            plain = std::make_unique<PlainSource>(std::move(read_at), source_bytes, header);
+            if (!plain->feed(handle.get())) return false;
         }
-        const int code = archive_read_next_header(handle.get(), &first);
+        const bool may_be_zip = begins_with(start, "PK");
+        const int code = read_header(first, may_be_zip ? most_directory_bytes : most_header_bytes);
+        if (end_at_bound()) return true;
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
+    }
+
+    // The data of the member before are passed over first: they are no header.
+    int read_header(::archive_entry*& entry, std::uint64_t most) {
+        header.begin(most);
+        const int code = archive_read_next_header(handle.get(), &entry);
+        header.end();
+        if (header.is_spent()) entry = nullptr;
+        return code;
     }
 
     void leave_out(const std::string& name, std::string reason) {
@@ -160,7 +187,8 @@ struct ArchiveReader::Impl {
         if (at_end) return nullptr;
         if (first != nullptr) return std::exchange(first, nullptr);
         ::archive_entry* entry = nullptr;
-        const int code = archive_read_next_header(handle.get(), &entry);
+        const bool passed = archive_read_data_skip(handle.get()) >= ARCHIVE_WARN;
+        const int code = passed ? read_header(entry, most_header_bytes) : ARCHIVE_FATAL;
         if (code >= ARCHIVE_WARN && code != ARCHIVE_EOF) return entry;
         at_end = true;
         if (code == ARCHIVE_EOF && has_its_end()) return nullptr;
@@ -175,8 +203,13 @@ struct ArchiveReader::Impl {
         return nullptr;
     }
 
-    // Returns true if reading ended because too much came out of a packed archive.
+    // Returns true if reading ended because too much came out of a packed archive, or a header was
+    // too long.
     bool end_at_bound() {
+        if (header.is_spent()) {
+            end_with("has a header that is too long: the rest is not read");
+            return true;
+        }
         if (!packed || packed->met_bound() == 0) return false;
         end_with(fmt::format("unpacks to more than {} bytes: the rest is not read",
                              packed->met_bound()));
@@ -185,6 +218,7 @@ struct ArchiveReader::Impl {
 
     // A zip ends with its directory, whose last record has 22 bytes and maybe a comment.
     [[nodiscard]] bool may_have_its_end() const {
+        if (at_end && !is_cut) return true;
         if (!is_zip(handle.get())) return has_its_end();
         if (!tail) return true;
         const std::vector<std::byte> last = tail();
@@ -361,9 +395,17 @@ struct ArchiveReader::Impl {
             const auto last = bytes.last(std::min(bytes.size(), tar_block_bytes));
             return std::vector<std::byte>(last.begin(), last.end());
         };
-        const bool begun = impl->begin(start, [bytes](::archive* handle) {
-            return archive_read_open_memory(handle, bytes.data(), bytes.size()) == ARCHIVE_OK;
-        });
+        const bool begun = impl->begin(
+            start,
+            [bytes](::archive* handle) {
+                return archive_read_open_memory(handle, bytes.data(), bytes.size()) == ARCHIVE_OK;
+            },
+            [bytes](std::uint64_t at, std::span<std::byte> into) {
+                const auto rest = bytes.subspan(std::min<std::uint64_t>(bytes.size(), at));
+                const auto piece = rest.first(std::min(rest.size(), into.size()));
+                std::ranges::copy(piece, into.begin());
+                return static_cast<std::int64_t>(piece.size());
+            });
         return begun ? std::move(impl) : nullptr;
     }
 };
@@ -402,9 +444,14 @@ std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) 
         return last;
     };
     ::lseek(descriptor, 0, SEEK_SET);
-    const bool begun = impl->begin(head, [descriptor](::archive* handle) {
-        return archive_read_open_fd(handle, descriptor, read_block_bytes) == ARCHIVE_OK;
-    });
+    const bool begun = impl->begin(
+        head,
+        [descriptor](::archive* handle) {
+            return archive_read_open_fd(handle, descriptor, read_block_bytes) == ARCHIVE_OK;
+        },
+        [descriptor](std::uint64_t at, std::span<std::byte> into) {
+            return ::pread(descriptor, into.data(), into.size(), static_cast<off_t>(at));
+        });
     if (!begun) return std::nullopt;
     return ArchiveReader(std::move(impl));
 }

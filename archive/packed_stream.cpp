@@ -25,6 +25,14 @@ bool support_filters(::archive* handle, bool small_codecs) {
 
 }  // namespace
 
+bool HeaderBudget::take(::archive* handle, std::uint64_t bytes) {
+    if (!counts_) return true;
+    is_spent_ = is_spent_ || bytes > left_;
+    left_ -= std::min(left_, bytes);
+    if (is_spent_) archive_set_error(handle, EFBIG, "a header is too long");
+    return !is_spent_;
+}
+
 void CloseArchive::operator()(::archive* archive) const {
     archive_read_free(archive);
 }
@@ -49,7 +57,8 @@ std::unique_ptr<PackedStream> PackedStream::open(const OpenSource& source, bool 
     return std::unique_ptr<PackedStream>(new PackedStream(std::move(handle), std::move(bound)));
 }
 
-bool PackedStream::feed(::archive* handle) {
+bool PackedStream::feed(::archive* handle, HeaderBudget& header) {
+    header_ = &header;
     const auto read = [](::archive* reader, void* self, const void** bytes) -> la_ssize_t {
         return static_cast<PackedStream*>(self)->read_more(reader, bytes);
     };
@@ -70,6 +79,7 @@ std::int64_t PackedStream::read_more(::archive* handle, const void** bytes) {
         archive_set_error(handle, EFBIG, "it unpacks to too many bytes");
         return ARCHIVE_FATAL;
     }
+    if (!header_->take(handle, static_cast<std::uint64_t>(got))) return ARCHIVE_FATAL;
     *bytes = block_.data();
     return got;
 }

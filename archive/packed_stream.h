@@ -18,6 +18,26 @@ struct archive;
 
 namespace stormcellar::archive {
 
+// Counts what libarchive reads while it looks for the next header. It keeps what a header says (the
+// map of a sparse file takes twelve times its size, the directory of a zip three times) before
+// anybody sees it, so this is the only place where that can be bounded.
+class HeaderBudget {
+  public:
+    void begin(std::uint64_t most) {
+        left_ = most;
+        counts_ = true;
+    }
+    void end() { counts_ = false; }
+    // Returns false, and sets the handle's error, if a header is longer than it may be.
+    [[nodiscard]] bool take(::archive* handle, std::uint64_t bytes);
+    [[nodiscard]] bool is_spent() const { return is_spent_; }
+
+  private:
+    std::uint64_t left_ = 0;
+    bool counts_ = false;
+    bool is_spent_ = false;
+};
+
 struct CloseArchive {
     void operator()(::archive* archive) const;
 };
@@ -39,7 +59,8 @@ class PackedStream {
     [[nodiscard]] static std::unique_ptr<PackedStream> open(const OpenSource& source,
                                                             bool small_codecs, Bound bound);
     // Lets `handle`, which must end before this object, read the unpacked bytes.
-    [[nodiscard]] bool feed(::archive* handle);
+    // `header`, which must outlive `handle`, counts what its headers take.
+    [[nodiscard]] bool feed(::archive* handle, HeaderBudget& header);
     // Returns the bound in bytes if it was reached.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
 
@@ -52,6 +73,7 @@ class PackedStream {
     std::vector<std::byte> block_;
     std::uint64_t unpacked_ = 0;
     std::uint64_t met_bound_ = 0;
+    HeaderBudget* header_ = nullptr;
 };
 
 }  // namespace stormcellar::archive

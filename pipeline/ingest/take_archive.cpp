@@ -22,6 +22,7 @@ using catalog::FileState;
 // about its own size; raw messages inside it unpack to some ten times that.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
+    limits.archive_bytes = std::uint64_t{8} << 30;
     limits.members = 10'000;
     limits.member_bytes = std::min(options.most_file_bytes, std::uint64_t{96} << 20);
     limits.all_bytes = std::uint64_t{8} << 30;

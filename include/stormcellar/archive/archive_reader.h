@@ -7,9 +7,10 @@
 // archive are read too, one level deep.
 //
 // The input is hostile, so `Limits` bounds whatever it can claim: at a bound the reader stops and
-// says so. Data that is unpacked only to be passed over counts as well. From a damaged archive the
-// reader returns the members that are whole. Formats, found by content with libarchive: tar (also
-// compressed by gzip, bzip2, xz, zstd or compress) and zip.
+// says so. Data that is unpacked only to be passed over counts as well, and so does what one header
+// makes libarchive read (1 MiB; the directory of a zip 16 MiB). Sparse files are left out. From a
+// damaged archive the reader returns the members that are whole. Formats, found by content with
+// libarchive: tar (also compressed by gzip, bzip2, xz, zstd or compress) and zip.
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.
@@ -35,7 +36,8 @@
 namespace stormcellar::archive {
 
 struct Limits {
-    std::size_t members = 100'000;  // members of any kind
+    std::uint64_t archive_bytes = std::uint64_t{256} << 30;  // of the archive itself
+    std::size_t members = 100'000;                           // members of any kind
     // of one member: twice the size of any known volume
     std::uint64_t member_bytes = std::uint64_t{256} << 20;
     std::uint64_t all_bytes = std::uint64_t{256} << 30;  // of all members together

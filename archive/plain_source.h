@@ -1,0 +1,40 @@
+// archive/plain_source.h -- gives libarchive the bytes of an archive that is not packed, and counts
+// those that its headers take.
+//
+// This is used only inside the archive room.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "archive/packed_stream.h"
+
+namespace stormcellar::archive {
+
+class PlainSource {
+  public:
+    // Reads at most as many bytes as fit, from that place. Negative: they cannot be read.
+    using ReadAt = std::function<std::int64_t(std::uint64_t at, std::span<std::byte> into)>;
+    PlainSource(ReadAt read_at, std::uint64_t size, HeaderBudget& header);
+
+    // Lets `handle`, which must end before this object, read the bytes.
+    [[nodiscard]] bool feed(::archive* handle);
+
+  private:
+    std::int64_t read_more(::archive* handle, const void** bytes);
+    std::int64_t skip(std::int64_t bytes);
+    std::int64_t seek(std::int64_t offset, int whence);
+
+    ReadAt read_at_;
+    std::uint64_t size_;
+    HeaderBudget& header_;
+    std::uint64_t at_ = 0;
+    std::vector<std::byte> block_;
+};
+
+}  // namespace stormcellar::archive
