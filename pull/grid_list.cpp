@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include <nlohmann/json.hpp>
@@ -19,8 +20,11 @@ std::string text_at(const json& object, const char* key) {
 bool is_wanted(const std::string& domain, const PullSource& source) {
     if (!cache::is_domain_name(domain) || !cache::is_part(domain)) return false;
     const auto group = cache::group_of(domain);
-    return source.domains.empty() ||
-           std::ranges::find(source.domains, group) != source.domains.end();
+    const auto has = [](const std::vector<std::string>& wanted, std::string_view name) {
+        return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
+    };
+    return has(source.domains, group) &&
+           has(source.stations, std::string_view{domain}.substr(group.size() + 1));
 }
 
 std::optional<cache::GridName> name_of(const json& entry, UtcTime now) {

@@ -7,6 +7,7 @@
 #include "base/byte_size.h"
 #include "base/printable.h"
 #include "base/toml_file.h"
+#include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 
 namespace stormcellar::pull {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t most_sources = 32;  // each has a thread
 constexpr std::size_t most_domains = 64;
+constexpr std::size_t most_stations = 1024;
 constexpr std::size_t longest_url = 512;
 
 // tests/pull/pull_config_test.cpp reads the shipped file, which has all of them.
@@ -58,6 +60,17 @@ void read_domains(TomlTable& from, PullSource& source) {
     source.domains = *domains;
 }
 
+void read_stations(TomlTable& from, PullSource& source) {
+    const auto stations = from.texts("stations");
+    if (!stations) return;
+    if (stations->size() > most_stations) from.complain("stations", "has too many entries");
+    for (const std::string& icao : *stations) {
+        if (!is_icao(icao))
+            from.complain("stations", fmt::format("\"{}\" is not an ICAO", printable(icao)));
+    }
+    source.stations = *stations;
+}
+
 void read_source(TomlTable from, std::vector<PullSource>& sources) {
     PullSource source;
     source.name = from.text("name").value_or("");
@@ -73,6 +86,7 @@ void read_source(TomlTable from, std::vector<PullSource>& sources) {
         from.complain("url", "must be an address such as http://north.example.org:8090");
     }
     read_domains(from, source);
+    read_stations(from, source);
     sources.push_back(std::move(source));
 }
 

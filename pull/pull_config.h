@@ -15,9 +15,10 @@ namespace stormcellar::pull {
 
 // A machine whose stormcellar-web is asked.
 struct PullSource {
-    std::string name;                  // of its directory
-    std::string url;                   // "http://HOST:PORT" and perhaps a path, without a last '/'
-    std::vector<std::string> domains;  // whose partials are pulled; empty: those of all
+    std::string name;  // of its directory
+    std::string url;   // "http://HOST:PORT" and perhaps a path, without a last '/'
+    std::vector<std::string> domains = {};   // whose partials are pulled; empty: those of all
+    std::vector<std::string> stations = {};  // the same
     bool operator==(const PullSource&) const = default;
 };
 

@@ -50,6 +50,8 @@ Result<PulledGrids> PulledGrids::open(FileSystem& file_system, fs::path director
     const auto store = cache::StoreWriter::open(file_system, directory, true);
     if (!store) return pass_on(store);
     PulledGrids grids(file_system, std::move(directory), limits);
+    std::error_code ignored;
+    fs::remove(grids.incoming(), ignored);
     const auto domains = store->domains();
     if (!domains) return pass_on(domains);
     for (const std::string& domain : *domains) {
@@ -82,13 +84,19 @@ std::string PulledGrids::tag_of(const cache::GridName& name) {
 }
 
 Result<PulledGrids::Incoming> PulledGrids::begin(const cache::GridName& name) {
-    const fs::path path = path_of(name);
+    auto file = AtomicFile::create(*file_system_, incoming());
+    if (!file) return pass_on(file);
+    return Incoming(name, std::move(*file));
+}
+
+Status PulledGrids::give_name(Incoming& incoming_file) {
+    const fs::path path = path_of(incoming_file.name_);
+    if (Status whole = incoming_file.file_.commit(); !whole) return whole;
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
-    auto file = AtomicFile::create(*file_system_, path);
-    if (!file) return pass_on(file);
-    return Incoming(name, std::move(*file));
+    if (Status named = file_system_->rename(incoming(), path); !named) return named;
+    return file_system_->sync_directory(path.parent_path());
 }
 
 Status PulledGrids::keep(Incoming incoming, const std::string& tag) {
@@ -100,18 +108,27 @@ Status PulledGrids::keep(Incoming incoming, const std::string& tag) {
         if (why.starts_with(temporary)) why.erase(0, temporary.size());
         return fail(good.error().code, "{}: {}", path_of(incoming.name_).native(), why);
     }
-    if (Status kept = incoming.file_.commit(); !kept) return kept;
+    if (Status named = give_name(incoming); !named) {
+        std::error_code ignored;
+        fs::remove(this->incoming(), ignored);
+        remove_empty_above(path_of(incoming.name_));
+        return named;
+    }
     remember(incoming.name_, tag);
     return {};
+}
+
+void PulledGrids::remove_empty_above(const fs::path& path) const {
+    std::error_code ignored;
+    for (fs::path above = path.parent_path(); above != directory_; above = above.parent_path())
+        if (!fs::remove(above, ignored)) break;
 }
 
 // The directories of a day and above go with their last grid.
 void PulledGrids::remove(const cache::GridName& name) {
     const fs::path path = path_of(name);
     (void)file_system_->remove(path);
-    std::error_code ignored;
-    for (fs::path above = path.parent_path(); above != directory_; above = above.parent_path())
-        if (!fs::remove(above, ignored)) break;
+    remove_empty_above(path);
     bytes_ -= grids_[name].bytes;
     grids_.erase(name);
 }
@@ -123,7 +140,8 @@ std::size_t PulledGrids::prune(UtcTime now) {
     std::ranges::sort(oldest_first, {}, &cache::GridName::time);
     std::size_t removed = 0;
     for (const cache::GridName& name : oldest_first) {
-        if (name.time >= now - limits_.age && bytes_ <= limits_.bytes) break;
+        const bool has_room = bytes_ <= limits_.bytes && grids_.size() <= limits_.grids;
+        if (name.time >= now - limits_.age && has_room) break;
         remove(name);
         ++removed;
     }

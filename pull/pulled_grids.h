@@ -3,7 +3,8 @@
 // It has the layout of a cache (stormcellar/cache/grid_name.h). A grid appears under its name only
 // after all of it was checked: that it is a grid file whose every brick has its checksum, the one
 // that was asked for by station, moment and time, and the one that the server named by its tag.
-// While it comes it has a temporary name; those that a killed program left are removed by open().
+// While it comes it lies beside the domains under a temporary name, and directories are made only
+// for what is kept; what a killed program left is removed by open().
 // One process writes to a directory.
 //
 // Units     Sizes are in bytes on disk.
@@ -28,6 +29,9 @@ namespace stormcellar::pull {
 struct PulledLimits {
     std::uint64_t bytes = 0;
     std::chrono::seconds age{0};
+    // A nation's radars make some 60,000 of one moment for a mosaic in a day. Each takes a file and
+    // some memory, however small it is.
+    std::size_t grids = 100'000;
 };
 
 class PulledGrids {
@@ -55,8 +59,8 @@ class PulledGrids {
     // Checks the grid and gives it its name. `tag` is what the server said.
     Status keep(Incoming incoming, const std::string& tag);
 
-    // Removes grids that are too old, then the oldest until the limit of bytes is kept. Returns how
-    // many were removed.
+    // Removes grids that are too old, then the oldest until the limits of bytes and of grids are
+    // kept. Returns how many were removed.
     std::size_t prune(UtcTime now);
 
     [[nodiscard]] std::size_t count() const { return grids_.size(); }
@@ -73,6 +77,9 @@ class PulledGrids {
     [[nodiscard]] std::filesystem::path path_of(const cache::GridName& name) const {
         return directory_ / cache::relative_path(name);
     }
+    [[nodiscard]] std::filesystem::path incoming() const { return directory_ / ".incoming"; }
+    void remove_empty_above(const std::filesystem::path& path) const;
+    Status give_name(Incoming& incoming);
     void remember(const cache::GridName& name, std::string tag);
     void remove(const cache::GridName& name);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,8 @@ constexpr int short_lists = 12;
 // A partial is made again when the rest of its volume comes, within minutes.
 constexpr std::chrono::minutes young{20};
 constexpr std::chrono::seconds between_asking{60};
+// A turn of a machine that was away takes several turns; one that sends junk is left alone.
+constexpr int most_of_a_turn = 1000, most_refused_in_a_row = 16;
 
 // The machine answers, but this grid is no good.
 bool is_of_the_grid(ErrorCode code) {
@@ -52,6 +55,9 @@ SourcePuller::SourcePuller(PullSource source, const PullConfig& config, PulledGr
 }
 
 Status SourcePuller::turn() {
+    fetched_ = refused_in_a_row_ = 0;
+    if (const auto lines = lines_.take_held_back(steady_now()))
+        say(LogLevel::warning, "{}: {} more grids were refused", source_.name, *lines);
     Status done = pull();
     if (stop_) return {};
     const std::size_t removed = grids_.prune(now_utc());
@@ -118,18 +124,35 @@ Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
         listed_ = std::move(*listed);
         list_url_ = url;
         list_tag_ = answer->tag;
-        const auto is_left = [&](const auto& one) { return one.first.time < now - config_.age; };
-        std::erase_if(asked_, is_left);
-        std::erase_if(bad_, is_left);
+        forget_unlisted(from, now);
     }
     const std::scoped_lock lock(mutex_);
     status_.answered = now_utc();
     return !answer->is_unchanged;
 }
 
+// The list is of what is newer than `from`.
+void SourcePuller::forget_unlisted(UtcTime from, UtcTime now) {
+    const std::set<cache::GridName> listed(listed_.begin(), listed_.end());
+    const auto is_gone = [&](const auto& one) {
+        const UtcTime time = one.first.time;
+        return time < now - config_.age || (time >= from && !listed.contains(one.first));
+    };
+    std::erase_if(asked_, is_gone);
+    std::erase_if(bad_, is_gone);
+}
+
+bool SourcePuller::may_fetch() const {
+    return !stop_ && fetched_ < most_of_a_turn;
+}
+
+void SourcePuller::complain(const Error& why) {
+    if (lines_.allow(steady_now())) say(LogLevel::warning, "{}: {}", source_.name, why.message);
+}
+
 Status SourcePuller::fetch_missing() {
     for (const cache::GridName& name : listed_) {
-        if (stop_) return {};
+        if (!may_fetch()) return {};
         if (grids_.has(name)) continue;
         if (Status fetched = fetch(name); !fetched) return fetched;
         // Of a machine that was away for long, the newest count: the limits hold meanwhile.
@@ -140,7 +163,7 @@ Status SourcePuller::fetch_missing() {
 
 Status SourcePuller::ask_again(UtcTime now) {
     for (const cache::GridName& name : listed_) {
-        if (stop_ || name.time < now - young) return {};
+        if (!may_fetch() || name.time < now - young) return {};
         const auto asked = asked_.find(name);
         const bool is_due = asked == asked_.end() || steady_now() >= asked->second + between_asking;
         if (!grids_.has(name) || !is_due) continue;
@@ -153,9 +176,11 @@ Status SourcePuller::ask_again(UtcTime now) {
 Status SourcePuller::fetch(const cache::GridName& name) {
     const auto known = bad_.find(name);
     if (known != bad_.end() && steady_now() < known->second.next) return {};
+    ++fetched_;
     const Status done = get(name);
-    asked_[name] = steady_now();
+    if (name.time >= now_utc() - young) asked_[name] = steady_now();
     if (done) {
+        refused_in_a_row_ = 0;
         bad_.erase(name);
         return {};
     }
@@ -164,10 +189,14 @@ Status SourcePuller::fetch(const cache::GridName& name) {
     if (!is_of_the_grid(done.error().code)) return done;
     Bad& bad = bad_[name];
     bad.next = steady_now() + pause_after(++bad.tries);
-    if (bad.tries == 1) say(LogLevel::warning, "{}: {}", source_.name, done.error().message);
-    const std::scoped_lock lock(mutex_);
-    ++status_.refused;
-    return {};
+    if (bad.tries == 1) complain(done.error());
+    {
+        const std::scoped_lock lock(mutex_);
+        ++status_.refused;
+    }
+    if (++refused_in_a_row_ < most_refused_in_a_row) return {};
+    return fail(ErrorCode::corrupt, "{} grids in a row were refused, the last: {}",
+                refused_in_a_row_, done.error().message);
 }
 
 Status SourcePuller::get(const cache::GridName& name) {

@@ -4,18 +4,22 @@
 // newest grids were made again. A machine that does not answer ends the turn; the next one begins
 // after a pause that doubles from one second to a minute, or as long as the machine asks for. A
 // grid that comes cut or fails a check is asked for again after a pause of its own, so that it
-// holds up no others.
+// holds up no others. A turn fetches 1,000 grids at most, and ends as failed after 16 that were
+// refused in a row, so a machine that sends nothing but junk is left alone like one that is down.
+// What is remembered of grids is forgotten when the machine no longer lists them.
 //
 // Threads   turn() by one thread; status() by any.
 // Errors    turn() says why it ended early; the next one may succeed.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <map>
 #include <mutex>
 #include <string>
 
+#include "base/rate_limit.h"
 #include "base/steady_time.h"
 #include "pull/http_client.h"
 #include "pull/pull_config.h"
@@ -38,6 +42,8 @@ class SourcePuller {
     [[nodiscard]] std::chrono::milliseconds pause() const;
     [[nodiscard]] SourceStatus status() const;
     [[nodiscard]] const PullSource& source() const { return source_; }
+    // Returns of how many grids something is remembered besides those that are kept.
+    [[nodiscard]] std::size_t remembered() const { return std::max(asked_.size(), bad_.size()); }
     // The last time that a turn, or a transfer in it, was seen to go on.
     [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }
     void beat() { beat_ = steady_now(); }
@@ -49,6 +55,9 @@ class SourcePuller {
     Status ask_again(UtcTime now);
     Status fetch(const cache::GridName& name);
     Status get(const cache::GridName& name);
+    void forget_unlisted(UtcTime from, UtcTime now);
+    void complain(const Error& why);
+    [[nodiscard]] bool may_fetch() const;
     void note_outcome(const Status& done);
 
     struct Bad {
@@ -66,7 +75,10 @@ class SourcePuller {
     SteadyTime next_long_list_{};
     std::map<cache::GridName, SteadyTime> asked_;  // when a young grid was last asked for
     std::map<cache::GridName, Bad> bad_;
-    int failures_ = 0;  // turns, one after the other
+    int failures_ = 0;          // turns, one after the other
+    int fetched_ = 0;           // requests of the turn
+    int refused_in_a_row_ = 0;  // of the turn
+    RateLimit lines_{20, std::chrono::seconds{60}};
 
     mutable std::mutex mutex_;
     SourceStatus status_;  // guarded by mutex_

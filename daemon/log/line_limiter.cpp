@@ -4,26 +4,6 @@
 
 namespace stormcellar::daemon {
 
-bool RateLimit::allow(SteadyTime now) {
-    if (now - began_ >= period_ && held_back_ == 0) {
-        began_ = now;
-        used_ = 0;
-    }
-    if (used_ < most_) {
-        ++used_;
-        return true;
-    }
-    ++held_back_;
-    return false;
-}
-
-std::optional<std::uint64_t> RateLimit::take_held_back(SteadyTime now) {
-    if (held_back_ == 0 || now - began_ < period_) return std::nullopt;
-    const std::uint64_t count = held_back_;
-    held_back_ = 0;
-    return count;
-}
-
 bool LineLimiter::allow(Event event, std::string_view subject, Severity severity, SteadyTime now) {
     const Most most = most_of(event);
     std::pair<Event, std::string> key{event, subject};

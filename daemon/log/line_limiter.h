@@ -19,33 +19,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/rate_limit.h"
 #include "base/steady_time.h"
 #include "daemon/log/log_event.h"
 
 namespace stormcellar::daemon {
 
 enum class Severity { debug, info, warning, error };
-
-// Lets `most` lines through in each period and counts the rest.
-class RateLimit {  // Lets `most` lines through in each period and counts the others.
-  public:
-    RateLimit(int most, std::chrono::seconds period) : most_(most), period_(period) {}
-    // Returns true if the line may be logged.
-    bool allow(SteadyTime now);
-    // Returns how many lines were held back once their period is over, and starts again from zero.
-    std::optional<std::uint64_t> take_held_back(SteadyTime now);
-    // Returns true if nothing is lost by deleting it: its period is over and it holds nothing back.
-    [[nodiscard]] bool is_idle(SteadyTime now) const {
-        return held_back_ == 0 && now - began_ >= period_;
-    }
-
-  private:
-    int most_;
-    std::chrono::seconds period_;
-    SteadyTime began_{};
-    int used_ = 0;
-    std::uint64_t held_back_ = 0;
-};
 
 class LineLimiter {
   public:

@@ -37,7 +37,8 @@ TEST_F(PullConfigFile, EveryKeyIsTaken) {
         "[pull]\ndirectory = \"grids\"\nevery_seconds = 0.5\nage_hours = 2\nbytes = \"3 GB\"\n"
         "stall_seconds = 7\n[[pull.from]]\nname = \"north\"\nurl = "
         "\"http://n.example.org:8090/a/\"\n"
-        "domains = [\"us\"]\n[[pull.from]]\nname = \"south\"\nurl = \"https://[::1]\"\n"
+        "domains = [\"us\"]\nstations = [\"KBGM\"]\n[[pull.from]]\nname = \"south\"\nurl = "
+        "\"https://[::1]\"\n"
         "[log]\nlevel = \"debug\"\n");
     ASSERT_TRUE(config) << config.error().message;
     EXPECT_EQ(config->directory, directory_ / "grids");
@@ -49,6 +50,7 @@ TEST_F(PullConfigFile, EveryKeyIsTaken) {
     ASSERT_EQ(config->sources.size(), 2U);
     EXPECT_EQ(config->sources[0].url, "http://n.example.org:8090/a");
     EXPECT_EQ(config->sources[0].domains, std::vector<std::string>{"us"});
+    EXPECT_EQ(config->sources[0].stations, std::vector<std::string>{"KBGM"});
     EXPECT_EQ(config->sources[1].url, "https://[::1]");
 }
 

@@ -43,6 +43,7 @@ class OtherMachine {
     // Changes each answer to a request for a file.
     std::function<Reply(Reply)> of_files = [](Reply reply) { return reply; };
     std::function<Reply(Reply)> of_lists = [](Reply reply) { return reply; };
+    std::function<Reply(Reply)> of_missing = [](Reply reply) { return reply; };
 
   private:
     void add(std::chrono::minutes age, int shift) {
@@ -70,7 +71,7 @@ class OtherMachine {
             if (asked.tag == tag) reply = {304, "", "ETag: " + tag + "\r\n", Reply::Way::whole};
             return of_files(std::move(reply));
         }
-        return {404, "no", "", Reply::Way::whole};
+        return of_missing({404, "no", "", Reply::Way::whole});
     }
     [[nodiscard]] Reply list(const Asked& asked) const {
         std::string text;
@@ -196,6 +197,44 @@ TEST_F(Pulling, ABadGridWaitsAndHoldsUpNoOther) {
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
+// 2026-11-28: a list of 10,000 new names each turn, each answered with junk, left 165,000
+// directories in half a minute, a line of the log for each, and names in memory for hours.
+TEST_F(Pulling, AMachineOfJunkIsLeftAloneAndLeavesNothing) {
+    int turn = 0;
+    other_.of_lists = [&](Reply reply) {
+        std::string text;
+        for (int i = 0; i < 2000; ++i)
+            text += fmt::format(
+                "{}{{\"domain\":\"us.K{}{}{}\",\"moment\":\"REF\",\"time\":\"{}\"}}",
+                text.empty() ? "" : ",", char('A' + turn), char('A' + i / 26 % 26),
+                char('A' + i % 26), format_utc(now_utc() - std::chrono::seconds{60 + i / 676}));
+        return reply.body = "{\"grids\":[" + text + "]}", reply.status = 200,
+               reply.headers = fmt::format("ETag: \"{}\"\r\n", turn++), reply;
+    };
+    other_.of_missing = [](Reply) {
+        return Reply{200, std::string(200, 'j'), "ETag: \"j\"\r\n", Reply::Way::whole};
+    };
+    const auto north = puller();
+    for (int i = 0; i < 3; ++i) {
+        const Status done = north->turn();
+        ASSERT_FALSE(done);
+        EXPECT_THAT(done.error().message, HasSubstr("16 grids in a row were refused"));
+    }
+    EXPECT_EQ(north->status().refused, 48U);
+    EXPECT_EQ(north->remembered(), 16U) << "what is no longer listed is forgotten";
+    EXPECT_EQ(north->pause(), std::chrono::milliseconds{4000});
+    EXPECT_TRUE(fs::is_empty(this->north())) << "directories are made for what is kept";
+}
+
+TEST_F(Pulling, StationsThatAreNotItsAreNotPulled) {
+    auto grids = PulledGrids::open(real_file_system(), north(), {1'000'000, config_.age});
+    ASSERT_TRUE(grids);
+    SourcePuller north({"north", other_.url(), {"us"}, {"KENX"}}, config_, std::move(*grids),
+                       stop_);
+    ASSERT_TRUE(north.turn());
+    EXPECT_EQ(north.status().pulled, 0U);
+}
+
 TEST_F(Pulling, AMachineThatIsBusyIsLeftAloneForLongerAndLonger) {
     other_.of_files = [](Reply) { return Reply{503, "later", "", Reply::Way::whole}; };
     const auto north = puller();
@@ -269,6 +308,11 @@ TEST_F(Pulling, TheOldestGiveWay) {
     EXPECT_EQ(strict->status().removed, 1U);
     EXPECT_EQ(pulled(0), "");
     EXPECT_FALSE(pulled(1).empty());
+    auto few = PulledGrids::open(real_file_system(), north(),
+                                 {config_.bytes_a_source, std::chrono::hours{1}, 0});
+    ASSERT_TRUE(few);
+    EXPECT_EQ(few->prune(now_utc()), 1U) << "so many grids at most";
+    ASSERT_TRUE(puller()->turn());
     config_.bytes_a_source = 100;
     auto grids = PulledGrids::open(real_file_system(), north(), {100, std::chrono::hours{1}});
     ASSERT_TRUE(grids);
