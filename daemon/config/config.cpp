@@ -14,6 +14,7 @@
 #include "base/toml_file.h"
 #include "daemon/config/station_config.h"
 #include "pipeline/options/domain.h"
+#include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/volume.h"
@@ -279,21 +280,37 @@ std::string reason_against(const std::filesystem::path& directory, const FixedCo
     return {};
 }
 
+void read_partial_stations(TomlTable stations, PartialsConfig& config) {
+    constexpr std::size_t most_stations = 1024;
+    for (const std::filesystem::path& directory : config.directories) {
+        const std::string name = directory.filename().native();
+        const auto listed = stations.texts(name);
+        if (!listed) continue;
+        if (listed->size() > most_stations)
+            stations.complain(name, fmt::format("must be at most {}", most_stations));
+        for (const std::string& icao : *listed) {
+            if (!is_icao(icao))
+                stations.complain(name, fmt::format("{} is not an ICAO", printable(icao)));
+        }
+        config.stations[name] = *listed;
+    }
+}
+
 void read_partials(TomlTable partials, const std::filesystem::path& file, FixedConfig& config) {
     constexpr std::size_t most_machines = 64;
     read_whole_seconds(partials, "late_after_seconds", {10, 86400}, config.partials.late_after);
-    const auto directories = partials.texts("directories");
-    if (!directories) return;
-    if (directories->size() > most_machines) {
+    const auto directories = partials.texts("directories").value_or(std::vector<std::string>{});
+    if (directories.size() > most_machines) {
         partials.complain("directories", fmt::format("must be at most {}", most_machines));
         return;
     }
-    for (const std::string& text : *directories) {
+    for (const std::string& text : directories) {
         const auto directory = resolve(text, file);
         const auto why = text.empty() ? "must not be empty" : reason_against(directory, config);
         if (!why.empty()) return partials.complain("directories", why);
         config.partials.directories.push_back(directory);
     }
+    read_partial_stations(partials.section("stations"), config.partials);
 }
 
 void read_budget(TomlTable& table, cache::Budget& budget) {
@@ -400,6 +417,14 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     config.reloadable.web = web::read_web_config(root);
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;
+}
+
+bool PartialsConfig::may_bring(const std::string& machine, const std::string& station) const {
+    const auto lists = [&](const auto& one) {
+        return std::ranges::find(one.second, station) != one.second.end();
+    };
+    const auto own = stations.find(machine);
+    return own != stations.end() ? lists(*own) : std::ranges::none_of(stations, lists);
 }
 
 }  // namespace stormcellar::daemon

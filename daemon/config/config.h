@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,6 +80,10 @@ struct IngestConfig {
 struct PartialsConfig {
     std::vector<std::filesystem::path> directories;  // absolute, with symbolic links resolved
     std::chrono::seconds late_after{600};
+    // The stations that a machine may bring, by the machine's name. A machine that is not here may
+    // bring those that are listed for no other.
+    std::map<std::string, std::vector<std::string>> stations;
+    [[nodiscard]] bool may_bring(const std::string& machine, const std::string& station) const;
     bool operator==(const PartialsConfig&) const = default;
 };
 

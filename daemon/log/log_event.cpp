@@ -58,6 +58,7 @@ constexpr std::array<std::string_view, event_count> names = {
     "loop_failed",
     "partial_taken",
     "partial_refused",
+    "frame_problem",
     "machine_late",
     "machine_back",
     "status_answered",

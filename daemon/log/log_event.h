@@ -73,6 +73,7 @@ enum class Event {
     // about other machines
     partial_taken,
     partial_refused,
+    frame_problem,
     machine_late,
     machine_back,
     // about the status

@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "daemon/log/log.h"
 #include "daemon/status/status_names.h"
+#include "pipeline/keep/keep_rule.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 constexpr std::chrono::milliseconds longest_poll{1000};
 // A file that is not whole may still be written to: it is complained of when it is older.
 constexpr std::chrono::seconds settled_after{30};
+// After a frame could not be made again.
+constexpr std::chrono::seconds mending_pause{5};
 
 bool is_unsettled(const std::filesystem::path& file) {
     const FileFound found = look_at(file, {});
@@ -33,7 +36,8 @@ std::unique_ptr<EventSource> open_events(const std::filesystem::path& directory)
     return no_events();
 }
 
-std::string whole_seconds(SteadyTime::duration time) {
+template <class Duration>
+std::string whole_seconds(Duration time) {
     return fmt::format("{} s", std::chrono::duration_cast<std::chrono::seconds>(time).count());
 }
 
@@ -86,7 +90,7 @@ void PartialsKeeper::turn() {
         if (machine.directory->take_lost()) machine.next_scan = {};
         if (steady_now() >= machine.next_scan) scan(machine);
     }
-    has_more_ = take_one();
+    has_more_ = take_one() || mend_one();
     judge();
     publish();
 }
@@ -118,7 +122,8 @@ void PartialsKeeper::take_lost(Machine& machine) {
         pulse_.beat();
         const auto path = of_.store.path_of(name.domain, name.moment, name.time);
         std::error_code ignored;
-        if (path && !std::filesystem::exists(*path, ignored) && is_wanted(name))
+        if (!path || std::filesystem::exists(*path, ignored) || !is_wanted(name)) continue;
+        if (!pipeline::has_an_hours_volumes(of_.store, name.domain, name.moment, name.time))
             machine.directory->forget(name);
     }
 }
@@ -137,6 +142,30 @@ bool PartialsKeeper::take_one() {
     return took;
 }
 
+// Looks at a frame that may lack a partial. Returns true if there was one.
+bool PartialsKeeper::mend_one() {
+    if (stopping_ || steady_now() < next_mending_) return false;
+    pulse_.beat();
+    std::vector<std::string> problems;
+    const auto looked = of_.mosaics.make_stale(of_.threads, problems);
+    for (const std::string& problem : problems)
+        log_warning({Event::frame_problem}, "a frame of parts: {}", printable(problem));
+    if (!looked) {
+        log_warning({Event::frame_problem}, "a frame of parts cannot be made again: {}",
+                    printable(looked.error().message));
+        next_mending_ = steady_now() + mending_pause;
+        return false;
+    }
+    if (!*looked) return false;
+    const auto& [name, made] = **looked;
+    if (made) {
+        log_info({.event = Event::frame_made_again, .volume = name.time, .domain = name.domain},
+                 "frame {} {} lacked a part and was made again", name.domain,
+                 format_utc(name.time));
+    }
+    return true;
+}
+
 // A machine may have domains that this one does not, and older grids than this one keeps.
 bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
     return !of_.mosaics.is_idle() &&
@@ -148,7 +177,15 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
     if (!is_wanted(name)) return;
     const std::filesystem::path file = machine.directory->path() / cache::relative_path(name);
     const auto start = steady_now();
-    const auto kept = of_.mosaics.take_partial({file, name, machine.facts.name}, of_.threads);
+    const std::string station = name.domain.substr(name.domain.find('.') + 1);
+    if (!config_.may_bring(machine.facts.name, station)) {
+        return refuse(
+            machine, name,
+            {ErrorCode::bad_argument,
+             fmt::format("{}: [partials.stations] does not give it {}", file.native(), station)});
+    }
+    const auto kept = of_.mosaics.take_partial(
+        {file, name, machine.facts.name, [this] { pulse_.beat(); }}, of_.threads);
     const About about{
         .event = Event::partial_taken, .volume = name.time, .file = file, .domain = name.domain};
     if (!kept) {
@@ -156,24 +193,30 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
         const bool is_of_data = kept.error().cause() == Cause::data;
         const bool may_change = is_of_data && is_unsettled(file);
         const bool is_tried_again = may_change || kept.error().cause() == Cause::system;
+        if (!may_change) refuse(machine, name, kept.error());
         if (is_tried_again) machine.directory->forget(name);
-        if (!is_tried_again) machine.directory->refuse(name);
-        if (may_change) return;
-        ++machine.facts.refused;
-        machine.facts.last_problem = printable(kept.error().message);
-        About refused = about;
-        refused.event = Event::partial_refused;
-        refused.reason = name_of(kept.error().code);
-        log_warning(refused, "partial of {}: {}", machine.facts.name,
-                    printable(kept.error().message));
         return;
     }
+    for (const std::string& problem : kept->problems)
+        log_warning({Event::frame_problem}, "a frame of parts: {}", printable(problem));
     machine.last_news = steady_now();
     machine.facts.arrived = now_utc();
     if (kept->partials.empty()) return;
     ++machine.facts.taken;
     log_debug(about, "partial of {}: {} {}, {} frames, in {:.0f} ms", machine.facts.name,
               name.domain, format_utc(name.time), kept->frames.size(), 1000 * seconds_since(start));
+}
+
+void PartialsKeeper::refuse(Machine& machine, const cache::GridName& name, const Error& why) {
+    machine.directory->refuse(name);
+    ++machine.facts.refused;
+    machine.facts.last_problem = printable(why.message);
+    const About about{.event = Event::partial_refused,
+                      .volume = name.time,
+                      .file = machine.directory->path() / cache::relative_path(name),
+                      .domain = name.domain,
+                      .reason = name_of(why.code)};
+    log_warning(about, "partial of {}: {}", machine.facts.name, printable(why.message));
 }
 
 // Logs when a machine becomes late, and when it has caught up.

@@ -3,7 +3,11 @@
 //
 // A partial is copied into the cache, and the frames that it changes are made, as soon as it is
 // whole; newest first. What is damaged or cut is looked at again when it changes, and at each scan.
-// A partial that the cache has lost is taken again.
+// A partial that the cache has lost is taken again. When no news wait, the frames around partials
+// that the cache had already are looked at, and made again if they lack one.
+//
+// Stations that the configuration lists for a machine ([partials.stations]) come from the machines
+// that list them, and from no other.
 //
 // A machine is late while it has brought nothing for the allowed time, or while its newest volume
 // is that much older than the newest of any machine. The frames themselves decide for each instant
@@ -65,8 +69,10 @@ class PartialsKeeper {
     void scan(Machine& machine);
     void take_lost(Machine& machine);
     bool take_one();
+    bool mend_one();
     [[nodiscard]] bool is_wanted(const cache::GridName& name) const;
     void take(Machine& machine, const cache::GridName& name);
+    void refuse(Machine& machine, const cache::GridName& name, const Error& why);
     void judge();
     void publish();
 
@@ -75,6 +81,7 @@ class PartialsKeeper {
     const PartialsTimes times_;
     std::vector<Machine> machines_;  // of the thread
     bool has_more_ = false;          // of the thread: news wait
+    SteadyTime next_mending_{};      // of the thread
     mutable std::mutex mutex_;
     std::vector<MachineFacts> published_;  // guarded by mutex_
     WakeUp wake_up_;

@@ -27,6 +27,8 @@ std::uint64_t order_of(const grid::BrickView& view) {
     return xxh3_64(std::as_bytes(std::span(words)));
 }
 
+constexpr std::chrono::minutes half_an_hour{30};
+
 // The first radial received of a volume is at most this far from its header.
 constexpr std::chrono::minutes farthest_radial{15};
 
@@ -78,10 +80,15 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
     return "not replaced: the cache has a grid of another file of this volume";
 }
 
+bool has_an_hours_volumes(const cache::StoreReader& store, const std::string& domain,
+                          level2::Moment moment, UtcTime time) {
+    const auto near = store.list(domain, moment, time - half_an_hour, time + half_an_hour);
+    return near && near->size() >= most_volumes_an_hour;
+}
+
 void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time) {
-    constexpr std::chrono::minutes around{30};
-    auto near = store.list(domain, moment, time - around, time + around);
+    auto near = store.list(domain, moment, time - half_an_hour, time + half_an_hour);
     if (!near || near->size() <= most_volumes_an_hour) return;
     std::erase_if(
         *near, [&](const cache::StoreEntry& entry) { return entry.pinned || entry.time == time; });

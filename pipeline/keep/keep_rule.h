@@ -38,6 +38,9 @@ struct Candidate {
 
 // A radar begins at most this many volumes within an hour: the fastest pattern takes three minutes.
 inline constexpr std::size_t most_volumes_an_hour = 120;
+// Returns true if the store has as many within half an hour of the time.
+[[nodiscard]] bool has_an_hours_volumes(const cache::StoreReader& store, const std::string& domain,
+                                        level2::Moment moment, UtcTime time);
 // If there are more grids within half an hour of this one, the one that was written longest ago is
 // removed, so that files which claim one station displace little of the history of others. Pinned
 // grids and this one stay.

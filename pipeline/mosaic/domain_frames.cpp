@@ -26,17 +26,6 @@ Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domai
     return starts;
 }
 
-// Returns true if the instant is between two partials of which one counts for it, by the rule of
-// take_in().
-bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
-    bool any_before = false, any_after = false;
-    for (const PartialView& partial : partials) {
-        any_before = any_before || partial.middle() <= instant;
-        any_after = any_after || partial.middle() >= instant;
-    }
-    return any_before && any_after;
-}
-
 Result<bool> is_due(const cache::StoreReader& store, const Domain& domain, level2::Moment moment,
                     UtcTime instant) {
     std::vector<std::string> ignored;
@@ -70,6 +59,15 @@ Status add_missing(const cache::StoreReader& store, const Domain& domain, level2
 }
 
 }  // namespace
+
+bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
+    bool any_before = false, any_after = false;
+    for (const PartialView& partial : partials) {
+        any_before = any_before || partial.middle() <= instant;
+        any_after = any_after || partial.middle() >= instant;
+    }
+    return any_before && any_after;
+}
 
 const Domain* find_domain(std::span<const Domain> domains, std::string_view name,
                           level2::Moment moment) {

@@ -35,6 +35,10 @@ namespace stormcellar::pipeline {
 [[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
                                                     std::chrono::seconds interval);
 
+// Returns true if the instant is between two partials of which one counts for it, by the rule of
+// MosaicMaker::take_in().
+[[nodiscard]] bool lies_between(const std::vector<PartialView>& partials, UtcTime instant);
+
 // Volumes of a site that are farther apart make no frame between them.
 inline constexpr std::chrono::milliseconds greatest_frame_gap = FrameOptions{}.greatest_gap;
 

@@ -1,13 +1,42 @@
 #include "pipeline/mosaic/mapped_partials.h"
 
+#include <iterator>
+#include <optional>
 #include <utility>
 
+#include "pipeline/mosaic/domain_frames.h"
 #include "stormcellar/grid/grid_window.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
+// Of one station, without a look at which of them count.
+constexpr std::size_t most_open = 24;
+
+UtcTime middle_of_file(const OpenPartial& partial) {
+    return PartialView{&partial.file.description(), {}, nullptr}.middle();
+}
+
+// Closes what is neither the last before an instant nor the first after it, as brackets_of() says.
+void keep_brackets(const std::vector<UtcTime>& instants, std::vector<OpenPartial>& files) {
+    std::set<std::size_t> needed;
+    for (const UtcTime instant : instants) {
+        std::optional<std::size_t> before, after;
+        for (std::size_t at = 0; at < files.size(); ++at) {
+            const UtcTime middle = middle_of_file(files[at]);
+            if (middle <= instant && (!before || middle >= middle_of_file(files[*before])))
+                before = at;
+            if (middle > instant && (!after || middle <= middle_of_file(files[*after]))) after = at;
+        }
+        if (before) needed.insert(*before);
+        if (after) needed.insert(*after);
+    }
+    std::vector<OpenPartial> kept;
+    for (const std::size_t at : needed)
+        kept.push_back(std::move(files[at]));
+    files = std::move(kept);
+}
 
 }  // namespace
 
@@ -24,46 +53,71 @@ Result<MappedPartials> MappedPartials::open(const cache::StoreReader& store, con
                                             level2::Moment moment, UtcTime from, UtcTime to,
                                             std::vector<std::string>& problems) {
     MappedPartials all;
-    const auto domains = partial_domains(store, domain.name);
+    all.store_ = &store;
+    all.domain_ = &domain;
+    all.moment_ = moment;
+    all.from_ = from;
+    all.to_ = to;
+    if (Status loaded = all.load(problems); !loaded) return pass_on(loaded);
+    return all;
+}
+
+Status MappedPartials::load(std::vector<std::string>& problems) {
+    files_.clear();
+    const auto domains = partial_domains(*store_, domain_->name);
     if (!domains) return pass_on(domains);
+    std::vector<UtcTime> instants = instants_between(from_, to_, domain_->interval);
+    instants.insert(instants.end(), {from_, to_});
     for (const std::string& name : *domains) {
-        const auto entries =
-            store.list(name, moment, from - greatest_gap - longest_to_middle, to + greatest_gap);
+        const auto entries = store_->list(name, moment_, from_ - greatest_gap - longest_to_middle,
+                                          to_ + greatest_gap);
         if (!entries) return pass_on(entries);
+        std::vector<OpenPartial> of_station;
         for (const cache::StoreEntry& entry : *entries) {
+            if (bad_.contains(entry.path)) continue;
             auto file = cache::GridFile::open(entry.path);
             if (!file) {
                 problems.push_back(file.error().message);
+                bad_.insert(entry.path);
                 continue;
             }
-            if (!grid::window_of(domain.spec, file->description().spec)) continue;
-            all.files_.push_back(std::move(*file));
+            if (!grid::window_of(domain_->spec, file->description().spec)) continue;
+            of_station.push_back({entry.path, std::move(*file)});
+            if (of_station.size() > 2 * instants.size() + most_open)
+                keep_brackets(instants, of_station);
         }
+        if (of_station.size() > most_open) keep_brackets(instants, of_station);
+        std::move(of_station.begin(), of_station.end(), std::back_inserter(files_));
     }
-    return all;
+    return {};
 }
 
 std::vector<PartialView> MappedPartials::views() const {
     std::vector<PartialView> views;
-    for (const cache::GridFile& file : files_)
+    for (const auto& [path, file] : files_)
         views.push_back({&file.description(), file.view(), &file});
     return views;
 }
 
 Status MappedPartials::check_whole() const {
-    for (const cache::GridFile& file : files_) {
+    for (const auto& [path, file] : files_) {
         if (Status whole = file.check_whole(); !whole) return whole;
     }
     return {};
 }
 
 bool MappedPartials::drop_damaged(std::vector<std::string>& problems) {
-    const auto dropped = std::erase_if(files_, [&](const cache::GridFile& file) {
+    const std::size_t known = bad_.size();
+    for (const auto& [path, file] : files_) {
         const Status good = file.verify();
-        if (!good) problems.push_back(good.error().message);
-        return !good;
-    });
-    return dropped > 0;
+        if (good) continue;
+        problems.push_back(good.error().message);
+        bad_.insert(path);
+    }
+    if (bad_.size() == known) return false;
+    // What stands behind a damaged one may count now.
+    if (!load(problems)) files_.clear();
+    return true;
 }
 
 }  // namespace stormcellar::pipeline

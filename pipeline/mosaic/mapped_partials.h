@@ -2,11 +2,15 @@
 // only inside the pipeline room.
 //
 // Each holds a descriptor and a map. Only those within 35 minutes of the requested times are
-// opened.
+// opened. A radar has at most some twenty of these; of a station that has more, only those stay
+// open that are the last before a frame or the first after it, so a flood of volumes takes no
+// descriptors.
 //
 // Threads   One thread at a time.
 #pragma once
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,11 +27,16 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
+struct OpenPartial {
+    std::filesystem::path path;
+    cache::GridFile file;
+};
+
 class MappedPartials {
   public:
     // Opens those that count for an instant between `from` and `to`. Partials that cannot be opened
-    // are named in `problems`; those of an earlier configuration are left out. Errors: the cache
-    // cannot be read.
+    // are named in `problems`; those of an earlier configuration are left out. `store` and `domain`
+    // must outlive the object. Errors: the cache cannot be read.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
                                        level2::Moment moment, UtcTime from, UtcTime to,
                                        std::vector<std::string>& problems);
@@ -41,7 +50,14 @@ class MappedPartials {
     bool drop_damaged(std::vector<std::string>& problems);
 
   private:
-    std::vector<cache::GridFile> files_;
+    Status load(std::vector<std::string>& problems);
+
+    const cache::StoreReader* store_ = nullptr;
+    const Domain* domain_ = nullptr;
+    level2::Moment moment_ = level2::Moment::ref;
+    UtcTime from_, to_;
+    std::set<std::filesystem::path> bad_;  // cannot be opened, or damaged
+    std::vector<OpenPartial> files_;
 };
 
 }  // namespace stormcellar::pipeline

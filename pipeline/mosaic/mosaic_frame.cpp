@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "base/parallel.h"
@@ -127,21 +128,49 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
     return {};
 }
 
-template <class T>
-void add_once(std::vector<T>& all, const std::vector<T>& more) {
-    for (const T& one : more) {
-        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+// Collects texts, each once, in the order in which they come. The file of a frame holds 1 MiB of
+// them, and each part brings some: what is too much is counted.
+class TextsOnce {
+  public:
+    TextsOnce(std::size_t most_bytes, std::string_view kind)
+        : most_bytes_(most_bytes), kind_(kind) {}
+    void add(const std::vector<std::string>& more) {
+        for (const std::string& text : more) {
+            if (!known_.insert(text).second) continue;
+            bytes_ += text.size();
+            if (bytes_ > most_bytes_) ++left_out_;
+            if (bytes_ <= most_bytes_) texts_.push_back(text);
+        }
     }
-}
+    std::vector<std::string> take() {
+        if (left_out_ > 0) texts_.push_back(fmt::format("and {} more {}", left_out_, kind_));
+        return std::move(texts_);
+    }
 
-void describe(const PartialView& partial, cache::GridDescription& frame) {
+  private:
+    std::size_t most_bytes_;
+    std::string_view kind_;
+    std::size_t bytes_ = 0, left_out_ = 0;
+    std::unordered_set<std::string> known_;
+    std::vector<std::string> texts_;
+};
+
+// A thousand parts with the notes and the troubles that radars have come to less.
+struct FrameTexts {
+    TextsOnce source_files{std::size_t{192} << 10, "volumes"};
+    TextsOnce stations{std::size_t{32} << 10, "stations"};
+    TextsOnce notes{std::size_t{128} << 10, "notes"};
+    TextsOnce radar_troubles{std::size_t{128} << 10, "troubles"};
+};
+
+void describe(const PartialView& partial, FrameTexts& texts, cache::GridDescription& frame) {
     const cache::GridDescription& from = *partial.description;
     grid::Provenance& provenance = frame.provenance;
     const grid::Provenance& source = from.provenance;
-    add_once(provenance.source_files, source.source_files);
-    add_once(provenance.stations, source.stations);
-    add_once(provenance.notes, source.notes);
-    add_once(provenance.radar_troubles, source.radar_troubles);
+    texts.source_files.add(source.source_files);
+    texts.stations.add(source.stations);
+    texts.notes.add(source.notes);
+    texts.radar_troubles.add(source.radar_troubles);
     provenance.method = source.method;
     provenance.beam_model = source.beam_model;
     provenance.averaging = source.averaging;
@@ -216,17 +245,24 @@ Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameO
 }
 
 // Describes everything but the cells, including the notes by which each share can be recognized.
-Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
-                                              std::vector<SiteShare>& shares, UtcTime instant,
-                                              const FrameOptions& options) {
+Result<cache::GridDescription> describe_shares(const grid::GridSpec& domain,
+                                               std::vector<SiteShare>& shares, UtcTime instant,
+                                               const FrameOptions& options) {
     cache::GridDescription frame;
     std::vector<const PartialView*> used;
+    FrameTexts texts;
     for (const SiteShare& share : shares) {
         for (const PartialView* partial : share.used()) {
-            describe(*partial, frame);
+            describe(*partial, texts, frame);
             used.push_back(partial);
         }
     }
+    frame.provenance.source_files = texts.source_files.take();
+    frame.provenance.stations = texts.stations.take();
+    frame.provenance.notes = texts.notes.take();
+    frame.provenance.radar_troubles = texts.radar_troubles.take();
+    frame.provenance.provisional = std::any_of(
+        shares.begin(), shares.end(), [](const SiteShare& share) { return share.nothing_after; });
     auto parts = parts_of(domain, used);
     if (!parts) return pass_on(parts);
     frame.provenance.recipe = recipe_of(options);
@@ -324,18 +360,19 @@ Result<Motions> estimate_motions(std::span<const PartialView> partials, UtcTime 
     return motions;
 }
 
+Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
+                                              std::span<const PartialView> partials,
+                                              UtcTime instant, const FrameOptions& options) {
+    auto shares = shares_of(partials, instant, options);
+    if (!shares) return pass_on(shares);
+    return describe_shares(domain, *shares, instant, options);
+}
+
 Result<FrameRecipe> recipe_for(const grid::GridSpec& domain, std::span<const PartialView> partials,
                                UtcTime instant, const FrameOptions& options) {
-    const auto shares = shares_of(partials, instant, options);
-    if (!shares) return pass_on(shares);
-    std::vector<const PartialView*> used;
-    for (const SiteShare& share : *shares) {
-        for (const PartialView* partial : share.used())
-            used.push_back(partial);
-    }
-    auto parts = parts_of(domain, used);
-    if (!parts) return pass_on(parts);
-    return FrameRecipe{std::move(*parts), recipe_of(options)};
+    auto frame = describe_frame(domain, partials, instant, options);
+    if (!frame) return pass_on(frame);
+    return FrameRecipe{std::move(frame->provenance.parts), frame->provenance.recipe};
 }
 
 Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const PartialView> partials,
@@ -343,10 +380,8 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
                                GeometryCache& geometries, const MadeBefore& before) {
     auto shares = shares_of(partials, instant, options);
     if (!shares) return pass_on(shares);
-    auto description = describe_frame(domain, *shares, instant, options);
+    auto description = describe_shares(domain, *shares, instant, options);
     if (!description) return pass_on(description);
-    description->provenance.provisional = std::any_of(
-        shares->begin(), shares->end(), [](const SiteShare& share) { return share.nothing_after; });
 
     auto changed = changes_since(before.frame, *description, options,
                                  shares->front().nearest->view.quantization);

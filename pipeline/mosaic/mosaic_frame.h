@@ -110,6 +110,12 @@ struct FrameRecipe {
                                              std::span<const PartialView> partials, UtcTime instant,
                                              const FrameOptions& options);
 
+// The same, with all that the file of the frame says of itself.
+[[nodiscard]] Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
+                                                            std::span<const PartialView> partials,
+                                                            UtcTime instant,
+                                                            const FrameOptions& options);
+
 struct MosaicFrame {
     cache::GridDescription description;
     grid::Mosaic mosaic;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "grid/plan/grid_effects.h"
@@ -151,21 +152,29 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     if (!committed) return of_storing(committed.error());
     if (committed->empty()) return {};  // older than what the budgets keep
     remove_other_times(*store_, name, moment, source.volume, source.file);
+    keep_to_an_hours_volumes(*store_, name, moment, description.time);
     kept.partials.push_back(*committed);
     if (frames_when_ == FramesWhen::asked_for) return {};
     return refresh(domain, moment, description, threads, kept);
 }
 
 Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
-                            const cache::GridDescription& changed, int threads, Kept& kept) {
+                            const cache::GridDescription& changed, int threads, Kept& kept,
+                            const std::function<void()>& beat) {
     const UtcTime middle = middle_of(changed);
     auto partials = MappedPartials::open(*store_, domain, moment, middle - greatest_frame_gap,
                                          middle + greatest_frame_gap, kept.problems);
     if (!partials) return pass_on(partials);
     const Span span = span_changed_by(changed, partials->views());
     for (const UtcTime instant : instants_between(span.from, span.to, domain.interval)) {
+        if (beat) beat();
         const auto made = make({domain, moment, instant, threads}, *partials, kept.problems);
-        if (!made) return pass_on(made);
+        if (!made && may_pass(made.error())) return pass_on(made);
+        if (!made) {
+            kept.problems.push_back(fmt::format("the frame {} {}: {}", domain.name,
+                                                format_utc(instant), made.error().message));
+            continue;
+        }
         if (made->path.empty()) continue;
         kept.frames.push_back(made->path);
         if (made->merged) ++kept.updated;
@@ -195,22 +204,96 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
     const bool sound = stands && stands->verify();
     const PreviousFrame previous =
         sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};
-    std::vector<LateMachine> late;
-    if (sources_) late = sources_->late_for(job.domain.name, job.moment, job.instant);
+    const std::vector<LateMachine> late = late_for(job);
     auto frame = frame_of_sound(job, partials, late, sound ? &previous : nullptr, problems);
     if (!frame) return pass_on(frame);
     if (Status whole = partials.check_whole(); !whole) return pass_on(whole);
     if (sound) {
         if (Status whole = stands->check_whole(); !whole) return pass_on(whole);
     }
-    grid::Provenance& provenance = frame->description.provenance;
-    provenance.revision = static_cast<int>(provenance.parts.size());
-    for (const LateMachine& machine : late)
-        provenance.left_out.push_back(machine.text());
+    finish(frame->description, late);
+    const grid::Provenance& provenance = frame->description.provenance;
     auto committed =
         store_->commit(job.domain.name, frame->description, frame->mosaic.cells.view());
     if (!committed) return pass_on(committed);
     return FrameMade{std::move(*committed), provenance.stations, std::move(frame->merged)};
+}
+
+std::vector<LateMachine> MosaicMaker::late_for(const FrameJob& job) const {
+    return sources_ ? sources_->late_for(job.domain.name, job.moment, job.instant)
+                    : std::vector<LateMachine>{};
+}
+
+void MosaicMaker::finish(cache::GridDescription& frame,
+                         const std::vector<LateMachine>& late) const {
+    frame.provenance.revision = static_cast<int>(frame.provenance.parts.size());
+    for (const LateMachine& machine : late)
+        frame.provenance.left_out.push_back(machine.text());
+}
+
+// A frame whose partials have left the cache stays as it is.
+Result<bool> MosaicMaker::is_stale(const FrameJob& job, const MappedPartials& partials) const {
+    const auto views = partials.views();
+    if (!lies_between(views, job.instant)) return false;
+    const auto late = late_for(job);
+    auto wanted = describe_frame(job.domain.spec, without(late, views), job.instant,
+                                 frame_options(job.domain, job.moment, job.threads));
+    if (!wanted && wanted.error().code == ErrorCode::not_found) return false;
+    if (!wanted) return pass_on(wanted);
+    finish(*wanted, late);
+    const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
+    if (!path) return pass_on(path);
+    const auto stands = cache::GridFile::open(*path);
+    if (!stands) return true;
+    const grid::Provenance &is = stands->description().provenance, &should = wanted->provenance;
+    const auto lacks = [&](const grid::FramePart& part) {
+        return std::ranges::find(is.parts, part) == is.parts.end();
+    };
+    if (std::ranges::any_of(should.parts, lacks)) return true;
+    const auto texts = [](const grid::Provenance& of) {
+        return std::tie(of.source_files, of.stations, of.notes, of.radar_troubles, of.left_out,
+                        of.partial, of.provisional, of.method, of.effects);
+    };
+    return is.parts == should.parts && texts(is) != texts(should);
+}
+
+Result<std::optional<StaleFrame>> MosaicMaker::make_stale(int threads,
+                                                          std::vector<std::string>& problems) {
+    StaleFrame frame;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (unchecked_.empty()) return std::optional<StaleFrame>{};
+        frame.name = unchecked_.extract(unchecked_.begin()).value();
+    }
+    const auto look = [&]() -> Status {
+        const auto found = domain_of(domains_, frame.name);
+        if (!found) return pass_on(found);
+        const FrameJob job{**found, frame.name.moment, frame.name.time, threads};
+        const std::scoped_lock lock(frames_of(job.domain.name, job.moment));
+        auto partials = MappedPartials::open(*store_, job.domain, job.moment, job.instant,
+                                             job.instant, problems);
+        if (!partials) return pass_on(partials);
+        const auto stale = is_stale(job, *partials);
+        if (!stale) return pass_on(stale);
+        if (!*stale) return {};
+        auto made = make(job, *partials, problems);
+        if (!made) return pass_on(made);
+        frame.made = std::move(*made);
+        return {};
+    };
+    if (Status looked = look(); !looked) {
+        const std::scoped_lock lock(mutex_);
+        if (may_pass(looked.error())) unchecked_.insert(frame.name);
+        return pass_on(looked);
+    }
+    return std::optional{std::move(frame)};
+}
+
+void MosaicMaker::note_frames(const Domain& domain, const OthersPartial& partial, UtcTime middle) {
+    const std::scoped_lock lock(mutex_);
+    for (const UtcTime instant : instants_between(middle - greatest_frame_gap,
+                                                  middle + greatest_frame_gap, domain.interval))
+        unchecked_.insert({domain.name, partial.name.moment, instant});
 }
 
 Result<FrameMade> MosaicMaker::make_again(const cache::GridName& frame, int threads,

@@ -14,6 +14,10 @@
 // The partials of a frame are verified first, and so is the frame that is copied from. A partial
 // that cannot be read, or is damaged, is left out of frames and named.
 //
+// A process that ends, or a disk that fails, between a partial and its frames leaves frames that
+// lack it. So the frames around each partial of others that the store has already are looked at
+// again (make_stale()).
+//
 // Machines that are late (pipeline/options/partial_sources.h) are left out of a frame, which says
 // so.
 //
@@ -22,9 +26,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +62,7 @@ struct OthersPartial {
     std::filesystem::path file;  // immutable: it may be replaced, but is never written to
     cache::GridName name;
     std::string machine;
+    std::function<void()> beat = {};  // called before each frame that is made
 };
 
 struct Kept {
@@ -68,6 +76,12 @@ struct FrameMade {
     std::filesystem::path path;                           // empty: older than what the budgets keep
     std::vector<std::string> stations;                    // those whose partials it is made of
     std::optional<std::vector<grid::GridWindow>> merged;  // as in MosaicFrame
+};
+
+// What make_stale() found.
+struct StaleFrame {
+    cache::GridName name;
+    std::optional<FrameMade> made;  // none: it was as it should be, or is not due
 };
 
 class MappedPartials;
@@ -86,8 +100,14 @@ class MosaicMaker {
     // Takes a partial that another machine made: copies it into the store and makes the frames that
     // it changes. Nothing happens if the store has it, or keeps another grid of the volume. Errors:
     // of the file (corrupt, truncated and others), bad_argument if no domain has such a partial,
-    // and those of the store.
+    // and those of the store. A frame that can never be made is named in the problems; it refuses
+    // no partial.
     Result<Kept> take_partial(const OthersPartial& partial, int threads);
+    // Looks at one of the frames around the partials that the store had when take_partial() was
+    // called, newest first, and makes it again if it lacks one of the partials or describes them as
+    // they no longer are. Returns none when all were looked at. Errors: those of make_again(); the
+    // frame is looked at again later unless the error is in the data.
+    Result<std::optional<StaleFrame>> make_stale(int threads, std::vector<std::string>& problems);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }
     // As find_domain() says, among these domains.
@@ -119,7 +139,13 @@ class MosaicMaker {
     Status keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
                 int threads, Kept& kept);
     Status refresh(const Domain& domain, level2::Moment moment,
-                   const cache::GridDescription& changed, int threads, Kept& kept);
+                   const cache::GridDescription& changed, int threads, Kept& kept,
+                   const std::function<void()>& beat = {});
+    void finish(cache::GridDescription& frame, const std::vector<LateMachine>& late) const;
+    [[nodiscard]] std::vector<LateMachine> late_for(const FrameJob& job) const;
+    [[nodiscard]] Result<bool> is_stale(const FrameJob& job, const MappedPartials& partials) const;
+    // Notes the frames around a partial for make_stale().
+    void note_frames(const Domain& domain, const OthersPartial& partial, UtcTime middle);
 
     cache::StoreWriter* store_;
     std::vector<Domain> domains_;
@@ -127,7 +153,13 @@ class MosaicMaker {
     std::shared_ptr<PartialSources> sources_;
     GeometryCache geometries_;
     InstantCache instants_;
-    std::mutex mutex_;                                                     // guards frames_
+    struct Newest {
+        bool operator()(const cache::GridName& a, const cache::GridName& b) const {
+            return a.time != b.time ? a.time > b.time : a < b;
+        }
+    };
+    std::mutex mutex_;                             // guards frames_ and unchecked_
+    std::set<cache::GridName, Newest> unchecked_;  // frames for make_stale()
     std::map<std::pair<std::string, level2::Moment>, std::mutex> frames_;  // one at a time for each
 };
 

@@ -1,4 +1,8 @@
 // Partials that other machines made, as they come (MosaicMaker::take_partial).
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+
 #include "pipeline/keep/keep_rule.h"
 #include "pipeline/keep/site_grids.h"
 #include "pipeline/mosaic/mosaic_maker.h"
@@ -7,6 +11,54 @@
 
 namespace stormcellar::pipeline {
 namespace {
+
+// What a real part says of itself is far below these. The bounds keep the texts of all parts of a
+// frame small, and the work on them short.
+constexpr std::size_t most_notes = 64;  // and as many troubles of the radar
+constexpr std::size_t most_files = 8;   // and as many stations
+constexpr std::size_t most_sweeps = 256;
+constexpr std::size_t most_audit_rows = 64;
+constexpr std::size_t most_text_bytes = 1024;
+
+// The first and the last radial of a volume are minutes from its start.
+constexpr std::chrono::hours farthest_radial_of_part{1};
+
+// Returns what a part says that none says; empty if there is nothing.
+std::string_view excess_of(const grid::Provenance& part) {
+    if (part.notes.size() > most_notes || part.radar_troubles.size() > most_notes) return "notes";
+    if (part.source_files.size() > most_files || part.stations.size() > most_files) return "names";
+    if (part.sweeps.size() > most_sweeps) return "sweeps";
+    if (part.audit.size() > most_audit_rows) return "rows of an audit";
+    if (!part.parts.empty() || !part.left_out.empty()) return "parts";
+    const auto is_long = [](const std::string& text) { return text.size() > most_text_bytes; };
+    for (const auto* texts :
+         {&part.notes, &part.radar_troubles, &part.source_files, &part.stations})
+        if (std::ranges::any_of(*texts, is_long)) return "text";
+    for (const auto* text : {&part.method, &part.beam_model, &part.averaging, &part.effects,
+                             &part.predicted_error, &part.software_version})
+        if (is_long(*text)) return "text";
+    return {};
+}
+
+Status check_records(const OthersPartial& partial, const cache::GridDescription& grid) {
+    if (const auto excess = excess_of(grid.provenance); !excess.empty()) {
+        return fail(ErrorCode::corrupt, "{}: has more {} than a part may have",
+                    partial.file.native(), excess);
+    }
+    const bool is_ordered = grid.start_time <= grid.end_time;
+    const bool is_near = grid.start_time >= grid.time - farthest_radial_of_part &&
+                         grid.end_time <= grid.time + farthest_radial_of_part;
+    if (!is_ordered || !is_near) {
+        return fail(ErrorCode::corrupt,
+                    "{}: its radials, {} to {}, are not of the time of its name",
+                    partial.file.native(), format_utc(grid.start_time), format_utc(grid.end_time));
+    }
+    if (!is_believed(grid.end_time, now_utc())) {
+        return fail(ErrorCode::bad_argument, "{}: its radials, until {}, are of the future",
+                    partial.file.native(), format_utc(grid.end_time));
+    }
+    return {};
+}
 
 // Checks that the grid is what its name says, and a part of this domain.
 Status check(const OthersPartial& partial, const cache::GridDescription& grid,
@@ -18,6 +70,7 @@ Status check(const OthersPartial& partial, const cache::GridDescription& grid,
         return fail(ErrorCode::corrupt, "{}: is not the grid that its name says",
                     partial.file.native());
     }
+    if (Status good = check_records(partial, grid); !good) return good;
     if (!domain.takes(station)) {
         return fail(ErrorCode::bad_argument, "{}: the domain {} does not take {}",
                     partial.file.native(), domain.name, station);
@@ -57,7 +110,10 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     if (!path) return pass_on(path);
     Kept kept;
     const auto stands = cache::GridFile::open(*path);
-    if (stands && stands->checksum() == file->checksum()) return kept;
+    if (stands && stands->checksum() == file->checksum()) {
+        note_frames(*domain, partial, view.middle());
+        return kept;
+    }
     if (reason_to_keep(*path, {grid, view.view, true})) return kept;
     const auto committed = store_->commit(partial.name.domain, grid, view.view);
     if (!committed) return of_storing(committed.error());
@@ -72,9 +128,11 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     }
     if (committed->empty()) return kept;  // older than what the budgets keep
     kept.partials.push_back(*committed);
-    if (Status made = refresh(*domain, partial.name.moment, grid, threads, kept); !made)
-        return pass_on(made);
-    return kept;
+    keep_to_an_hours_volumes(*store_, partial.name.domain, partial.name.moment, partial.name.time);
+    const Status made = refresh(*domain, partial.name.moment, grid, threads, kept, partial.beat);
+    if (made) return kept;
+    note_frames(*domain, partial, view.middle());
+    return pass_on(made);
 }
 
 }  // namespace stormcellar::pipeline

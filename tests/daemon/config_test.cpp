@@ -316,6 +316,23 @@ TEST_F(ConfigFile, DirectoriesOfMachinesHaveNamesAndAreApart) {
                 ::testing::HasSubstr("[partials] directories: two machines have the name a"));
 }
 
+TEST_F(ConfigFile, StationsOfMachinesComeFromThemAlone) {
+    const auto load_with = [&](const std::string& stations) {
+        return load(std::string(paths) + "[partials]\ndirectories = [\"/p/a\", \"/p/b\"]\n" +
+                    "[partials.stations]\n" + stations);
+    };
+    const auto one = load_with("a = [\"KBGM\", \"KENX\"]\n");
+    ASSERT_TRUE(one) << one.error().message;
+    const PartialsConfig& partials = one->fixed.partials;
+    EXPECT_TRUE(partials.may_bring("a", "KBGM"));
+    EXPECT_FALSE(partials.may_bring("a", "KOKX"));
+    EXPECT_FALSE(partials.may_bring("b", "KBGM"));
+    EXPECT_TRUE(partials.may_bring("b", "KOKX"));
+    EXPECT_TRUE(PartialsConfig{}.may_bring("b", "KBGM"));
+    for (const char* wrong : {"a = [\"nowhere\"]\n", "c = [\"KBGM\"]\n", "a = \"KBGM\"\n"})
+        EXPECT_FALSE(load_with(wrong)) << wrong;
+}
+
 TEST_F(ConfigFile, ALinkDoesNotHideThatPathsAreTheSame) {
     std::filesystem::create_directory(directory_ / "real");
     std::filesystem::create_symlink(directory_ / "real", directory_ / "link");

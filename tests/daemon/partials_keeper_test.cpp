@@ -3,6 +3,7 @@
 #include "daemon/partials/partials_keeper.h"
 
 #include <fstream>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,6 +32,7 @@ class PartialsKeeperTest : public ::testing::Test {
         PartialsConfig config;
         config.directories = {directory_ / "north", directory_ / "south"};
         config.late_after = late_after;
+        config.stations = stations_;
         sources_ = std::make_shared<pipeline::PartialSources>(late_after);
         mosaics_ =
             std::make_unique<pipeline::MosaicMaker>(&store_, std::vector{pipeline::small_domain()},
@@ -69,6 +71,7 @@ class PartialsKeeperTest : public ::testing::Test {
     [[nodiscard]] MachineFacts north() const { return keeper_->facts().at(0); }
     [[nodiscard]] MachineFacts south() const { return keeper_->facts().at(1); }
 
+    std::map<std::string, std::vector<std::string>> stations_;
     testing::TemporaryDirectory directory_;
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
@@ -128,6 +131,32 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_EQ(north().refused, 1U) << "through several scans";
     bring("north", early);
     EXPECT_TRUE(comes([&] { return is_kept(early); }));
+}
+
+// 2026-11-28: any machine could replace the parts of another one's stations.
+TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
+    stations_ = {{"north", {"KBGM"}}};
+    start();
+    bring("south", early);
+    EXPECT_TRUE(comes([&] { return south().refused == 1; }));
+    EXPECT_THAT(south().last_problem, HasSubstr("[partials.stations] does not give it KBGM"));
+    EXPECT_FALSE(is_kept(early));
+    bring("north", later);
+    bring("south", other);
+    EXPECT_TRUE(comes([&] { return north().taken == 1 && south().taken == 1; }));
+    EXPECT_EQ(south().refused, 1U);
+}
+
+TEST_F(PartialsKeeperTest, AfterAStartFramesThatLackAPartAreMade) {
+    bring("north", early);
+    bring("north", later);
+    bring("south", other);
+    for (const InventedPartial& partial : {early, later, other})
+        pipeline::commit(store_, partial);  // a daemon that was killed before it made a frame
+    start();
+    EXPECT_TRUE(comes([&] {
+        return fs::exists(*store_.path_of("north", level2::Moment::ref, pipeline::minute(50)));
+    }));
 }
 
 TEST_F(PartialsKeeperTest, OtherFilesAreNotLookedAt) {

@@ -128,6 +128,7 @@ const std::vector<Section>& all_sections() {
          at_restart,
          {{"directories", "['/p/north']", "['/p/north', '/p/south']"},
           {"late_after_seconds", "600", "300"}}},
+        {"[partials.stations]", at_restart, {{"north", "['KBGM']", "['KENX']"}}},
         // The daemon checks them alone; stormcellar-web applies them.
         {"[web]",
          at_reload,

@@ -43,13 +43,17 @@ inline grid::Grid grid_of(const InventedPartial& wanted) {
     return made;
 }
 
-// Returns the path of the partial "north.STATION".
-inline std::filesystem::path commit(cache::StoreWriter& store, const InventedPartial& wanted) {
-    const grid::Grid grid = grid_of(wanted);
+inline std::filesystem::path commit(cache::StoreWriter& store, const std::string& station,
+                                    const grid::Grid& grid) {
     const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
-    const auto path = store.commit("north." + wanted.station, cache::describe(grid), bricks.view());
+    const auto path = store.commit("north." + station, cache::describe(grid), bricks.view());
     EXPECT_TRUE(path) << path.error().message;
     return path ? *path : std::filesystem::path{};
+}
+
+// Returns the path of the partial "north.STATION".
+inline std::filesystem::path commit(cache::StoreWriter& store, const InventedPartial& wanted) {
+    return commit(store, wanted.station, grid_of(wanted));
 }
 
 }  // namespace stormcellar::pipeline

@@ -1,11 +1,13 @@
 // Partials that other machines made: the mosaic is what one machine would have made of all volumes,
 // and a machine that is late is left out, named, and back as soon as it has caught up.
 #include <fstream>
+#include <functional>
 #include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/mosaic/mapped_partials.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "tests/pipeline/invented_partials.h"
 #include "tests/testing/temporary_directory.h"
@@ -54,6 +56,19 @@ class OthersPartials : public ::testing::Test {
         const auto kept = node.mosaics.take_partial(partial, 1);
         EXPECT_FALSE(kept);
         return kept ? Error{} : kept.error();
+    }
+    // Returns how many frames were made again.
+    static int mended(Node& node) {
+        int count = 0;
+        std::vector<std::string> problems;
+        for (int i = 0; i < 1000; ++i) {
+            const auto looked = node.mosaics.make_stale(1, problems);
+            EXPECT_TRUE(looked) << looked.error().message;
+            if (!looked || !*looked) break;
+            if ((*looked)->made) ++count;
+        }
+        EXPECT_THAT(problems, IsEmpty());
+        return count;
     }
     [[nodiscard]] std::map<fs::path, std::vector<std::byte>> cache_of(const std::string& name) {
         std::map<fs::path, std::vector<std::byte>> files;
@@ -160,6 +175,125 @@ TEST_F(OthersPartials, WhatIsNoPartOfADomainIsRefused) {
     others.stations = {"KOKX"};
     EXPECT_FALSE(MosaicMaker(&one->store, {others}).take_partial(good, 1));
     EXPECT_THAT(cache_of("one"), IsEmpty());
+}
+
+// 2026-11-28: a daemon that was killed between a part and its frames never made them again.
+TEST_F(OthersPartials, FramesThatAKilledDaemonDidNotMakeAreMade) {
+    const auto whole = node("whole"), killed = node("killed");
+    for (const auto& partial : {first, other_first, second, other_second, third, other_third})
+        take(*whole, "all", partial);
+    for (const auto& partial : {first, other_first, second, other_second, third})
+        take(*killed, "all", partial);
+    commit(killed->store, other_third);  // and then the end came
+    ASSERT_FALSE(cache_of("killed") == cache_of("whole"));
+
+    const auto again = node("killed");
+    for (const auto& partial : {other_third, third, second, first})
+        EXPECT_THAT(take(*again, "all", partial).partials, IsEmpty());
+    EXPECT_GT(mended(*again), 0);
+    EXPECT_TRUE(cache_of("killed") == cache_of("whole"));
+    for (const auto& partial : {other_third, third, second, first})
+        take(*again, "all", partial);
+    EXPECT_EQ(mended(*again), 0) << "what is as it should be stays";
+}
+
+TEST_F(OthersPartials, AFrameWhosePartsLeftTheCacheStays) {
+    const auto one = node("one");
+    for (const auto& partial : {first, other_first, second, other_second, third, other_third})
+        take(*one, "all", partial);
+    const auto frame = one->store.path_of("north", level2::Moment::ref, minute(50));
+    const auto before = *read_file(*frame);
+    fs::remove(*one->store.path_of("north.KOKX", level2::Moment::ref, minute(45)));
+    take(*one, "all", second);
+    EXPECT_EQ(mended(*one), 0);
+    EXPECT_TRUE(*read_file(*frame) == before);
+}
+
+// 2026-11-28: notes of forged parts came to more than the file of a frame holds, so that no frame
+// was written; 65,000 notes kept the thread for minutes; parts of the year 9998 made the others
+// late.
+TEST_F(OthersPartials, PartsThatSayWhatNoneSaysAreRefused) {
+    const auto one = node("one");
+    using Change = std::function<void(grid::Grid&)>;
+    const auto many = [](std::vector<std::string>& texts) {
+        for (int i = 0; i < 30'000; ++i)
+            texts.push_back(fmt::format("{:08}", i));
+    };
+    const std::vector<std::pair<Change, const char*>> changes = {
+        {[&](grid::Grid& grid) { many(grid.provenance.notes); }, "more notes"},
+        {[&](grid::Grid& grid) { many(grid.provenance.radar_troubles); }, "more notes"},
+        {[&](grid::Grid& grid) { many(grid.provenance.source_files); }, "more names"},
+        {[](grid::Grid& grid) { grid.provenance.effects = std::string(900'000, 'x'); },
+         "more text"},
+        {[](grid::Grid& grid) { grid.provenance.notes = {std::string(2000, 'x')}; }, "more text"},
+        {[](grid::Grid& grid) { grid.end_time += std::chrono::hours{24 * 365 * 7990}; },
+         "not of the time of its name"},
+        {[](grid::Grid& grid) { grid.start_time -= std::chrono::hours{2}; },
+         "not of the time of its name"},
+        {[](grid::Grid& grid) { std::swap(grid.start_time, grid.end_time); },
+         "not of the time of its name"},
+    };
+    auto store = cache::StoreWriter::open(real_file_system(), directory_ / "evil", false);
+    for (const auto& [change, why] : changes) {
+        grid::Grid grid = grid_of(first);
+        change(grid);
+        const fs::path file = commit(*store, "KBGM", grid);
+        const Error error = refused(
+            *one, {file, {"north.KBGM", level2::Moment::ref, minute(first.minute)}, "evil"});
+        EXPECT_THAT(error.message, HasSubstr(why));
+        EXPECT_THAT(error.message, HasSubstr(file.native())) << "the part is to blame";
+    }
+    grid::Grid future = grid_of(first);
+    future.time = future.start_time = now_utc() + std::chrono::hours{1};
+    future.end_time = future.start_time + std::chrono::minutes{4};
+    const fs::path file = commit(*store, "KBGM", future);
+    EXPECT_THAT(
+        refused(*one, {file, {"north.KBGM", level2::Moment::ref, future.time}, "evil"}).message,
+        HasSubstr("of the future"));
+    EXPECT_FALSE(one->sources->newest_of("evil"));
+    EXPECT_FALSE(fs::exists(directory_ / "one" / "north.KBGM")) << "made for what is kept";
+}
+
+TEST_F(OthersPartials, AFrameOfPartsWithManyNotesIsMade) {
+    const auto one = node("one");
+    for (const auto& [partial, letter] : {std::pair{first, 'a'}, std::pair{other_first, 'b'}}) {
+        grid::Grid grid = grid_of(partial);
+        for (int i = 0; i < 60'000; ++i)
+            grid.provenance.notes.push_back(fmt::format("{}{:07}", letter, i));
+        commit(one->store, partial.station, grid);
+    }
+    const Kept kept = take(*one, "all", second);
+    take(*one, "all", other_second);
+    EXPECT_THAT(kept.problems, IsEmpty());
+    const auto notes = frame_of(*one, 50).notes;
+    EXPECT_LT(notes.size(), 20'000U);
+    EXPECT_THAT(notes.back(), HasSubstr("more notes"));
+}
+
+// 2026-11-28: 930 parts of a station within an hour all stood, and each new one opened all of them.
+TEST_F(OthersPartials, AStationHasNoMorePartsOfAnHourThanARadarMakes) {
+    const auto one = node("one");
+    take(*one, "all", other_first);
+    for (int i = 0; i < 130; ++i) {
+        grid::Grid grid = grid_of({"KBGM", 44, 0, 20});
+        grid.time = grid.start_time = minute(44) + std::chrono::seconds{i};
+        grid.end_time = grid.time + std::chrono::minutes{4};
+        auto store = cache::StoreWriter::open(real_file_system(), directory_ / "evil", false);
+        const fs::path file = commit(*store, "KBGM", grid);
+        const auto kept = one->mosaics.take_partial(
+            {file, {"north.KBGM", level2::Moment::ref, grid.time}, "evil"}, 1);
+        ASSERT_TRUE(kept) << kept.error().message;
+    }
+    const auto standing =
+        one->store.list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
+    ASSERT_TRUE(standing);
+    EXPECT_EQ(standing->size(), 120U);
+    std::vector<std::string> problems;
+    const Domain domain = small_domain();
+    const auto open = MappedPartials::open(one->store, domain, level2::Moment::ref, minute(31),
+                                           minute(61), problems);
+    ASSERT_TRUE(open);
+    EXPECT_LE(open->views().size(), 25U) << "each has a descriptor";
 }
 
 TEST_F(OthersPartials, WhatIsDamagedOrCutIsRefused) {
