@@ -1,9 +1,14 @@
 // The sweeps of a raw volume, and their gates.
 #include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "base/checksum.h"
 #include "pipeline/drop/cataloged_volume.h"
 #include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/sweep_choice.h"
 #include "stormcellar/level2/decode.h"
 #include "web/data/compressed.h"
 #include "web/data/memory_file.h"
@@ -83,7 +88,23 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number) {
+// What `stormcellar frame --product ppi` draws of each moment: one sweep of each elevation.
+std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Volume& volume,
+                                                               std::string_view station) {
+    std::set<std::pair<level2::Moment, std::size_t>> chosen;
+    const double half_beam_deg = grid::beam_width_of(station) / 2;
+    std::set<level2::Moment> moments;
+    for (const level2::Sweep& sweep : volume.sweeps)
+        for (const level2::SweepMoment& gates : sweep.moments)
+            moments.insert(gates.moment);
+    for (const level2::Moment moment : moments)
+        for (const grid::ChosenSweep& sweep : grid::choose_sweeps(volume, moment, half_beam_deg))
+            chosen.emplace(moment, sweep.sweep_index);
+    return chosen;
+}
+
+ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
+                   const std::set<std::pair<level2::Moment, std::size_t>>& chosen) {
     ApiJson moments = ApiJson::array();
     for (const level2::SweepMoment& gates : sweep.moments) {
         moments.push_back({{"moment", level2::moment_name(gates.moment)},
@@ -91,7 +112,8 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number) {
                            {"first_gate_m", gates.first_gate_m},
                            {"gate_spacing_m", gates.gate_spacing_m},
                            {"gates", gates.gate_stride},
-                           {"bits", gates.word_size_bits}});
+                           {"bits", gates.word_size_bits},
+                           {"chosen", chosen.contains({gates.moment, number})}});
     }
     ApiJson json{{"sweep", number},
                  {"elevation_number", sweep.elevation_number},
@@ -113,9 +135,10 @@ Answer api_sweeps(const ApiCall& call) {
     if (!found) return found.error();
     const auto volume = volume_of(call, *found);
     if (!volume) return volume.error();
+    const auto chosen = chosen_sweeps(**volume, found->entry.station);
     ApiJson list = ApiJson::array();
     for (std::size_t i = 0; i < (*volume)->sweeps.size(); ++i)
-        list.push_back(sweep_json((*volume)->sweeps[i], i));
+        list.push_back(sweep_json((*volume)->sweeps[i], i, chosen));
     const auto start = (*volume)->start_time();
     return json_answer(call.request, {{"station", found->entry.station},
                                       {"time", start ? ApiJson(format_utc(*start)) : ApiJson()},
