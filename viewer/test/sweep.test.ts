@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { elevationsOf, nearestSite, nearestSweep } from '../src/fields/sweep_choice';
+import { cutOf, cutsOf, kindOf, nearestSite } from '../src/fields/sweep_choice';
 import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from '../src/fields/sweep_cone';
 import { planeOf } from '../src/scene/projection';
 import { PackedError } from '../src/wire/packed_grid';
@@ -71,13 +71,21 @@ test('the cone stands about its site', () => {
     assert(Math.max(...triangles) < corners.length / 5);
 });
 
-test('of sweeps at one elevation the last is meant, of those that have the moment', () => {
-    const row = (sweep: number, elevation_deg: number, ...moments: string[]) => ({ sweep, elevation_deg, moments: moments.map(moment => ({ moment })) });
-    const rows = [row(0, 0.48, 'REF'), row(1, 0.5, 'VEL'), row(2, 1.4, 'REF'), row(3, 0.52, 'REF'), row(4, 2.4, 'REF')];
-    assert.equal(nearestSweep(rows, 'REF', 0.5)!.sweep, 3);
-    assert.equal(nearestSweep(rows, 'VEL', 9)!.sweep, 1);
-    assert.equal(nearestSweep(rows, 'ZDR', 0.5), null);
-    assert.deepEqual(elevationsOf(rows, 'REF'), [0.48, 1.4, 2.4]);
+test('of a split cut the half that pictures take is shown, and each can be chosen (2026-11-28: reflectivity was shown of the Doppler half)', () => {
+    const row = (sweep: number, elevation_deg: number, ...moments: string[]) => ({
+        sweep,
+        elevation_deg,
+        moments: moments.map(text => ({ moment: text.replace('!', ''), chosen: text.endsWith('!') })),
+    });
+    // Two split cuts, the lower one repeated, and a cut that is whole; the server says which of them pictures take.
+    const rows = [row(0, 0.48, 'REF', 'ZDR'), row(1, 0.5, 'REF', 'VEL'), row(2, 0.9, 'REF!', 'ZDR!'), row(3, 0.88, 'REF', 'VEL!'), row(4, 0.52, 'REF!', 'ZDR!'), row(5, 0.5, 'REF', 'VEL!'), row(6, 2.4, 'REF!', 'VEL!', 'ZDR!')];
+    const shown = (moment: string, elevation: number, number: number | null = null) => cutOf(rows, moment, elevation, number)?.sweep;
+    assert.deepEqual([shown('REF', 0.5), shown('VEL', 0.5), shown('REF', 0.9), shown('VEL', 9)], [4, 5, 2, 6]);
+    assert.equal(shown('SW', 0.5), undefined);
+    assert.equal(shown('REF', 0.5, 1), 1, 'the one that was chosen by hand');
+    assert.equal(shown('REF', 0.5, 3), 4, 'where another volume has another elevation at that number, the rule holds');
+    assert.deepEqual(cutsOf(rows, 'REF').map(one => one.sweep), [0, 1, 4, 5, 2, 3, 6]);
+    assert.deepEqual(rows.map(one => kindOf(one, rows)), ['surveillance', 'doppler', 'surveillance', 'doppler', 'surveillance', 'doppler', '']);
 });
 
 test('of several sites the nearest to a place is meant', () => {

@@ -4,22 +4,43 @@ import { GridPlane, Plane } from '../scene/projection';
 import { SweepRow } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 
-const sameElevationDeg = 0.15;
+const sameElevationDeg = 0.2; // as include/stormcellar/grid/sweep_choice.h has it
 
-// The nearest one that has the moment; where the antenna came back to an elevation, the last. Null if
-// none has it.
-export function nearestSweep(rows: SweepRow[], moment: string, elevationDeg: number): SweepRow | null {
-    const having = rows.filter(row => row.moments.some(one => one.moment === moment));
-    if (having.length === 0) return null;
-    const off = (row: SweepRow) => Math.abs(row.elevation_deg - elevationDeg);
-    const nearest = having.reduce((best, row) => (off(row) < off(best) ? row : best));
-    return having.filter(row => Math.abs(row.elevation_deg - nearest.elevation_deg) < sameElevationDeg).pop()!;
+const has = (row: SweepRow, moment: string): boolean => row.moments.some(one => one.moment === moment);
+const isSameElevation = (one: number, other: number): boolean => Math.abs(one - other) <= sameElevationDeg;
+
+// The cuts that have the moment, by rising elevation, and at one elevation as they were measured.
+export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
+    const rising = rows.filter(row => has(row, moment)).sort((a, b) => a.elevation_deg - b.elevation_deg);
+    const groups: SweepRow[][] = [];
+    for (const row of rising) {
+        const last = groups[groups.length - 1];
+        if (last && isSameElevation(last[0]!.elevation_deg, row.elevation_deg)) last.push(row);
+        else groups.push([row]);
+    }
+    return groups.flatMap(group => group.sort((a, b) => a.sweep - b.sweep));
 }
 
-// The elevations that have the moment, each once, rising.
-export function elevationsOf(rows: SweepRow[], moment: string): number[] {
-    const all = rows.filter(row => row.moments.some(one => one.moment === moment)).map(row => row.elevation_deg);
-    return all.sort((a, b) => a - b).filter((one, i) => i === 0 || one - all[i - 1]! >= sameElevationDeg);
+// Whether `stormcellar frame --product ppi` takes this cut of its elevation.
+export const isChosen = (row: SweepRow, moment: string): boolean => row.moments.some(one => one.moment === moment && one.chosen === true);
+
+// The cut that is shown: of those that pictures take the nearest to the elevation; or the one of a number, if this
+// volume has it at that elevation. Null if none has the moment.
+export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, number: number | null): SweepRow | null {
+    const having = rows.filter(row => has(row, moment));
+    const named = having.find(row => row.sweep === number && isSameElevation(row.elevation_deg, elevationDeg));
+    if (named) return named;
+    const chosen = having.filter(row => isChosen(row, moment));
+    const off = (row: SweepRow) => Math.abs(row.elevation_deg - elevationDeg);
+    return (chosen.length > 0 ? chosen : having).reduce<SweepRow | null>((best, row) => (best === null || off(row) < off(best) ? row : best), null);
+}
+
+// What a half of a split cut is for; empty for a cut that is whole.
+export function kindOf(row: SweepRow, rows: SweepRow[]): 'surveillance' | 'doppler' | '' {
+    const isDoppler = has(row, 'VEL');
+    const isSplit = rows.some(other => isSameElevation(other.elevation_deg, row.elevation_deg) && has(other, 'VEL') !== isDoppler);
+    if (!isSplit) return '';
+    return isDoppler ? 'doppler' : 'surveillance';
 }
 
 // The site that is nearest to a place; null without sites.

@@ -51,6 +51,9 @@ export class App {
     shown: Shown | null = null;
     isOnMap = false; // of all stations, where a domain is chosen
     framesASecond = 4; // of playback
+    // What else a picture needs that shows this: until it has come, the one before stays. Null: it is there.
+    alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
+    isShownWhole: () => boolean = () => true; // the picture has all of what is shown
     isCutOff = false; // the server does not answer
     silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
     missed = ''; // what was asked for and is not there
@@ -321,11 +324,28 @@ export class App {
             const loaded = await this.load(time);
             // Another version of the same grid may be on its way.
             if (turn !== this.turn || this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain) return;
-            this.take({ key: Loader.key(domain, moment, time), loaded, domain, moment, time });
+            const next = this.shownOf(time, loaded);
+            await this.alongside(next, false);
+            if (turn !== this.turn || this.player.times[this.player.at] !== time) return;
+            this.take(next);
         } catch (error) {
             if (!this.leaveOut(time, error)) return this.fail(error);
             if (this.player.times[this.player.at] !== undefined) await this.showTime();
         }
+    }
+    private shownOf(time: string, loaded: LoadedGrid): Shown {
+        const { domain, moment } = this.state;
+        return { key: Loader.key(domain, moment, time), loaded, domain, moment, time };
+    }
+    // With what is drawn beside it.
+    private async loadWhole(time: string, isAhead: boolean): Promise<void> {
+        const { domain, moment } = this.state;
+        const loaded = await this.load(time);
+        if (this.state.domain === domain && this.state.moment === moment) await this.alongside(this.shownOf(time, loaded), isAhead);
+    }
+    private isWhole(time: string): boolean {
+        const loaded = this.loader.find(Loader.key(this.state.domain, this.state.moment, time));
+        return loaded !== undefined && this.alongside(this.shownOf(time, loaded), true) === null;
     }
     private load(time: string): Promise<LoadedGrid> {
         return this.loader.load(this.state.domain, this.state.moment, time, this.isBetween(time));
@@ -362,7 +382,7 @@ export class App {
             const time = all[index ?? -1];
             // What is made on request is not made in vain.
             if (time === undefined || (this.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
-            this.load(time).catch(error => this.leaveOut(time, error));
+            this.loadWhole(time, true).catch(error => this.leaveOut(time, error));
         }
     }
 
@@ -393,11 +413,10 @@ export class App {
 
     private tick(): void {
         if (!this.player.isPlaying) return;
-        const { domain, moment } = this.state;
-        const { player, waitsFor } = advanced(this.player, time => this.loader.has(Loader.key(domain, moment, time)));
+        const { player, waitsFor } = this.isShownWhole() ? advanced(this.player, time => this.isWhole(time)) : { player: this.player, waitsFor: null };
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
-            this.load(waitsFor).catch(error => this.leaveOut(waitsFor, error) || this.fail(error));
+            this.loadWhole(waitsFor, false).catch(error => this.leaveOut(waitsFor, error) || this.fail(error));
         } else if (player !== this.player) {
             this.player = player;
             void this.showTime();

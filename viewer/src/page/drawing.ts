@@ -67,6 +67,8 @@ export class Drawing {
         this.windows = new Windows(loader.decoder, loader.budget.bytes, () => app.cellsCame(), error => app.fail(error));
         loader.besides = () => this.windows!.bytes;
         this.layers = new LayerMaker(app, this.windows, () => this.draw());
+        app.alongside = (next, isAhead) => this.layers!.alongside(next, isAhead);
+        app.isShownWhole = () => !this.layers!.isWaiting;
         app.on('cells', () => this.draw());
         app.on('shown', () => {
             this.renderer.show(app.shown!.loaded);

@@ -7,7 +7,7 @@ import { fallsOf } from '../fields/falls';
 import { maximumField, planeField } from '../fields/flat_field';
 import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
-import { nearestSite, nearestSweep } from '../fields/sweep_choice';
+import { cutOf, kindOf, nearestSite } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
@@ -21,11 +21,24 @@ import { SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
+import { FetchedInTurn } from './fetched_in_turn';
+import { Loader } from './loader';
 import { texts } from './texts';
 import { Windows } from './windows';
 
 const sectionColumns = 480;
 const sectionRows = 192;
+const sweepsOfBudget = 0.2; // of the bytes that the page may hold
+
+// A sweep as it is drawn, and the sweeps of its volume.
+interface PlacedSweep {
+    rows: SweepRow[];
+    row: SweepRow;
+    drawn: DrawnSweep;
+}
+
+const bytesOfSweep = ({ drawn: { gates: { codes }, radials, cone } }: PlacedSweep): number =>
+    codes.byteLength + radials.byteLength + cone.corners.byteLength + cone.triangles.byteLength;
 
 // The last value of each name, with what it was made of.
 class Kept {
@@ -85,27 +98,44 @@ export class LayerMaker {
     isLeftOut = false; // what is asked for cannot be made of this grid
     private kept = new Kept();
     private other: Asked<LoadedGrid>;
-    private rows: Asked<{ time: string; rows: SweepRow[] }>;
-    private sweep: Asked<DrawnSweep>;
-    rowsCame: () => void = () => undefined; // the sweeps of the volume are known now
+    private sweeps: FetchedInTurn<PlacedSweep>;
+    private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
+    private numbers = new WeakMap<LoadedGrid, number>();
+    private mostNumber = 0;
+    private lastSweep: { of: LoadedGrid; moment: string; sweep: PlacedSweep } | null = null;
+    private askedSweep = ''; // the one whose coming is waited for
+    private missingOthers = new Set<string>(); // grids of another moment that could not be had
+    sweepCame: () => void = () => undefined; // or failed
 
     constructor(
         private app: App,
         private windows: Windows,
-        came: () => void,
+        private came: () => void,
     ) {
         const failed = (error: unknown) => app.fail(error);
         this.other = new Asked(came, failed);
-        this.sweep = new Asked(came, failed);
-        this.rows = new Asked(() => {
-            this.rowsCame();
-            came();
-        }, failed);
+        this.sweeps = new FetchedInTurn(sweepsOfBudget * app.loader.budget.bytes, bytesOfSweep);
     }
 
     // Something that is wanted has not come yet.
     get isWaiting(): boolean {
-        return this.other.isWaiting || this.rows.isWaiting || this.sweep.isWaiting || this.windows.isWaiting;
+        return this.other.isWaiting || this.isWaitingForSweep || this.windows.isWaiting;
+    }
+    private get isWaitingForSweep(): boolean {
+        const { shown, state } = this.app;
+        return shown !== null && state.layers.sweepDeg !== null && !this.sweeps.isSettled(this.sweepKey(shown));
+    }
+
+    // What else must come before this is shown: a sweep, or the grid of another moment; null if all is there.
+    alongside(next: Shown, isAhead: boolean): Promise<void> | null {
+        const { surface, sweepDeg } = this.app.state.layers;
+        const waits: Promise<unknown>[] = [];
+        if (sweepDeg !== null && this.sweeps.isNeeded(this.sweepKey(next))) waits.push(this.takeSweep(next, isAhead));
+        const other = surface?.moment || next.moment;
+        const key = Loader.key(next.domain, other, next.time);
+        if (other !== next.moment && next.loaded.stream === null && !this.app.loader.has(key) && !this.missingOthers.has(key))
+            waits.push(this.app.loader.load(next.domain, other, next.time, this.app.isBetween(next.time)).catch(() => this.missingOthers.add(key)));
+        return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
     }
 
     // Null if nothing is to be drawn but the volume as it always was. While the view moves, no other part of a
@@ -126,7 +156,7 @@ export class LayerMaker {
             section: crossed && this.sectionOf(crossed, shown.moment, layers.section!),
             surface: this.surfaceOf(shown, layers),
             maximum: seen && layers.hasMaximum ? this.maximumOf(seen) : null,
-            sweep: layers.sweepDeg === null ? null : this.sweepOf(shown, layers.sweepDeg),
+            sweep: this.sweepOf(shown)?.drawn ?? null,
             crop: layers.crop,
             falls: lit && this.fallsOf(lit, shown, table),
             air: seen && (layers.hasHaze || layers.hasFolded) ? this.airOf(seen, shown) : null,
@@ -179,7 +209,8 @@ export class LayerMaker {
         this.isLeftOut = shown.loaded.stream !== null;
         if (this.isLeftOut) return null;
         const key = `${shown.domain} ${moment} ${shown.time}`;
-        const of = this.other.take(key, () => this.app.loader.load(shown.domain, moment, shown.time, this.app.isBetween(shown.time)));
+        const { loader } = this.app;
+        const of = loader.find(Loader.key(shown.domain, moment, shown.time)) ?? this.other.take(key, () => loader.load(shown.domain, moment, shown.time, this.app.isBetween(shown.time)));
         if (!of) return null;
         if (!hasSameCells(of.grid, shown.loaded.grid)) {
             this.app.say(texts.layers.otherCells(moment));
@@ -188,10 +219,14 @@ export class LayerMaker {
         return { ...drawn, of };
     }
 
-    // The sweeps of the volume that is shown; null until they are known.
+    // The sweeps of the volume of which one is drawn, and which; null until they are known.
     sweepRows(): SweepRow[] | null {
         const { shown } = this.app;
-        return shown && (this.rowsOf(shown)?.rows ?? null);
+        return shown && (this.sweepOf(shown)?.rows ?? null);
+    }
+    shownCut(): SweepRow | null {
+        const { shown } = this.app;
+        return shown && (this.sweepOf(shown)?.row ?? null);
     }
     // What is drawn beside the volume, in words.
     told(): string[] {
@@ -207,33 +242,81 @@ export class LayerMaker {
             said.push(isBelow(moment, layers.surface.value) ? texts.layers.surfaceBelow(moment, value) : texts.layers.surfaceFrom(moment, value));
         }
         if (layers.hasMaximum) said.push(texts.layers.maximumTold);
-        const row = layers.sweepDeg === null ? null : nearestSweep(this.rowsOf(shown)?.rows ?? [], shown.moment, layers.sweepDeg);
-        if (row) said.push(texts.layers.sweepAt(this.stationOf(shown), row.elevation_deg.toFixed(1), row.start?.slice(11, 19) ?? ''));
+        if (layers.sweepDeg !== null) said.push(this.sweepTold(shown));
         return said;
+    }
+    private sweepTold(shown: Shown): string {
+        const station = this.stationOf(shown);
+        const found = this.sweepOf(shown);
+        if (found) return texts.layers.sweepAt(station, cutText(found.row, found.rows));
+        return this.sweeps.isSettled(this.sweepKey(shown)) ? texts.layers.noSweep(station) : texts.layers.sweepComes(station);
     }
     // Of several sites the one that is nearest to what is looked at.
     private stationOf({ loaded: { grid } }: Shown): string {
         const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
         return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
     }
-    private rowsOf(shown: Shown): { time: string; rows: SweepRow[] } | null {
-        const { time } = shown;
-        const station = this.stationOf(shown);
-        return this.rows.take(`${station} ${time}`, async () => {
-            const volume = await volumeBefore(station, time);
-            if (volume === null) throw new Error(texts.layers.noVolume(station));
-            return { time: volume, rows: await sweeps(station, volume) };
-        });
+    private rowsOf({ loaded, time }: Shown, station: string): Promise<{ time: string; rows: SweepRow[] }> {
+        const known = this.rows.get(loaded) ?? new Map<string, Promise<{ time: string; rows: SweepRow[] }>>();
+        this.rows.set(loaded, known);
+        let asked = known.get(station);
+        if (!asked) {
+            asked = (async () => {
+                const volume = await volumeBefore(station, time);
+                if (volume === null) throw new Error(texts.layers.noVolume(station));
+                return { time: volume, rows: await sweeps(station, volume) };
+            })();
+            known.set(station, asked);
+            asked.catch(() => known.delete(station));
+        }
+        return asked;
     }
 
-    private sweepOf(shown: Shown, elevationDeg: number): DrawnSweep | null {
-        const known = this.rowsOf(shown);
-        const row = known && nearestSweep(known.rows, shown.moment, elevationDeg);
-        if (!row) return null;
-        const station = this.stationOf(shown);
-        return this.sweep.take(`${station} ${known.time} ${row.sweep} ${shown.moment} ${shown.key}`, async () => {
-            const read = readPackedSweep(new Uint8Array(await gates(station, known.time, row.sweep, shown.moment)));
-            return { gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(shown.loaded.grid)) };
-        });
+    // A grid that was made again may have another volume's sweeps, so that the time is not enough.
+    private sweepKey(shown: Shown): string {
+        const { loaded, moment } = shown;
+        if (!this.numbers.has(loaded)) this.numbers.set(loaded, ++this.mostNumber);
+        const { sweepDeg, sweepNumber } = this.app.state.layers;
+        return [this.numbers.get(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber].join(' ');
     }
+    private takeSweep(shown: Shown, isAhead: boolean): Promise<void> {
+        const { sweepDeg, sweepNumber } = this.app.state.layers;
+        const { loaded, moment } = shown;
+        const station = this.stationOf(shown);
+        const fetch = async (): Promise<PlacedSweep> => {
+            const { time, rows } = await this.rowsOf(shown, station);
+            const row = cutOf(rows, moment, sweepDeg!, sweepNumber);
+            if (!row) throw new Error(texts.layers.noSweep(station));
+            const read = readPackedSweep(new Uint8Array(await gates(station, time, row.sweep, moment)));
+            return { rows, row, drawn: { gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(loaded.grid)) } };
+        };
+        return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
+    }
+
+    // While another sweep of the same volume comes, the one before stays.
+    private sweepOf(shown: Shown): PlacedSweep | null {
+        if (this.app.state.layers.sweepDeg === null) return null;
+        const { loaded, moment } = shown;
+        const key = this.sweepKey(shown);
+        const found = this.sweeps.find(key);
+        if (found) this.lastSweep = { of: loaded, moment, sweep: found };
+        if (found || this.sweeps.isSettled(key)) return found;
+        if (this.askedSweep !== key) {
+            this.askedSweep = key;
+            void this.takeSweep(shown, false).then(() => {
+                this.askedSweep = '';
+                const error = this.sweeps.errorOf(key);
+                if (error !== undefined) this.app.fail(error);
+                this.sweepCame();
+                this.came();
+            });
+        }
+        return this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep.sweep : null;
+    }
+}
+
+// A cut as the list and the title name it.
+export function cutText(row: SweepRow, rows: SweepRow[]): string {
+    const kind = kindOf(row, rows);
+    return texts.layers.cut(row.elevation_deg.toFixed(1), row.start?.slice(11, 19) ?? '', kind === '' ? '' : texts.layers.kinds[kind]);
 }

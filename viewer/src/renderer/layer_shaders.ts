@@ -58,10 +58,14 @@ vec3 solidColor(int state, float value) {
     if (look.a == 0.0) discard;
     return mix(seenColor, look.rgb, look.a);
 }
-void put(vec3 rgb) {
-    if (away < depthRange.x) discard;
+// Before the grid, and behind it, is as near and as far as the grid's edges.
+void putAnywhere(vec3 rgb) {
     color = vec4(rgb, 1.0);
     gl_FragDepth = clamp((away - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 0.999999);
+}
+void put(vec3 rgb) {
+    if (away < depthRange.x) discard;
+    putAnywhere(rgb);
 }`;
 
 // A field of values and states (fields/flat_field.ts): on a plane, or upright. States of four texels mix
@@ -105,26 +109,25 @@ void main() {
     put(solidColor(int(found.y + 0.5), found.x));
 }`;
 
-// The gates of a sweep: each pixel shows one gate, of the nearest radial. 'at' is azimuth and slant range.
+// The gates of a sweep: each pixel shows one gate, of the nearest radial. 'at' is azimuth and slant range. The sweep is
+// drawn as far as it reaches, also beyond the grid.
 export const sweepFragment = (isPerspective: boolean): string => `${solidHead(isPerspective)}
 uniform usampler2D codes; // gates along x, radials along y
 uniform usampler2D radials; // by azimuth; of each radial the number of its gates
 uniform vec2 gateLine; // gate = x + y * slant range
 uniform vec2 valueLine; // value = x + y * code
 uniform float firstValue;
-uniform vec3 boxLow, boxHigh;
 void main() {
-    if (any(lessThan(drawn.xy, boxLow.xy)) || any(greaterThan(drawn, boxHigh))) discard;
     int step_ = int(clamp(at.x * ${(azimuthSteps / 360).toFixed(1)}, 0.0, ${(azimuthSteps - 1).toFixed(1)}));
     uvec2 radial = texelFetch(radials, ivec2(step_ % 1800, step_ / 1800), 0).rg;
     int gate = int(floor(gateLine.x + gateLine.y * at.y));
     if (gate < 0 || (radial.x != ${noRadial}u && gate >= int(radial.y))) discard;
     if (radial.x == ${noRadial}u) {
-        put(solidColor(0, 0.0));
+        putAnywhere(solidColor(0, 0.0));
         return;
     }
     float code = float(texelFetch(codes, ivec2(gate, int(radial.x)), 0).r);
-    put(solidColor(code >= firstValue ? 3 : code == 1.0 ? 2 : 1, valueLine.x + valueLine.y * code));
+    putAnywhere(solidColor(code >= firstValue ? 3 : code == 1.0 ? 2 : 1, valueLine.x + valueLine.y * code));
 }`;
 
 // The greatest values of the columns, on the ground.

@@ -212,9 +212,6 @@ export class LayerPasses {
         gl.uniform2f(at('gateLine'), 0.5 - gates.firstGateM / gates.gateSpacingM, 1 / gates.gateSpacingM);
         gl.uniform2f(at('valueLine'), -gates.offset / gates.scale, 1 / gates.scale);
         gl.uniform1f(at('firstValue'), gates.firstValueCode);
-        const { box, exaggeration } = geometry;
-        gl.uniform3f(at('boxLow'), -box.halfXM, -box.halfYM, box.bottomM * exaggeration);
-        gl.uniform3f(at('boxHigh'), box.halfXM, box.halfYM, box.topM * exaggeration);
         this.drawMesh(cone.corners, cone.triangles);
     }
 

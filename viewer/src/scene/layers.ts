@@ -24,6 +24,7 @@ export interface Layers {
     surface: Surface | null;
     hasMaximum: boolean; // of each column, on the ground
     sweepDeg: number | null; // elevation of a sweep
+    sweepNumber: number | null; // which one of the volume, if it has it at that elevation; null: the one that pictures take
     crop: Crop | null; // of volume and surface
     isLit: boolean;
     hasHaze: boolean; // where no beam saw
@@ -40,6 +41,7 @@ export const usualLayers: Layers = {
     surface: null,
     hasMaximum: false,
     sweepDeg: null,
+    sweepNumber: null,
     crop: null,
     isLit: false,
     hasHaze: false,
@@ -50,6 +52,7 @@ const rounded = (value: number, places: number): string => String(Number(value.t
 const kilometers = (m: number): string => rounded(m / 1000, 3);
 const cropSides = ['westM', 'eastM', 'southM', 'northM', 'bottomM', 'topM'] as const;
 const farthestM = 2e7;
+const mostSweeps = 1000; // of a volume
 
 export const sectionText = (section: readonly [Place, Place]): string =>
     section.flatMap(({ latitudeDeg, longitudeDeg }) => [rounded(latitudeDeg, 5), rounded(longitudeDeg, 5)]).join(',');
@@ -66,6 +69,7 @@ export function layersAddress(layers: Layers): [string, string][] {
     }
     if (layers.hasMaximum) parts.push(['maximum', '1']);
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
+    if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
     if (layers.crop) parts.push(['crop-km', cropSides.map(side => kilometers(layers.crop![side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
     if (layers.hasHaze) parts.push(['haze', '1']);
@@ -104,6 +108,7 @@ export function layersOf(query: URLSearchParams): Layers {
     const one = (name: string, least: number, most: number) => numbers(query.get(name), 1, least, most)?.[0] ?? null;
     const planeKm = one('height-km', -1, 100);
     const surface = one('surface', -1000, 1000);
+    const sweep = one('sweep', 0, mostSweeps - 1);
     return {
         hasVolume: query.get('volume') !== '0',
         planeM: planeKm === null ? null : planeKm * 1000,
@@ -111,6 +116,7 @@ export function layersOf(query: URLSearchParams): Layers {
         surface: surface === null ? null : { value: surface, moment: (query.get('surface-moment') ?? '').toUpperCase().slice(0, 8) },
         hasMaximum: query.get('maximum') === '1',
         sweepDeg: one('elevation', -5, 90),
+        sweepNumber: Number.isInteger(sweep) ? sweep : null,
         crop: cropOf(query.get('crop-km')),
         isLit: query.get('light') === 'gradient',
         hasHaze: query.get('haze') === '1',
@@ -133,7 +139,10 @@ export function productOf(layers: Layers): string[] | null {
     if (layers.hasVolume) return null;
     if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];
     if (layers.planeM !== null) return ['--product', 'cappi', '--height-km', kilometers(layers.planeM)];
-    if (layers.sweepDeg !== null) return ['--product', 'ppi', '--elevation', rounded(layers.sweepDeg, 2)];
+    if (layers.sweepDeg !== null) {
+        const which = layers.sweepNumber === null ? ['--elevation', rounded(layers.sweepDeg, 2)] : ['--sweep', String(layers.sweepNumber)];
+        return ['--product', 'ppi', ...which];
+    }
     return layers.hasMaximum ? ['--product', 'composite'] : null;
 }
 

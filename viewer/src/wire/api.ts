@@ -197,7 +197,7 @@ export interface SweepRow {
     sweep: number; // from 0
     elevation_deg: number;
     start?: string;
-    moments: { moment: string }[];
+    moments: { moment: string; chosen?: boolean }[]; // chosen: `stormcellar frame` takes it of its elevation
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
 

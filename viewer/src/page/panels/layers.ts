@@ -1,6 +1,6 @@
 // The panel of layers: what is drawn beside the map, and its keys.
 
-import { elevationsOf } from '../../fields/sweep_choice';
+import { cutsOf, isChosen } from '../../fields/sweep_choice';
 import { Crop, Layers, isBelow, sectionOf, sectionText } from '../../scene/layers';
 import { planeOf } from '../../scene/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
@@ -8,6 +8,7 @@ import { App } from '../app';
 import { button, element, leaveByEscape, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
+import { cutText } from '../layer_maker';
 import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
 import { Pointers } from '../pointers';
 import { texts } from '../texts';
@@ -18,6 +19,7 @@ const words = texts.layers;
 const usualPlaneM = 3000;
 const planeStepM = 500;
 const usualReflectivity = 45;
+const lowestSweepDeg = 0.5; // the nearest is shown
 const sides = ['westM', 'eastM', 'southM', 'northM', 'bottomM', 'topM'] as const;
 
 function labeled(text: string, control: HTMLElement): HTMLLabelElement {
@@ -64,7 +66,7 @@ export class LayersPanel {
         addMarks(this.app, this.drawing);
         new SectionPlot(this.app, this.drawing.windows!);
         for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
-        this.drawing.layers!.rowsCame = () => this.put();
+        this.drawing.layers!.sweepCame = () => this.put();
     }
 
     private open(isOpen: boolean): void {
@@ -147,7 +149,7 @@ export class LayersPanel {
     private sweepParts(): HTMLElement[] {
         const elevation = document.createElement('select');
         elevation.id = 'sweep-elevation';
-        elevation.addEventListener('change', () => this.set({ sweepDeg: Number(elevation.value) }));
+        elevation.addEventListener('change', () => this.chooseCut(Number(elevation.value)));
         return [labeled(words.elevation, elevation)];
     }
 
@@ -246,8 +248,13 @@ export class LayersPanel {
     }
 
     private toggleSweep(): void {
-        const first = elevationsOf(this.drawing.layers!.sweepRows() ?? [], this.app.state.moment)[0];
-        this.set({ sweepDeg: this.layers.sweepDeg === null ? Number((first ?? 0.5).toFixed(2)) : null });
+        this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestSweepDeg : null, sweepNumber: null });
+    }
+    // The one that pictures take of its elevation is so in every volume; another one is named by its number.
+    private chooseCut(number: number): void {
+        const row = this.drawing.layers!.sweepRows()?.find(one => one.sweep === number);
+        if (!row) return;
+        this.set({ sweepDeg: Number(row.elevation_deg.toFixed(2)), sweepNumber: isChosen(row, this.app.state.moment) ? null : number });
     }
 
     private toggleCrop(): void {
@@ -333,11 +340,13 @@ export class LayersPanel {
     }
 
     private putSweep(elevationDeg: number): void {
-        const all = elevationsOf(this.drawing.layers!.sweepRows() ?? [], this.app.state.moment);
-        const nearest = all.reduce((best, one) => (Math.abs(one - elevationDeg) < Math.abs(best - elevationDeg) ? one : best), all[0] ?? elevationDeg);
+        const layers = this.drawing.layers!;
+        const rows = layers.sweepRows() ?? [];
+        const cuts = cutsOf(rows, this.app.shown?.moment ?? '');
         const select = element<HTMLSelectElement>('sweep-elevation');
-        putOptions(select, (all.length > 0 ? all : [elevationDeg]).map(one => one.toFixed(2)), nearest.toFixed(2));
-        for (const option of select.options) option.textContent = `${Number(option.value).toFixed(1)}°`;
+        const textOf = (number: string) => cutText(cuts.find(one => String(one.sweep) === number)!, rows);
+        if (cuts.length > 0) putOptions(select, cuts.map(one => String(one.sweep)), String(layers.shownCut()?.sweep), textOf);
+        else putOptions(select, [''], '', () => `${elevationDeg.toFixed(1)}°`);
     }
 
     private putCrop(box: Crop, crop: Crop): void {

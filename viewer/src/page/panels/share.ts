@@ -82,7 +82,9 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     const size = drawing.geometry();
     if (why || !size) return app.say(why);
     const { domain, moment, time } = app.shown!;
-    const state = { ...app.state, domain, moment, time };
+    // The cut that is drawn, whichever rule has chosen it.
+    const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
+    const state = { ...app.state, domain, moment, time, layers };
     const notes = [state.layers.hasVolume ? '' : texts.commandFlat, state.layers.hasVolume && state.layers.hasFolded ? texts.commandWithoutFolded : ''];
     const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', raw ? texts.commandOf(raw) : texts.commandCopied);

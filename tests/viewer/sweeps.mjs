@@ -1,0 +1,98 @@
+// Sweeps of raw volumes on the page: which cut is shown, all of them to choose from, and loops (scripts/check-viewer).
+//   node sweeps.mjs ADDRESS STATION [SEQUENCE]
+// SEQUENCE: the station has several volumes, which are played.
+import { CheckedPage, check, gridsOf } from './checked_page.mjs';
+import { Browser } from './devtools.mjs';
+
+const [address, station, sequence] = process.argv.slice(2);
+await gridsOf(address, [station]);
+const browser = await Browser.start();
+try {
+  const page = await browser.page(500, 400);
+  const viewer = new CheckedPage(page, address);
+  const evaluate = (text) => page.evaluate(text);
+  const press = (id) => evaluate(`document.getElementById('${id}').click()`);
+  const json = async (path) => (await fetch(`${address}/api/v1/${path}`)).json();
+  const { volumes } = await json(`stations/${station}/volumes`);
+  const { sweeps } = await json(`stations/${station}/volumes/${volumes[volumes.length - 1].time}/sweeps`);
+  const having = sweeps.filter(({ moments }) => moments.some(({ moment }) => moment === 'REF'));
+  const lowest = Math.min(...having.map(({ elevation_deg }) => elevation_deg));
+  const atLowest = having.filter(({ elevation_deg }) => elevation_deg <= lowest + 0.2);
+  const isOf = (row, moment) => row.moments.some((one) => one.moment === moment);
+  const told = () => evaluate("document.getElementById('layers-told').textContent");
+  const above = `domain=${station}&moment=REF&volume=0&azimuth=180&tilt=0&field-of-view=0&quality=${encodeURIComponent('64 slices')}`;
+
+  // ---- The cut that pictures take, and every other one (2026-11-28: the Doppler half, and no other, was shown)
+  await viewer.open(`${above}&elevation=0.5`);
+  const chosen = atLowest.find(({ moments }) => moments.some((one) => one.moment === 'REF' && one.chosen));
+  check(`the page shows the cut that pictures take: ${await told()}`, (await told()).includes(chosen.start.slice(11, 19)));
+  const options = () => evaluate("[...document.getElementById('sweep-elevation').options].map((one) => one.textContent)");
+  check(`each of the ${having.length} cuts is in the list: ${(await options()).slice(0, 4).join(', ')}`, (await options()).length === having.length);
+  const other = atLowest.find((row) => row !== chosen);
+  if (other) {
+    const kind = isOf(other, 'VEL') === isOf(chosen, 'VEL') ? '' : isOf(other, 'VEL') ? 'Doppler' : 'long range';
+    await viewer.settled(() => evaluate(`(() => { const list = document.getElementById('sweep-elevation'); list.value = '${other.sweep}'; list.dispatchEvent(new Event('change')); })()`));
+    check(`another cut can be chosen: ${await told()}`, (await told()).includes(`${other.start.slice(11, 19)}${kind && ` ${kind}`}`) && (await viewer.number('sweep')) === other.sweep);
+    await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } })`);
+    await press('command');
+    const command = await page.until('window.copied');
+    check(`the command names it: ${command}`, command.includes(`--product ppi --sweep ${other.sweep} `));
+  }
+
+  // ---- The whole sweep is drawn, also beyond the grid (2026-11-28: it was cut off at the grid's box)
+  const echo = (more) => evaluate(`(() => {
+    const picture = document.getElementById('picture');
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [picture.width, picture.height];
+    const pen = copy.getContext('2d');
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+    let count = 0;
+    for (let y = 0, i = 0; y < copy.height; ++y) for (let x = 0; x < copy.width; ++x, i += 4) {
+      const isColored = Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 50;
+      if (isColored && (${more})) ++count;
+    }
+    return count;
+  })()`);
+  // At this zoom the grid is a third as high as the picture, and as wide as high.
+  await viewer.show(`${above}&elevation=0.5&zoom=0.333&ground=0`);
+  const away = 'Math.max(Math.abs(x - copy.width / 2), Math.abs(y - copy.height / 2)) - copy.height / 6';
+  const beyond = await echo(`${away} > 3`);
+  const within = await echo(`${away} < -3`);
+  const reaches = Math.max(...chosen.moments.filter(({ moment }) => moment === 'REF').map(({ gates, gate_spacing_m }) => gates * gate_spacing_m));
+  if (reaches > 3e5) check(`of a sweep that reaches ${reaches / 1000} km ${within} pixels are drawn within the grid, ${beyond} beyond`, within > 50 && beyond > 0);
+
+  if (sequence) {
+    // ---- A loop never shows an empty map (2026-11-28: all of 24 pictures were empty at 4 frames a second)
+    await viewer.show(`${above}&elevation=0.5`);
+    await page.until("Number(document.getElementById('times').max) >= 4");
+    const full = await echo('true');
+    await evaluate(`window.seen = []; window.watch = true;
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [100, 80];
+      const pen = copy.getContext('2d', { willReadFrequently: true });
+      const look = () => {
+        pen.drawImage(document.getElementById('picture'), 0, 0, 100, 80);
+        const { data } = pen.getImageData(0, 0, 100, 80);
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4) if (Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 50) ++count;
+        window.seen.push([document.getElementById('title').textContent.match(/\\d\\d:\\d\\d:\\d\\d/)?.[0], document.getElementById('layers-told').textContent, count]);
+        if (window.watch) requestAnimationFrame(look);
+      };
+      requestAnimationFrame(look); undefined`);
+    await press('play');
+    await page.until('new Set(window.seen.map(([time]) => time)).size >= 5', 60);
+    await page.until(`(window.from ??= window.seen.length, new Set(window.seen.slice(window.from).map(([time]) => time)).size >= 5)`, 60);
+    await press('play');
+    const seen = await evaluate('(window.watch = false, window.seen)');
+    const least = Math.min(...seen.map(([, , count]) => count));
+    const empty = seen.filter(([, , count]) => count < 0.1 * (full / 25)).length;
+    check(`none of ${seen.length} looks at a loop is empty: at least ${least} of ${Math.round(full / 25)} colored pixels`, full > 500 && empty === 0, `${empty} are`);
+    const lines = new Map(seen.map(([time, line]) => [time, line]));
+    const isOwn = ([time, line]) => Math.abs(Date.parse(`2000-01-01T${line.match(/\d\d:\d\d:\d\d/)?.[0]}Z`) - Date.parse(`2000-01-01T${time}Z`)) < 400e3;
+    check(`each time names a sweep of its own volume: ${[...lines].map((one) => one.join(' ')).join('; ')}`, lines.size >= 5 && [...lines].every(isOwn) && new Set(lines.values()).size === lines.size);
+  }
+  check('nothing of the page failed, and the server was never too busy', page.trouble.length === 0, page.trouble.join('\n'));
+} finally {
+  await browser.end();
+}
