@@ -71,6 +71,20 @@ TEST(Request, FindsParametersAndHeaders) {
     EXPECT_FALSE(request.accepts("deflate"));
 }
 
+TEST(Request, PrefersHtmlIfItsAcceptDoes) {
+    const auto prefers = [](const char* accept) {
+        Request request;
+        request.headers = {{"accept", accept}};
+        return request.prefers_html();
+    };
+    EXPECT_FALSE(Request{}.prefers_html());
+    EXPECT_TRUE(prefers("text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"));
+    EXPECT_TRUE(prefers("text/html"));
+    EXPECT_TRUE(prefers("application/json;q=0.2, text/*;q=0.5"));
+    for (const char* accept : {"*/*", "application/json", "text/html;q=0, */*", "", ";;,/,q="})
+        EXPECT_FALSE(prefers(accept)) << accept;
+}
+
 TEST(ReadRequest, AnswersLoopbackNamesAlone) {
     for (const char* host : {"localhost", "LOCALHOST:1", "127.0.0.1:8090", "[::1]", "[::1]:80"})
         EXPECT_EQ(refusal_of(raw_get("/", {{"Host", host}})), 0u) << host;

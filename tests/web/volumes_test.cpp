@@ -60,6 +60,20 @@ TEST_F(Volumes, AStationsVolumesAreListedNewestFirst) {
     EXPECT_EQ(list("/volumes/KTLX/?from=2018-01-01").at("volumes").size(), 0U);
 }
 
+// 2026-11-28: wget -r and rclone found no link in the lists, which were JSON whoever asked.
+TEST_F(Volumes, ListsArePagesOfLinksWhereAcceptPrefersHtml) {
+    const Fields browser{{"Accept", "text/html,*/*;q=0.8"}};
+    const Answer stations = get("/volumes/", browser);
+    EXPECT_EQ(header_of(stations, "Content-Type"), "text/html; charset=utf-8");
+    EXPECT_NE(body_of(stations).find("<a href=\"KTLX/\">KTLX/</a>"), std::string::npos);
+    const std::string page = body_of(get("/volumes/KTLX/", browser));
+    EXPECT_NE(page.find(std::string("<a href=\"") + new_name + "\">"), std::string::npos) << page;
+    EXPECT_NE(page.find("488081"), std::string::npos);
+    EXPECT_EQ(header_of(get("/volumes/KTLX/", {{"Accept", "*/*"}}), "Content-Type"),
+              "application/json");
+    EXPECT_EQ(get("/volumes/KXXX/", browser).status, 404u);
+}
+
 TEST_F(Volumes, BytesAreThoseOfTheFileInRangesToo) {
     const std::string whole = bytes_of_file(new_name);
     const Answer answer = get(new_path);

@@ -42,6 +42,13 @@ struct OpenGrid {
     level2::Moment moment;
     UtcTime time;
     std::string id;  // of its bytes: letters and digits, for ETags and keys
+
+    // Returns true if this grid will be made again: its volume is growing or not whole, or its
+    // frame waits for later volumes.
+    [[nodiscard]] bool may_change() const {
+        const grid::Provenance& from = file.description().provenance;
+        return from.partial || from.provisional;
+    }
 };
 
 class Grids {

@@ -3,9 +3,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/checksum.h"
 #include "base/floating_point.h"
 #include "stormcellar/cache/grid_name.h"
+#include "web/data/text_answer.h"
 
 namespace stormcellar::web {
 namespace {
@@ -198,12 +198,8 @@ Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call) {
 
 Answer json_answer(const Request& request, const ApiJson& document) {
     // Names in files may be any bytes.
-    std::string body = document.dump(-1, ' ', false, ApiJson::error_handler_t::replace) + "\n";
-    Entity entity;
-    entity.etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(body))));
-    entity.bytes = {text_of(std::move(body))};
-    entity.content_type = "application/json";
-    return answer_with(request, std::move(entity));
+    return text_answer_to(request, "application/json",
+                          document.dump(-1, ' ', false, ApiJson::error_handler_t::replace) + "\n");
 }
 
 Answer come_back_later() {

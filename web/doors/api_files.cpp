@@ -1,6 +1,7 @@
 // A grid as a file: CF netCDF, and its own .scg.
 #include "stormcellar/export/grid_netcdf.h"
 #include "web/doors/api_operations.h"
+#include "web/doors/picture_answers.h"
 
 namespace stormcellar::web {
 namespace {
@@ -70,6 +71,7 @@ Answer api_netcdf(const ApiCall& call) {
     entity.bytes = {kept->bytes};
     entity.content_type = "application/x-netcdf";
     entity.etag = kept->etag;
+    entity.max_age = max_age_of(call.path_value("time"), **grid);
     entity.headers = {{"Content-Disposition", disposition(file_name_of(**grid, ".nc"))}};
     return answer_with(call.request, std::move(entity));
 }
@@ -86,6 +88,7 @@ Answer api_grid_file(const ApiCall& call) {
         FileSlice{std::make_shared<const Descriptor>(std::move(*descriptor)), 0, file.bytes()}};
     entity.content_type = "application/octet-stream";
     entity.etag = fmt::format("\"{}\"", (*grid)->id);
+    entity.max_age = max_age_of(call.path_value("time"), **grid);
     entity.headers = {{"Content-Disposition", disposition(file_name_of(**grid, ".scg"))}};
     return answer_with(call.request, std::move(entity));
 }

@@ -10,6 +10,7 @@
 #include "web/data/region.h"
 #include "web/doors/api_door.h"
 #include "web/doors/api_operations.h"
+#include "web/doors/picture_answers.h"
 
 namespace stormcellar::web {
 namespace {
@@ -213,18 +214,24 @@ Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequ
     return compress_packed(bytes, wanted.coding, fmt::format("\"{}-{}\"", grid.id, wanted.text()));
 }
 
-Answer packed_answer(const Request& request, const Kept& kept, bool never_changes) {
+Answer packed_answer(const Request& request, const Kept& kept,
+                     std::optional<std::chrono::seconds> max_age = {}) {
     Entity entity;
     entity.bytes = {kept.bytes};
     entity.content_type = "application/octet-stream";
     entity.etag = kept.etag;
     entity.coding = kept.notes;
     entity.varies = true;
-    if (never_changes) {
-        entity.max_age = a_year;
-        entity.never_changes = true;
-    }
+    entity.max_age = max_age;
+    entity.never_changes = max_age == a_year;
     return answer_with(request, std::move(entity));
+}
+
+// The bytes of an id never change; those of a time are as those of a picture.
+std::optional<std::chrono::seconds> max_age_of_packed(const ApiCall& call,
+                                                      const PackedRequest& wanted,
+                                                      const OpenGrid& grid) {
+    return wanted.id ? a_year : max_age_of(call.path_value("time"), grid);
 }
 
 Answer other_id(const OpenGrid& grid) {
@@ -273,7 +280,7 @@ std::optional<Answer> packed_at_once(const ApiCall& call) {
     if (wanted->id && *wanted->id != grid->id) return other_id(*grid);
     const auto kept = call.state.sources().kept->find(key_of(*grid, *wanted));
     if (!kept) return std::nullopt;
-    return packed_answer(call.request, *kept, wanted->id.has_value());
+    return packed_answer(call.request, *kept, max_age_of_packed(call, *wanted, *grid));
 }
 
 Answer api_packed(const ApiCall& call) {
@@ -295,7 +302,7 @@ Answer api_packed(const ApiCall& call) {
         if (!made) return json_error(made.error());
         kept = std::move(*made);
     }
-    return packed_answer(call.request, *kept, wanted->id.has_value());
+    return packed_answer(call.request, *kept, max_age_of_packed(call, *wanted, **grid));
 }
 
 Answer api_between(const ApiCall& call) {
@@ -319,7 +326,7 @@ Answer api_between(const ApiCall& call) {
         if (!made) return json_error(made.error());
         kept = std::move(*made);
     }
-    return packed_answer(call.request, *kept, false);
+    return packed_answer(call.request, *kept);
 }
 
 Answer api_region_packed(const ApiCall& call) {
@@ -351,7 +358,7 @@ Answer api_region_packed(const ApiCall& call) {
         if (!made) return json_error(made.error());
         kept = std::move(*made);
     }
-    return packed_answer(call.request, *kept, false);
+    return packed_answer(call.request, *kept);
 }
 
 }  // namespace stormcellar::web

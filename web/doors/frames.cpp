@@ -11,6 +11,7 @@
 #include "render/options/picture_options.h"
 #include "stormcellar/render/product.h"
 #include "web/data/picture_query.h"
+#include "web/data/text_answer.h"
 
 namespace stormcellar::web {
 namespace {
@@ -115,7 +116,7 @@ Found<FramesDoor::Asked> FramesDoor::asked(const Request& request) const {
         return tl::unexpected(
             no_grid_to_draw(asked.domain, asked.moments, is_evicted, exact.has_value()));
     }
-    if (exact == asked.time) asked.max_age = max_age_of("");
+    if (exact == asked.time) asked.max_age = answer_holds_for;
     return asked;
 }
 
@@ -149,6 +150,7 @@ std::optional<Answer> FramesDoor::answer_at_once(const Request& request) {
     for (const render::PanelScene& panel : picture.style.panels) {
         auto grid = grids_->find_if_open(what->domain, panel.moment, what->time);
         if (!grid) return std::nullopt;
+        if (grid->may_change()) what->max_age.reset();
         picture.grids.push_back(std::move(grid));
     }
     if (auto same = unchanged_answer(request, picture.etag(), what->max_age)) return same;
@@ -166,6 +168,7 @@ Answer FramesDoor::answer(const Request& request) {
     for (const render::PanelScene& panel : picture.style.panels) {
         auto grid = grid_named(*grids_, what->domain, panel.moment, format_utc(what->time));
         if (!grid) return grid.error();
+        if ((*grid)->may_change()) what->max_age.reset();
         picture.grids.push_back(std::move(*grid));
     }
     if (auto same = unchanged_answer(request, picture.etag(), what->max_age)) return *same;
@@ -177,6 +180,7 @@ Answer FramesDoor::answer(const Request& request) {
 Answer FramesDoor::of_sweep(const Request& request, Asked what) {
     const auto grid = grid_named(*grids_, what.domain, what.moments.front(), format_utc(what.time));
     if (!grid) return grid.error();
+    if ((*grid)->may_change()) what.max_age.reset();
     const auto picture = sweeps_->find(**grid, std::move(what.style));
     if (!picture) return picture_error(picture.error());
     if (!*picture) {
@@ -211,11 +215,9 @@ Answer FramesDoor::index(const Request& request) const {
     const ordered_json document = {{"domains", std::move(domains)},
                                    {"formats", std::move(formats)},
                                    {"parameters", std::move(parameters)}};
-    Answer answer =
-        text_answer(200, "application/json",
-                    document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-    answer.with("Cache-Control", "no-cache");
-    return answer;
+    return text_answer_to(
+        request, "application/json",
+        document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace stormcellar::web

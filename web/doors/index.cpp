@@ -5,6 +5,7 @@
 #include <map>
 
 #include "stormcellar/base/station_table.h"
+#include "web/data/text_answer.h"
 
 namespace stormcellar::web {
 namespace {
@@ -30,11 +31,7 @@ IndexDomain domain_facts(const Grids& grids, const std::string& name) {
 }
 
 Answer style_answer(const Request& request) {
-    Entity entity;
-    entity.bytes = {text_of(std::string(index_style()))};
-    entity.content_type = "text/css; charset=utf-8";
-    entity.etag = fmt::format("\"{:x}\"", std::hash<std::string_view>{}(index_style()));
-    return answer_with(request, std::move(entity));
+    return text_answer_to(request, "text/css; charset=utf-8", std::string(index_style()));
 }
 
 }  // namespace
@@ -85,10 +82,7 @@ std::optional<Answer> IndexDoor::answer_at_once(const Request& request) {
 
 Answer IndexDoor::answer(const Request& request) {
     if (auto quick = answer_at_once(request)) return *std::move(quick);
-    Entity entity;
-    entity.bytes = {text_of(index_html(facts(request)))};
-    entity.content_type = "text/html; charset=utf-8";
-    return answer_with(request, std::move(entity));
+    return text_answer_to(request, "text/html; charset=utf-8", index_html(facts(request)));
 }
 
 }  // namespace stormcellar::web

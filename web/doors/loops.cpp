@@ -10,6 +10,7 @@
 
 #include "base/beneath.h"
 #include "stormcellar/base/descriptor.h"
+#include "web/doors/link_list.h"
 
 namespace stormcellar::web {
 namespace {
@@ -79,14 +80,18 @@ Answer LoopsDoor::answer(const Request& request) {
 
 Answer LoopsDoor::index(const Request& request) const {
     ordered_json loops = ordered_json::array();
+    std::vector<Link> links;
     for (const ServedLoop& loop : loops_) {
         ordered_json files = ordered_json::array();
         for (const fs::path& file : loop.files) {
             const auto facts = look_beneath({}, file);
             // Of two files of one format, the first one is served.
             if (!facts || file_named(name_of_loop(loop, file)) != file) continue;
-            files.push_back({{"url", fmt::format("{}/loops/{}", request.base,
-                                                 encoded(name_of_loop(loop, file)))},
+            const std::string name = name_of_loop(loop, file);
+            const std::string url = fmt::format("{}/loops/{}", request.base, encoded(name));
+            links.push_back(
+                {url, name, static_cast<std::uint64_t>(facts->st_size), time_of_change(*facts)});
+            files.push_back({{"url", url},
                              {"media_type", type_of_loop(file)},
                              {"bytes", static_cast<std::uint64_t>(facts->st_size)},
                              {"modified", format_utc(time_of_change(*facts))}});
@@ -94,11 +99,10 @@ Answer LoopsDoor::index(const Request& request) const {
         loops.push_back({{"loop", loop.name}, {"files", std::move(files)}});
     }
     const ordered_json document = {{"loops", std::move(loops)}};
-    Answer answer =
-        text_answer(200, "application/json",
-                    document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-    answer.with("Cache-Control", "no-cache");
-    return answer;
+    return list_answer_to(
+        request, document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n", [&] {
+            return LinkList{"Loops", std::move(links)};
+        });
 }
 
 }  // namespace stormcellar::web

@@ -8,7 +8,6 @@
 namespace stormcellar::web {
 namespace {
 
-constexpr std::chrono::seconds picture_holds_for{300};
 constexpr std::chrono::seconds drawing_again_in{2};
 
 Answer no_such_grid(Grids& grids, std::string_view domain, level2::Moment moment, UtcTime time) {
@@ -59,9 +58,9 @@ std::optional<Answer> unchanged_answer(const Request& request, const std::string
     return answer.status == 304 ? std::optional(std::move(answer)) : std::nullopt;
 }
 
-std::optional<std::chrono::seconds> max_age_of(std::string_view time) {
-    if (time == "latest") return std::nullopt;
-    return picture_holds_for;
+std::optional<std::chrono::seconds> max_age_of(std::string_view time, const OpenGrid& grid) {
+    if (time == "latest" || grid.may_change()) return std::nullopt;
+    return answer_holds_for;
 }
 
 }  // namespace stormcellar::web

@@ -1,9 +1,10 @@
-// web/doors/picture_answers.h -- what the doors of pictures share: a grid by its name, and answers
-// with a picture.
+// web/doors/picture_answers.h -- what the doors of pictures and grids share: a grid by its name,
+// and answers with a picture.
 //
 // Threads   Functions without state.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -38,7 +39,10 @@ using Found = tl::expected<Value, Answer>;
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
 
-// How long a picture of a grid may be used. That of "latest" must be asked for each time.
-[[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time);
+// How long an answer that follows from a grid may be used without asking again.
+inline constexpr std::chrono::seconds answer_holds_for{300};
+// None for a grid that was asked for as "latest" or that may change: ask each time.
+[[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,
+                                                             const OpenGrid& grid);
 
 }  // namespace stormcellar::web

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
+#include "web/data/text_answer.h"
 #include "web/doors/raw_answers.h"
 
 namespace stormcellar::web {
 namespace {
 
-Answer polled_text(std::string text) {
-    Answer answer = text_answer(200, "text/plain; charset=utf-8", std::move(text));
-    answer.with("Cache-Control", "no-cache");
-    return answer;
+Answer polled_text(const Request& request, std::string text) {
+    return text_answer_to(request, "text/plain; charset=utf-8", std::move(text));
 }
 
 }  // namespace
@@ -27,23 +26,24 @@ Answer PollingDoor::answer(const Request& request) {
         return sentence(404, "There are config.cfg, grlevel2.cfg and STATION/dir.list here.");
     }
     if (segments.size() == 2) {
-        if (segments[1] == "config.cfg" || segments[1] == "grlevel2.cfg") return configuration();
+        if (segments[1] == "config.cfg" || segments[1] == "grlevel2.cfg")
+            return configuration(request);
         return sentence(404, "There are config.cfg and grlevel2.cfg here.");
     }
-    if (segments[2] == "dir.list") return list_of(segments[1]);
+    if (segments[2] == "dir.list") return list_of(request, segments[1]);
     return volume_answer(request, *files_, segments[1], segments[2]);
 }
 
-Answer PollingDoor::configuration() const {
+Answer PollingDoor::configuration(const Request& request) const {
     const auto stations = files_->stations();
     if (!stations) return sentence(status_of(stations.error()), "The catalog cannot be read now.");
     std::string text = "ListFile: dir.list\n";
     for (const RawStation& station : *stations)
         text += fmt::format("Site: {}\n", station.icao);
-    return polled_text(std::move(text));
+    return polled_text(request, std::move(text));
 }
 
-Answer PollingDoor::list_of(std::string_view station) const {
+Answer PollingDoor::list_of(const Request& request, std::string_view station) const {
     RawRange newest;
     newest.to = now_utc() + tolerated_future;
     newest.most = options_.most_listed;
@@ -62,7 +62,7 @@ Answer PollingDoor::list_of(std::string_view station) const {
     std::string text;
     for (const RawVolume& volume : *volumes)
         text += fmt::format("{} {}\n", volume.size_bytes, volume.name);
-    return polled_text(std::move(text));
+    return polled_text(request, std::move(text));
 }
 
 }  // namespace stormcellar::web

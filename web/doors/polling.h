@@ -26,8 +26,8 @@ class PollingDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    [[nodiscard]] Answer configuration() const;
-    [[nodiscard]] Answer list_of(std::string_view station) const;
+    [[nodiscard]] Answer configuration(const Request& request) const;
+    [[nodiscard]] Answer list_of(const Request& request, std::string_view station) const;
     std::shared_ptr<RawFiles> files_;
     PollingOptions options_;
 };

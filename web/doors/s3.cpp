@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "web/data/text_answer.h"
 #include "web/doors/raw_answers.h"
 #include "web/doors/s3_listing.h"
 #include "web/doors/xml_writer.h"
@@ -146,7 +147,7 @@ Answer S3Door::list_answer(const Request& request) const {
     S3Keys keys(files_);
     const auto listing = list_s3_objects(keys, *options);
     if (!listing) return s3_error(listing.error(), request);
-    return s3_xml_answer(200, s3_listing_xml(bucket_, *options, *listing));
+    return text_answer_to(request, "application/xml", s3_listing_xml(bucket_, *options, *listing));
 }
 
 Answer S3Door::object_answer(const Request& request, std::string_view text) const {

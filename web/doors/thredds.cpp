@@ -5,15 +5,15 @@
 #include <limits>
 #include <numbers>
 
+#include "web/data/text_answer.h"
+
 namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::hours nearest_within{1};
 
-Answer xml_answer(std::string text) {
-    Answer answer = text_answer(200, "application/xml", std::move(text));
-    answer.with("Cache-Control", "no-cache");
-    return answer;
+Answer xml_answer(const Request& request, std::string text) {
+    return text_answer_to(request, "application/xml", std::move(text));
 }
 
 // What went wrong in a query. A catalog that cannot be read is no mistake of the client.
@@ -109,7 +109,7 @@ Answer ThreddsDoor::answer(const Request& request) {
     if (is_denied(request.path)) return sentence(403, "This part is not for everybody.");
     const auto segments = segments_of(request.path);
     if (segments.size() == 2 && segments[1] == "catalog.xml")
-        return xml_answer(thredds_top_xml(request));
+        return xml_answer(request, thredds_top_xml(request));
     if (segments.size() > 1) {
         const std::vector<std::string_view> rest(segments.begin() + 2, segments.end());
         if (segments[1] == "radarServer") {
@@ -127,19 +127,20 @@ Answer ThreddsDoor::radar_answer(const Request& request,
     if (segments.empty() && !request.path.ends_with('/'))
         return moved_to(request, request.path + "/");
     const bool is_top = segments.empty() || (segments.size() == 1 && segments[0] == "catalog.xml");
-    if (is_top) return xml_answer(thredds_catalog_xml(request, collections_));
+    if (is_top) return xml_answer(request, thredds_catalog_xml(request, collections_));
     const Found found = find(segments);
     if (!found.collection) return sentence(404, "There is no such data set.");
     if (found.rest.empty()) return query_answer(request, *found.collection);
     if (found.rest.size() != 1) return sentence(404, "There is nothing at this address.");
     const auto stations = found.collection->stations();
     if (!stations) return query_error(stations.error());
-    if (found.rest[0] == "stations.xml") return xml_answer(thredds_stations_xml(*stations));
+    if (found.rest[0] == "stations.xml")
+        return xml_answer(request, thredds_stations_xml(*stations));
     if (found.rest[0] != "dataset.xml" && found.rest[0] != "catalog.xml")
         return sentence(404, "There are dataset.xml and stations.xml here.");
     const auto oldest = found.collection->oldest();
     if (!oldest) return query_error(oldest.error());
-    return xml_answer(thredds_dataset_xml(request, *found.collection, *stations, *oldest));
+    return xml_answer(request, thredds_dataset_xml(request, *found.collection, *stations, *oldest));
 }
 
 Answer ThreddsDoor::file_answer(const Request& request,
@@ -154,7 +155,7 @@ Answer ThreddsDoor::query_answer(const Request& request, ThreddsCollection& coll
     if (request.parameter("station") == "all") {
         const auto stations = collection.stations();
         if (!stations) return query_error(stations.error());
-        return xml_answer(thredds_stations_xml(*stations));
+        return xml_answer(request, thredds_stations_xml(*stations));
     }
     const auto query = read_thredds_query(request, now_utc());
     if (!query) return query_error(query.error());
@@ -162,7 +163,8 @@ Answer ThreddsDoor::query_answer(const Request& request, ThreddsCollection& coll
         return sentence(200, "One or more variables are required, as in var=N0Q.");
     const auto files = files_of(collection, *query);
     if (!files) return query_error(files.error());
-    return xml_answer(thredds_result_xml(request, collection, text_of_query(request), *files));
+    return xml_answer(request,
+                      thredds_result_xml(request, collection, text_of_query(request), *files));
 }
 
 Result<std::vector<ThreddsFile>> ThreddsDoor::files_of(ThreddsCollection& collection,

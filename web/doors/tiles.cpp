@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/checksum.h"
 #include "stormcellar/cache/grid_name.h"
+#include "web/data/text_answer.h"
 #include "web/doors/picture_answers.h"
 
 namespace stormcellar::web {
@@ -30,12 +30,8 @@ std::optional<int> whole_below(std::string_view text, int end) {
 }
 
 Answer json_of_pictures(const Request& request, const TileJson& document) {
-    std::string body = document.dump(-1, ' ', false, TileJson::error_handler_t::replace) + "\n";
-    Entity entity;
-    entity.etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(body))));
-    entity.bytes = {text_of(std::move(body))};
-    entity.content_type = "application/json";
-    return answer_with(request, std::move(entity));
+    return text_answer_to(request, "application/json",
+                          document.dump(-1, ' ', false, TileJson::error_handler_t::replace) + "\n");
 }
 
 // The options of a query again, for links.
@@ -139,7 +135,7 @@ std::optional<Answer> TilesDoor::answer_at_once(const Request& request) {
     const auto grid = grids.find_if_open(path[1], asked->style.layer.moment, *time);
     if (!grid) return std::nullopt;
     const MapPicture picture{{{grid, asked->style}}, window_of(asked->place), {}};
-    const auto max_age = max_age_of(path[3]);
+    const auto max_age = max_age_of(path[3], *grid);
     if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return unchanged;
     const auto kept = pictures_->find(picture);
     if (!kept) return std::nullopt;
@@ -203,7 +199,7 @@ Answer TilesDoor::tile(const Request& request, const std::vector<std::string_vie
     const auto grid = grid_named(pictures_->grids(), path[1], asked->style.layer.moment, path[3]);
     if (!grid) return grid.error();
     const MapPicture picture{{{*grid, std::move(asked->style)}}, window_of(asked->place), {}};
-    const auto max_age = max_age_of(path[3]);
+    const auto max_age = max_age_of(path[3], **grid);
     if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return *unchanged;
     const auto drawn = pictures_->find_or_draw(picture);
     if (!drawn) return picture_error(drawn.error());

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <charconv>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "web/doors/link_list.h"
 #include "web/doors/raw_answers.h"
 
 namespace stormcellar::web {
@@ -14,15 +16,10 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t usual_limit = 1000, highest_limit = 10'000;
 
-Answer json_list(const ordered_json& list) {
-    Answer answer = text_answer(200, "application/json", list.dump() + "\n");
-    answer.with("Cache-Control", "no-cache");
-    return answer;
-}
-
 Result<RawRange> range_of_query(const Request& request) {
     RawRange range;
-    range.most = usual_limit;
+    // A program that follows links does not ask for more.
+    range.most = request.prefers_html() ? highest_limit : usual_limit;
     range.newest_first = true;
     range.with_sizes = true;
     const UtcTime now = now_utc();
@@ -67,13 +64,13 @@ Answer VolumesDoor::answer(const Request& request) {
     const auto segments = segments_of(request.path);
     const bool is_folder = request.path.ends_with('/');
     if (segments.size() < 3 && !is_folder) return moved_to(request, request.path + "/");
-    if (segments.size() == 1) return stations_answer();
+    if (segments.size() == 1) return stations_answer(request);
     if (segments.size() == 2) return list_answer(request, segments[1]);
     if (segments.size() > 3 || is_folder) return sentence(404, "There is no such volume.");
     return volume_answer(request, *files_, segments[1], segments[2]);
 }
 
-Answer VolumesDoor::stations_answer() const {
+Answer VolumesDoor::stations_answer(const Request& request) const {
     const auto stations = files_->stations();
     if (!stations) return json_error(stations.error());
     ordered_json list = ordered_json::array();
@@ -88,7 +85,12 @@ Answer VolumesDoor::stations_answer() const {
         }
         list.push_back(std::move(one));
     }
-    return json_list({{"stations", std::move(list)}});
+    return list_answer_to(request, ordered_json{{"stations", std::move(list)}}.dump() + "\n", [&] {
+        LinkList page{"Stations", {}};
+        for (const RawStation& station : *stations)
+            page.links.push_back({station.icao + "/", station.icao + "/", {}, {}});
+        return page;
+    });
 }
 
 Answer VolumesDoor::list_answer(const Request& request, std::string_view station) const {
@@ -110,7 +112,14 @@ Answer VolumesDoor::list_answer(const Request& request, std::string_view station
     ordered_json list = ordered_json::array();
     for (const RawVolume& volume : *volumes)
         list.push_back(json_of_volume(volume, request.base));
-    return json_list({{"station", station}, {"is_cut", is_cut}, {"volumes", std::move(list)}});
+    const ordered_json document{
+        {"station", station}, {"is_cut", is_cut}, {"volumes", std::move(list)}};
+    return list_answer_to(request, document.dump() + "\n", [&] {
+        LinkList page{fmt::format("Volumes of {}", station), {}};
+        for (const RawVolume& volume : *volumes)
+            page.links.push_back({volume.name, volume.name, volume.size_bytes, volume.modified});
+        return page;
+    });
 }
 
 }  // namespace stormcellar::web

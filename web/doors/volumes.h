@@ -1,8 +1,10 @@
 // web/doors/volumes.h -- raw volumes by station and name (docs/web/raw.md).
 //
-//   /volumes/                the stations, as JSON
-//   /volumes/STATION/        their volumes, the newest first, as JSON; ?from= &to= &limit=
+//   /volumes/                the stations
+//   /volumes/STATION/        their volumes, the newest first; ?from= &to= &limit=
 //   /volumes/STATION/NAME    a volume's bytes
+//
+// Lists are JSON, or a page of links if Accept prefers HTML.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -21,7 +23,7 @@ class VolumesDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    [[nodiscard]] Answer stations_answer() const;
+    [[nodiscard]] Answer stations_answer(const Request& request) const;
     [[nodiscard]] Answer list_answer(const Request& request, std::string_view station) const;
     std::shared_ptr<RawFiles> files_;
 };

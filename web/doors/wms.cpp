@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/checksum.h"
 #include "base/printable.h"
+#include "web/data/text_answer.h"
 #include "web/doors/picture_answers.h"
 #include "web/doors/wms_capabilities.h"
 #include "web/doors/xml_writer.h"
@@ -17,34 +17,30 @@ namespace {
 
 constexpr std::chrono::hours farthest_nearest{1};
 
-Answer fault_answer(const WmsFault& fault) {
+// Clients of 1.1.1 know a fault by its own media type.
+Answer fault_answer(const Request& request, const WmsFault& fault) {
+    const bool is_older = wms_nearest_version(WmsParameters(request.query)) == WmsVersion::v1_1_1;
     XmlWriter xml;
-    xml.open("ServiceExceptionReport",
-             {{"version", "1.3.0"}, {"xmlns", "http://www.opengis.net/ogc"}});
+    if (is_older) {
+        xml.open("ServiceExceptionReport", {{"version", "1.1.1"}});
+    } else {
+        xml.open("ServiceExceptionReport",
+                 {{"version", "1.3.0"}, {"xmlns", "http://www.opengis.net/ogc"}});
+    }
     if (fault.code.empty()) {
         xml.leaf("ServiceException", fault.text);
     } else {
         xml.leaf("ServiceException", fault.text, {{"code", fault.code}});
     }
-    Answer answer = text_answer(fault.status, "text/xml; charset=utf-8", xml.take());
+    Answer answer = text_answer(fault.status,
+                                is_older ? "application/vnd.ogc.se_xml" : "text/xml; charset=utf-8",
+                                xml.take());
     if (fault.status == 503) answer.with("Retry-After", "2");
     return answer;
 }
 
 WmsFault fault_of(const Error& error) {
     return {"", error.message + ".", status_of(error)};
-}
-
-std::string tag_of(std::string_view body) {
-    return fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(body))));
-}
-
-Answer whole_answer(const Request& request, std::string type, std::string body) {
-    Entity entity;
-    entity.etag = tag_of(body);
-    entity.bytes = {text_of(std::move(body))};
-    entity.content_type = std::move(type);
-    return answer_with(request, std::move(entity));
 }
 
 // The instant of a layer's grid, and what the header Warning says of it; empty: it is the one that
@@ -156,12 +152,14 @@ WmsDoor::FindGrid WmsDoor::opener() {
 
 WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
                                                       const FindGrid& find) const {
-    TimedPicture timed{{{}, map.window, map.ground, map.is_jpeg}, {}, !map.time};
+    TimedPicture timed{{{}, map.window, map.ground, map.is_jpeg}, {}, {}};
+    if (map.time) timed.max_age = answer_holds_for;
     for (const WmsLayer& layer : map.layers) {
         auto shown = shown_time(pictures_->grids(), layer, map.time);
         if (!shown) return tl::unexpected(shown.error());
         auto grid = find(layer.domain, layer.style.layer.moment, shown->time);
         if (!grid) return tl::unexpected(grid.error());
+        if ((*grid)->may_change()) timed.max_age.reset();
         timed.picture.layers.push_back({std::move(*grid), layer.style});
         if (!shown->warning.empty()) timed.warnings.emplace_back("Warning", shown->warning);
     }
@@ -172,7 +170,7 @@ std::optional<Answer> WmsDoor::answer_at_once(const Request& request) {
     const WmsParameters parameters(request.query);
     if (parameters.find("REQUEST") != "GetMap") return std::nullopt;
     const auto map = wms_map(parameters, now_utc());
-    if (!map) return fault_answer(map.error());
+    if (!map) return fault_answer(request, map.error());
     Grids& grids = pictures_->grids();
     const auto timed =
         timed_picture(*map,
@@ -185,20 +183,22 @@ std::optional<Answer> WmsDoor::answer_at_once(const Request& request) {
     if (!timed) return std::nullopt;
     const auto kept = pictures_->find(timed->picture);
     if (!kept) return std::nullopt;
-    Answer answer = picture_answer(request, *kept, max_age_of(timed->is_newest ? "latest" : ""));
+    Answer answer = picture_answer(request, *kept, timed->max_age);
     add_fields(answer, timed->warnings);
     return answer;
 }
 
 Answer WmsDoor::answer(const Request& request) {
     const WmsParameters parameters(request.query);
-    if (segments_of(request.path).size() != 1) return sentence(404, "The map service is at /wms.");
+    if (segments_of(request.path).size() > 2)
+        return sentence(404, "The map service is at /wms, and that of one domain at /wms/DOMAIN.");
     const std::string_view asked = parameters.find("REQUEST").value_or("");
     if (asked == "GetCapabilities" || asked == "capabilities") return capabilities(request);
     if (asked == "GetMap" || asked == "map") return map(request);
     if (asked == "GetFeatureInfo") return feature_info(request);
     if (asked == "GetLegendGraphic") return legend(request);
-    return fault_answer({"OperationNotSupported",
+    return fault_answer(request,
+                        {"OperationNotSupported",
                          "REQUEST is GetCapabilities, GetMap, GetFeatureInfo or GetLegendGraphic. "
                          "Begin with /wms?SERVICE=WMS&REQUEST=GetCapabilities."});
 }
@@ -207,22 +207,27 @@ Answer WmsDoor::capabilities(const Request& request) {
     const WmsParameters parameters(request.query);
     const std::string_view service = parameters.find("SERVICE").value_or("WMS");
     if (service != "WMS")
-        return fault_answer(
-            {"", fmt::format("SERVICE is WMS here, not '{}'.", printable(service.substr(0, 80)))});
-    return whole_answer(request, "text/xml; charset=utf-8", wms_capabilities(request, *pictures_));
+        return fault_answer(request, {"", fmt::format("SERVICE is WMS here, not '{}'.",
+                                                      printable(service.substr(0, 80)))});
+    const auto path = segments_of(request.path);
+    if (path.size() > 1 && pictures_->grids().moments(path[1]).empty())
+        return fault_answer(request, {"", "There is no such domain.", 404});
+    const bool is_older = wms_nearest_version(parameters) == WmsVersion::v1_1_1;
+    return text_answer_to(request,
+                          is_older ? "application/vnd.ogc.wms_xml" : "text/xml; charset=utf-8",
+                          wms_capabilities(request, *pictures_));
 }
 
 Answer WmsDoor::map(const Request& request) {
     const auto map = wms_map(WmsParameters(request.query), now_utc());
-    if (!map) return fault_answer(map.error());
+    if (!map) return fault_answer(request, map.error());
     const auto timed = timed_picture(*map, opener());
-    if (!timed) return fault_answer(timed.error());
-    const auto max_age = max_age_of(timed->is_newest ? "latest" : "");
-    if (auto unchanged = unchanged_answer(request, timed->picture.etag(), max_age))
+    if (!timed) return fault_answer(request, timed.error());
+    if (auto unchanged = unchanged_answer(request, timed->picture.etag(), timed->max_age))
         return *unchanged;
     const auto drawn = pictures_->find_or_draw(timed->picture);
-    if (!drawn) return fault_answer(fault_of(drawn.error()));
-    Answer answer = picture_answer(request, *drawn, max_age);
+    if (!drawn) return fault_answer(request, fault_of(drawn.error()));
+    Answer answer = picture_answer(request, *drawn, timed->max_age);
     add_fields(answer, timed->warnings);
     return answer;
 }
@@ -230,49 +235,50 @@ Answer WmsDoor::map(const Request& request) {
 Answer WmsDoor::feature_info(const Request& request) {
     const WmsParameters parameters(request.query);
     auto map = wms_map(parameters, now_utc());
-    if (!map) return fault_answer(map.error());
+    if (!map) return fault_answer(request, map.error());
     const auto names = parameters.find("QUERY_LAYERS");
-    if (!names) return fault_answer({"LayerNotDefined", "QUERY_LAYERS is missing."});
+    if (!names) return fault_answer(request, {"LayerNotDefined", "QUERY_LAYERS is missing."});
     auto layers = wms_layers(parameters, *names, "");
-    if (!layers) return fault_answer(layers.error());
+    if (!layers) return fault_answer(request, layers.error());
     const auto pixel = wms_pixel(parameters, map->window);
-    if (!pixel) return fault_answer(pixel.error());
+    if (!pixel) return fault_answer(request, pixel.error());
     const std::string_view format = parameters.find("INFO_FORMAT").value_or("text/plain");
     if (format != "text/plain" && format != "application/json")
-        return fault_answer({"InvalidFormat", "INFO_FORMAT is text/plain or application/json."});
+        return fault_answer(request,
+                            {"InvalidFormat", "INFO_FORMAT is text/plain or application/json."});
     map->layers = std::move(*layers);
     const auto timed = timed_picture(*map, opener());
-    if (!timed) return fault_answer(timed.error());
+    if (!timed) return fault_answer(request, timed.error());
     const grid::GeoPoint place = place_of(*pixel, map->window);
     std::vector<LayerValue> values;
     for (const PictureLayer& layer : timed->picture.layers) {
         const auto found = pictures_->value_at(layer, place);
-        if (!found) return fault_answer(fault_of(found.error()));
+        if (!found) return fault_answer(request, fault_of(found.error()));
         const render::Scene& scene = layer.style.scene;
         values.push_back({wms_layer_name(layer.grid->domain, layer.style.layer),
                           render::product_title(scene), render::unit_shown(scene), layer.grid->time,
                           *found});
     }
     if (format == "text/plain")
-        return whole_answer(request, "text/plain; charset=utf-8", plain_text(values));
-    return whole_answer(request, "application/json", geo_json(values, place));
+        return text_answer_to(request, "text/plain; charset=utf-8", plain_text(values));
+    return text_answer_to(request, "application/json", geo_json(values, place));
 }
 
 Answer WmsDoor::legend(const Request& request) {
     const WmsParameters parameters(request.query);
     const auto name = parameters.find("LAYER");
-    if (!name) return fault_answer({"LayerNotDefined", "LAYER is missing."});
+    if (!name) return fault_answer(request, {"LayerNotDefined", "LAYER is missing."});
     const auto layers = wms_layers(parameters, *name, parameters.find("STYLE").value_or(""));
-    if (!layers) return fault_answer(layers.error());
+    if (!layers) return fault_answer(request, layers.error());
     if (layers->size() != 1)
-        return fault_answer({"LayerNotDefined", "LAYER is one layer, not a list."});
+        return fault_answer(request, {"LayerNotDefined", "LAYER is one layer, not a list."});
     const WmsLayer& layer = layers->front();
     const auto shown = shown_time(pictures_->grids(), layer, {});
-    if (!shown) return fault_answer(shown.error());
+    if (!shown) return fault_answer(request, shown.error());
     auto grid = opened(layer.domain, layer.style.layer.moment, shown->time);
-    if (!grid) return fault_answer(grid.error());
+    if (!grid) return fault_answer(request, grid.error());
     const auto drawn = MapPictures::legend({std::move(*grid), layer.style});
-    if (!drawn) return fault_answer(fault_of(drawn.error()));
+    if (!drawn) return fault_answer(request, fault_of(drawn.error()));
     return picture_answer(request, *drawn, {});
 }
 

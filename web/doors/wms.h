@@ -1,10 +1,12 @@
-// web/doors/wms.h -- the Web Map Service 1.3.0 (OGC 06-042), and pictures for clients of 1.1.1
-// (docs/web/pictures.md): 2D products as layers with time.
+// web/doors/wms.h -- the Web Map Service 1.3.0 (OGC 06-042) and 1.1.1 (docs/web/pictures.md): 2D
+// products as layers with time.
 //
 //   /wms?REQUEST=GetCapabilities
 //   /wms?REQUEST=GetMap&LAYERS=KTLX:composite.REF&CRS=EPSG:3857&BBOX=...&WIDTH=...&HEIGHT=...&TIME=...
 //   /wms?REQUEST=GetFeatureInfo&...&QUERY_LAYERS=...&I=...&J=...
 //   /wms?REQUEST=GetLegendGraphic&LAYER=...
+//
+// /wms/DOMAIN is the same, and its capabilities have that domain alone.
 //
 // TIME names the nearest grid within an hour; the header Warning says which one it was, as the
 // standard has it. The newest grid is the default.
@@ -12,6 +14,7 @@
 // Threads   Many threads may use it.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,7 +39,7 @@ class WmsDoor final : public Door {
     struct TimedPicture {
         MapPicture picture;
         Fields warnings;
-        bool is_newest = false;
+        std::optional<std::chrono::seconds> max_age;  // none: ask each time
     };
     using FindGrid = std::function<WmsRead<std::shared_ptr<const OpenGrid>>(
         const std::string& domain, level2::Moment moment, UtcTime time)>;

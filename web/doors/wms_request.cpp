@@ -90,7 +90,7 @@ WmsRead<System> system_of(const WmsParameters& parameters, WmsVersion version) {
     const std::string_view name = version == WmsVersion::v1_3_0 ? "CRS" : "SRS";
     const auto text = parameters.find(name);
     if (!text) return wms_fault("", fmt::format("{} is missing.", name));
-    if (*text == wms_systems[0]) return System{};
+    if (*text == wms_systems[0] || *text == older_web_mercator) return System{};
     if (*text == wms_systems[1])
         return System{render::Plane::degrees, version == WmsVersion::v1_3_0};
     if (*text == wms_systems[2]) return System{render::Plane::degrees, false};
@@ -180,6 +180,11 @@ WmsRead<WmsVersion> wms_version(const WmsParameters& parameters) {
     if (version == "1.1.1") return WmsVersion::v1_1_1;
     return wms_fault(
         "", fmt::format("There are versions 1.3.0 and 1.1.1 here, not '{}'.", shown(version)));
+}
+
+WmsVersion wms_nearest_version(const WmsParameters& parameters) {
+    const std::string_view version = parameters.find("VERSION").value_or("1.3.0");
+    return version < "1.3.0" ? WmsVersion::v1_1_1 : WmsVersion::v1_3_0;
 }
 
 std::string wms_layer_name(std::string_view domain, const MapLayer& layer) {

@@ -27,6 +27,8 @@ namespace stormcellar::web {
 inline constexpr int most_wms_side = 4096;          // pixels
 inline constexpr std::size_t most_wms_layers = 16;  // of one picture
 inline constexpr std::array<std::string_view, 3> wms_systems{"EPSG:3857", "EPSG:4326", "CRS:84"};
+// What EPSG:3857 was called before it had a number; older clients know no other name.
+inline constexpr std::string_view older_web_mercator = "EPSG:900913";
 
 struct WmsFault {
     std::string_view code;
@@ -54,6 +56,8 @@ class WmsParameters {
 enum class WmsVersion { v1_1_1, v1_3_0 };
 // The version that VERSION names, 1.3.0 if it names none.
 [[nodiscard]] WmsRead<WmsVersion> wms_version(const WmsParameters& parameters);
+// The version in which to describe the service: 1.1.1 if VERSION names one below 1.3.0.
+[[nodiscard]] WmsVersion wms_nearest_version(const WmsParameters& parameters);
 
 // A layer of the service is a layer of a domain: "KTLX:composite.REF".
 struct WmsLayer {

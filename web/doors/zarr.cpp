@@ -13,6 +13,7 @@
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/level2/moment.h"
 #include "web/data/compressed.h"
+#include "web/data/text_answer.h"
 #include "web/data/zarr_cells.h"
 #include "web/doors/picture_answers.h"
 
@@ -31,16 +32,14 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 }
 
 Answer zarr_document(const Request& request, const ZarrJson& document) {
-    std::string body = document.dump(1, ' ', false, ZarrJson::error_handler_t::replace) + "\n";
-    Entity entity;
-    entity.etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(body))));
-    entity.bytes = {text_of(std::move(body))};
-    entity.content_type = "application/json";
-    return answer_with(request, std::move(entity));
+    return text_answer_to(request, "application/json",
+                          document.dump(1, ' ', false, ZarrJson::error_handler_t::replace) + "\n");
 }
 
-Answer zarr_chunk(const Request& request, const Kept& kept) {
+Answer zarr_chunk(const Request& request, const Kept& kept,
+                  std::optional<std::chrono::seconds> max_age) {
     Entity entity;
+    entity.max_age = max_age;
     entity.bytes = {kept.bytes};
     entity.etag = kept.etag;
     entity.content_type = "application/octet-stream";
@@ -179,7 +178,7 @@ std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
     if (!grid) return std::nullopt;
     const auto kept = sources_.kept->find(chunk_key(*grid, rest[0], *place));
     if (!kept) return std::nullopt;
-    return zarr_chunk(request, *kept);
+    return zarr_chunk(request, *kept, max_age_of("", *grid));
 }
 
 Answer ZarrDoor::answer(const Request& request) {
@@ -276,7 +275,7 @@ Answer ZarrDoor::chunk(const Request& request, const Named& named, const Opened&
                                   pack)
                             : pack();
     if (!packed) return picture_error(packed.error());
-    return zarr_chunk(request, *packed);
+    return zarr_chunk(request, *packed, {});
 }
 
 Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened& opened,
@@ -295,7 +294,7 @@ Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened&
     const auto kept = sources_.kept->find_or_make(chunk_key(**grid, array.name, place),
                                                   [&] { return made_chunk(**grid, array, place); });
     if (!kept) return picture_error(kept.error());
-    return zarr_chunk(request, *kept);
+    return zarr_chunk(request, *kept, max_age_of("", **grid));
 }
 
 }  // namespace stormcellar::web

@@ -1,6 +1,7 @@
 #include "web/http/request.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 
 #include <strings.h>
@@ -60,6 +61,32 @@ bool is_plain(std::string_view text) {
     return true;
 }
 
+// The weight that an Accept header gives a media type, by the most specific range that names it: 0
+// if none does.
+double weight_of_type(std::string_view list, std::string_view type, std::string_view subtype) {
+    double weight = 0;
+    int most_specific = 0;
+    while (!list.empty()) {
+        const std::string_view item = list.substr(0, list.find(','));
+        list.remove_prefix(std::min(item.size() + 1, list.size()));
+        const std::string_view range = trimmed(item.substr(0, item.find(';')));
+        const std::size_t slash = std::min(range.find('/'), range.size());
+        const std::string_view minor = range.substr(std::min(slash + 1, range.size()));
+        const bool is_type = is_name(range.substr(0, slash), type);
+        const int specific = is_type && is_name(minor, subtype) ? 3
+                             : is_type && minor == "*"          ? 2
+                             : range == "*/*"                   ? 1
+                                                                : 0;
+        if (specific <= most_specific) continue;
+        most_specific = specific;
+        weight = 1;
+        const std::size_t at = item.find("q=");
+        if (at != std::string_view::npos)
+            std::from_chars(item.data() + at + 2, item.data() + item.size(), weight);
+    }
+    return weight;
+}
+
 }  // namespace
 
 std::optional<std::string_view> Request::parameter(std::string_view name) const {
@@ -102,6 +129,12 @@ bool Request::accepts(std::string_view coding) const {
         return weight.find_first_of("123456789", equals) != std::string_view::npos;
     }
     return false;
+}
+
+bool Request::prefers_html() const {
+    const auto list = header("Accept");
+    return list &&
+           weight_of_type(*list, "text", "html") > weight_of_type(*list, "application", "json");
 }
 
 std::vector<std::string_view> segments_of(std::string_view path) {

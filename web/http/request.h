@@ -37,6 +37,9 @@ struct Request {
     // Returns true if Accept-Encoding names the coding ("gzip", "zstd") with a weight above 0. "*"
     // does not count.
     [[nodiscard]] bool accepts(std::string_view coding) const;
+    // Returns true if Accept weighs text/html above application/json, as browsers have it. Without
+    // the header, and with "*/*" alone, it does not.
+    [[nodiscard]] bool prefers_html() const;
 };
 
 // Returns the segments between slashes: "/a/b/" and "/a/b" have "a" and "b".
