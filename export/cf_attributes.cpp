@@ -1,5 +1,7 @@
 #include "export/cf_attributes.h"
 
+#include <fmt/format.h>
+
 #include "export/moment_text.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/grid.h"
@@ -104,6 +106,38 @@ CfAttributes mapping_attributes(const grid::GridSpec& spec) {
         "WGS84; heights above mean sea level are used as heights above the ellipsoid (about "
         "1 m at 230 km)");
     return attributes;
+}
+
+std::string well_known_text(const grid::GridSpec& spec) {
+    const std::string degrees = fmt::format(
+        R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",{},{}]],PRIMEM["Greenwich",0],)"
+        R"(UNIT["degree",0.0174532925199433]])",
+        grid::wgs84_semi_major_m, 1 / grid::wgs84_flattening);
+    const auto plane = [&](std::string_view projection, std::string_view parameters) {
+        return fmt::format(R"(PROJCS["{0}",{1},PROJECTION["{0}"],{2},PARAMETER["false_easting",0],)"
+                           R"(PARAMETER["false_northing",0],UNIT["metre",1],AXIS["Easting",EAST],)"
+                           R"(AXIS["Northing",NORTH]])",
+                           projection, degrees, parameters);
+    };
+    switch (spec.projection) {
+        case grid::Projection::azimuthal_equidistant:
+            return plane(
+                "Azimuthal_Equidistant",
+                fmt::format(
+                    R"(PARAMETER["latitude_of_center",{}],PARAMETER["longitude_of_center",{}])",
+                    spec.center_latitude_deg, spec.center_longitude_deg));
+        case grid::Projection::latitude_longitude:
+            return degrees;
+        case grid::Projection::lambert_conformal:
+            return plane(
+                "Lambert_Conformal_Conic_2SP",
+                fmt::format(
+                    R"(PARAMETER["latitude_of_origin",{}],PARAMETER["central_meridian",{}],)"
+                    R"(PARAMETER["standard_parallel_1",{}],PARAMETER["standard_parallel_2",{}])",
+                    spec.center_latitude_deg, spec.center_longitude_deg, spec.parallels_deg[0],
+                    spec.parallels_deg[1]));
+    }
+    return {};
 }
 
 CfAttributes reference_to_map(const grid::GridSpec& spec) {

@@ -40,6 +40,8 @@ struct MapNames {
 [[nodiscard]] CfAttributes latitude_attributes();
 [[nodiscard]] CfAttributes longitude_attributes();
 [[nodiscard]] CfAttributes mapping_attributes(const grid::GridSpec& spec);
+// The same in well-known text (WKT 1, as GDAL writes it).
+[[nodiscard]] std::string well_known_text(const grid::GridSpec& spec);
 // The attributes with which a field refers to the map.
 [[nodiscard]] CfAttributes reference_to_map(const grid::GridSpec& spec);
 // `method` is that of the provenance.

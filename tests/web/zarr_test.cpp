@@ -69,6 +69,31 @@ TEST_F(ZarrTest, TheDocumentsOfVersionTwoAgreeWithEachOther) {
     EXPECT_EQ(all.at("z/.zarray").at("shape").at(0), all.at("REF/.zarray").at("shape").at(1));
 }
 
+// 2026-11-28: GDAL and QGIS saw no projection, which they take from this attribute.
+// scripts/check-zarr asks GDAL.
+TEST_F(ZarrTest, FieldsNameTheirProjectionForGdal) {
+    const auto all = zarr_json(get("/zarr/KBGM/REF/.zmetadata"))["metadata"];
+    for (const char* field : {"REF", "status"}) {
+        const std::string wkt = all.at(std::string(field) + "/.zattrs").at("_CRS").at("wkt");
+        EXPECT_TRUE(wkt.starts_with("PROJCS[\"Azimuthal_Equidistant\",GEOGCS[\"WGS 84\"")) << wkt;
+    }
+    EXPECT_FALSE(all.at("z/.zattrs").contains("_CRS"));
+    const auto three = zarr_json(get3("/zarr3/KBGM/REF/REF/zarr.json"));
+    EXPECT_FALSE(three.at("attributes").contains("_CRS")) << "xarray cannot write it to netCDF";
+}
+
+// 2026-11-28: a reverse proxy could keep no chunk.
+TEST_F(ZarrTest, ChunksOfAGridMayBeKeptAndThoseOfTheAxisOfTimesMayNot) {
+    for (const char* chunk : {"REF/2.0.0.0", "status/2.0.0.0"}) {
+        const Answer first = get(std::string("/zarr/KBGM/REF/") + chunk);
+        EXPECT_EQ(header_of(first, "Cache-Control"), "max-age=300") << chunk;
+        EXPECT_NE(header_of(first, "ETag"), "");
+        EXPECT_EQ(header_of(get(std::string("/zarr/KBGM/REF/") + chunk), "Cache-Control"),
+                  "max-age=300");
+    }
+    EXPECT_EQ(header_of(get("/zarr/KBGM/REF/time/0"), "Cache-Control"), "no-cache");
+}
+
 TEST_F(ZarrTest, StatesHaveAFlagForWhatIsUnavailable) {
     const auto all = zarr_json(get("/zarr/KBGM/REF/.zmetadata"))["metadata"];
     EXPECT_EQ(all.at("status/.zarray").at("fill_value"), 4);

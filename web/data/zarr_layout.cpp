@@ -64,6 +64,7 @@ std::vector<ZarrArray> fields_of(const cache::GridDescription& newest, std::size
         .attributes = json_of(netcdf::field_attributes(newest.moment, newest.provenance.method))};
     values.attributes.update(json_of(netcdf::reference_to_map(spec)));
     values.attributes["ancillary_variables"] = "status";
+    values.version2_attributes["_CRS"] = {{"wkt", netcdf::well_known_text(spec)}};
     ZarrArray states = values;
     states.name = "status";
     states.number = ZarrNumber::int8;
@@ -158,6 +159,7 @@ ZarrJson zarray_of(const ZarrArray& array) {
 
 ZarrJson zattrs_of(const ZarrArray& array) {
     ZarrJson attributes = array.attributes;
+    attributes.update(array.version2_attributes);
     attributes["_ARRAY_DIMENSIONS"] = array.dimensions;
     return attributes;
 }

@@ -3,9 +3,10 @@
 //
 // The group has the arrays MOMENT and status (time, z, y, x), the coordinates time, z, y and x, the
 // positions lat and lon (y, x), and the variable of the CF grid mapping, with the attributes that
-// grid files have (export/cf_attributes.h). A grid that is regular in degrees has the dimensions
-// lat and lon instead of y and x, and no positions. All chunks are compressed with gzip; both
-// versions have the same chunks.
+// grid files have (export/cf_attributes.h). In version 2 MOMENT and status have the attribute _CRS,
+// from which GDAL takes the projection. A grid that is regular in degrees has the dimensions lat
+// and lon instead of y and x, and no positions. All chunks are compressed with gzip; both versions
+// have the same chunks.
 //
 // Sources   Zarr storage specification 2, with the consolidated metadata of zarr-python; Zarr core
 //           specification 3.0, with the inline consolidated metadata of zarr-python 3.
@@ -35,6 +36,8 @@ struct ZarrArray {
     std::vector<std::size_t> shape, chunk;  // as many as dimensions
     ZarrJson fill;
     ZarrJson attributes = ZarrJson::object();
+    // More of them in version 2 alone: xarray writes no netCDF file with such a one.
+    ZarrJson version2_attributes = ZarrJson::object();
 
     // Returns the number of chunks along a dimension.
     [[nodiscard]] std::size_t chunks_along(std::size_t dimension) const {
