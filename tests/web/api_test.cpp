@@ -339,6 +339,85 @@ TEST_F(Api, PackedAnswersAreCompressedAsTheClientTakesThem) {
     EXPECT_EQ(body_of(zstd).substr(0, 4), "\x28\xb5\x2f\xfd");
 }
 
+TEST_F(Api, JsonIsCompressedAsTheClientTakesIt) {
+    const std::string path = ServedGrids::small_path;
+    const Answer plain = served_.get(path);
+    const Answer gzip = served_.get(path, {{"Accept-Encoding", "gzip"}});
+    EXPECT_EQ(header_of(gzip, "Content-Encoding"), "gzip");
+    EXPECT_LT(body_of(gzip).size(), body_of(plain).size());
+    EXPECT_NE(header_of(gzip, "ETag"), header_of(plain, "ETag"));
+    EXPECT_EQ(served_.get(path, {{"If-None-Match", header_of(plain, "ETag")}}).status, 304u);
+}
+
+// 2026-11-28: a reverse proxy could keep nothing of a grid, though tiles of the same time were
+// kept.
+TEST_F(Api, AGridOfANamedTimeMayBeKept) {
+    for (const char* what : {"/packed", "/netcdf", "/file"}) {
+        const Answer named = served_.get(std::string(ServedGrids::noon_path) + what);
+        EXPECT_EQ(header_of(named, "Cache-Control"), "max-age=300") << what;
+        EXPECT_NE(header_of(named, "ETag"), "") << what;
+        const Answer latest = served_.get(std::string("/api/v1/grids/KBGM/REF/latest") + what);
+        EXPECT_EQ(header_of(latest, "Cache-Control"), "no-cache") << what;
+    }
+}
+
+TEST_F(Api, AGridThatMayChangeMustBeAskedForEachTime) {
+    grid::Grid growing = served_.small();
+    for (const bool is_frame : {false, true}) {
+        growing.provenance.partial = !is_frame;
+        growing.provenance.provisional = is_frame;
+        ASSERT_TRUE(served_.store().commit(
+            "KBGM", cache::describe(growing),
+            grid::BrickGrid::from(growing, ServedGrids::quantization()).view()));
+        served_.grids().refresh();
+        for (const char* what : {"/packed", "/netcdf", "/file"}) {
+            const Answer named = served_.get(std::string(ServedGrids::small_path) + what);
+            EXPECT_EQ(header_of(named, "Cache-Control"), "no-cache") << what << is_frame;
+        }
+    }
+}
+
+// 2026-11-28: a box across the antimeridian was refused, so that maps ended there.
+TEST_F(Api, AMapGoesOnAcrossTheAntimeridian) {
+    const std::string rest = "&south=50&north=70&detail=2";
+    const auto map = [&](const std::string& sides) {
+        return json_of(served_.get("/api/v1/map?" + sides + rest));
+    };
+    const auto both = map("west=170&east=-160");
+    EXPECT_EQ(both, map("west=170&east=200"));
+    EXPECT_EQ(both, map("west=-190&east=-160"));
+    const auto longitudes = [](const nlohmann::json& answer) {
+        std::pair<double, double> ends{1e9, -1e9};
+        for (const auto& line : answer.at("lines")) {
+            for (const auto& point : line.at("points")) {
+                ends.first = std::min(ends.first, point[0].get<double>());
+                ends.second = std::max(ends.second, point[0].get<double>());
+            }
+        }
+        return ends;
+    };
+    EXPECT_LT(longitudes(both).first, 178);
+    EXPECT_GT(longitudes(both).second, 190) << "Alaska goes on beyond 180";
+    const auto west = map("west=170&east=180"), east = map("west=-180&east=-160");
+    EXPECT_EQ(both.at("lines").size(), west.at("lines").size() + east.at("lines").size());
+    EXPECT_LE(longitudes(east).first, -178);
+    const auto atoll = json_of(served_.get("/api/v1/map?west=170&east=-155&south=18&north=24"));
+    EXPECT_FALSE(atoll.at("cities").empty()) << "Honolulu";
+    EXPECT_GT(atoll.at("cities")[0].at("place")[0].get<double>(), 180);
+    EXPECT_EQ(served_.get("/api/v1/map?west=-180&east=180" + rest).status, 200u);
+    EXPECT_EQ(served_.get("/api/v1/map?west=10&east=10" + rest).status, 400u);
+    EXPECT_EQ(served_.get("/api/v1/map?west=-180&east=181" + rest).status, 400u);
+}
+
+// 2026-11-28: linters of OpenAPI missed these in each operation.
+TEST_F(Api, TheDocumentHasWhatLintersAskFor) {
+    const auto document = json_of(served_.get("/api/v1/openapi.json"));
+    EXPECT_EQ(document.at("security"), nlohmann::json::array());
+    EXPECT_EQ(document.at("info").at("license").at("identifier"), "BSD-3-Clause");
+    for (const auto& [path, operations] : document.at("paths").items())
+        EXPECT_TRUE(operations.at("get").at("responses").contains("4XX")) << path;
+}
+
 TEST_F(Api, TablesAreWholeAndSmallOnTheWire) {
     const Answer plain = served_.get("/api/v1/tables");
     const auto json = json_of(plain);

@@ -15,6 +15,7 @@
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/asked.h"
 #include "web/data/packed_grid.h"
+#include "web/data/raw_files.h"
 #include "web/doors/api_door.h"
 
 namespace stormcellar::web {
@@ -26,17 +27,16 @@ constexpr int side = 160;  // columns of 2 km
 constexpr float value_of_kbgm = 20, value_of_kccx = 40;
 
 // One value everywhere within 150 km of the site, no echo beyond.
-grid::Grid grid_of(const char* icao, float value, UtcTime time) {
-    const Station station = *find_station(icao);
+grid::Grid grid_at(const char* icao, const grid::GeoPoint& place, float value, UtcTime time) {
     grid::Grid made;
-    made.spec.center_latitude_deg = station.latitude_deg;
-    made.spec.center_longitude_deg = station.longitude_deg;
+    made.spec.center_latitude_deg = place.latitude_deg;
+    made.spec.center_longitude_deg = place.longitude_deg;
     made.spec.spacing_m = 2000;
     made.spec.nx = made.spec.ny = side;
     made.spec.levels_m = {1000, 2000, 3000};
     made.time = made.start_time = time;
     made.end_time = time + std::chrono::minutes{4};
-    made.sites = {{icao, station.latitude_deg, station.longitude_deg, 300}};
+    made.sites = {{icao, place.latitude_deg, place.longitude_deg, 300}};
     made.values.assign(made.spec.cell_count(), 0);
     made.status.assign(made.spec.cell_count(), grid::CellStatus::no_echo);
     for (int iy = 0; iy < side; ++iy) {
@@ -49,6 +49,11 @@ grid::Grid grid_of(const char* icao, float value, UtcTime time) {
         }
     }
     return made;
+}
+
+grid::Grid grid_of(const char* icao, float value, UtcTime time) {
+    const Station station = *find_station(icao);
+    return grid_at(icao, {station.latitude_deg, station.longitude_deg}, value, time);
 }
 
 class Region : public ::testing::Test {
@@ -255,6 +260,61 @@ TEST_F(Region, TheApiSaysOfWhichVolumesEachSiteIsMade) {
                     {{"site", "KCCX"},
                      {"volumes", {{{"time", "2024-11-22T12:06:00Z"}, {"middle_s", 180}}}}}}));
     json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/soon/sites", 404);
+}
+
+// 2026-11-28: a radar that its file places, but no table, was in no region and in no list of
+// places.
+TEST_F(Region, ARadarThatItsFilePlacesIsThere) {
+    commit(grid_at("ROP4", {35.24, -97.46}, 40, testing::noon));
+    grids_->refresh();
+    const Json alone = json("/api/v1/regions?west=-97.6&south=35.1&east=-97.3&north=35.4");
+    EXPECT_EQ(alone["moments"][0]["sites"], (Json{"KTLX", "ROP4"}));
+    const Json stations = json("/api/v1/stations?station=ROP4")["stations"];
+    ASSERT_EQ(stations.size(), 1u);
+    EXPECT_EQ(stations[0]["latitude_deg"], 35.24);
+    EXPECT_EQ(stations[0]["longitude_deg"], -97.46);
+    EXPECT_EQ(stations[0]["antenna_altitude_m"], 300);
+    EXPECT_FALSE(stations[0].contains("name"));
+    const RawStation raw = raw_station("ROP4", grids_.get());
+    EXPECT_TRUE(raw.has_place);
+    EXPECT_EQ(raw.longitude_deg, -97.46);
+    EXPECT_FALSE(raw_station("ROP5", grids_.get()).has_place);
+}
+
+TEST_F(Region, EachSiteThatIsLeftOutHasAReason) {
+    grid::Grid low = grid_at("ROP4", {41.6, -77}, 40, testing::noon);
+    low.spec.levels_m = {1000};
+    low.values.resize(low.spec.cell_count());
+    low.status.resize(low.spec.cell_count());
+    commit(low);
+    grid::Grid other = grid_at("ROP5", {41.7, -77}, 10, testing::noon);
+    other.moment = level2::Moment::sw;
+    ASSERT_TRUE(store_.commit(
+        "ROP5", cache::describe(other),
+        grid::BrickGrid::from(other, grid::default_quantization(level2::Moment::sw)).view()));
+    grids_->refresh();
+    for (const Json& moment : json(both_query)["moments"]) {
+        if (moment["moment"] != "REF") continue;
+        EXPECT_EQ(moment["left_out"], (Json{"ROP4", "ROP5"}));
+        EXPECT_EQ(moment["left_out_because"],
+                  (Json{{"ROP4", "its grids have other levels or codes than those of KBGM"},
+                        {"ROP5", "it has no grids of REF"}}));
+    }
+}
+
+// 2026-11-28: a box across the antimeridian was refused unless its east was beyond 180.
+TEST_F(Region, MayLieAcrossTheAntimeridian) {
+    commit(grid_at("ROP4", {52, 179.9}, 40, testing::noon));
+    grids_->refresh();
+    for (const char* sides : {"west=178&east=-178", "west=178&east=182", "west=-182&east=-178"}) {
+        const Json region = json(std::string("/api/v1/regions?") + sides + "&south=51&north=53");
+        EXPECT_EQ(region["region"], "178,51,182,53") << sides;
+        EXPECT_EQ(region["moments"][0]["sites"], (Json{"ROP4"}));
+    }
+    const std::string later = "/REF/2024-11-22T12:00:00Z/packed";
+    const Answer packed = asked(*door_, "/api/v1/regions/178,51,182,53" + later);
+    EXPECT_EQ(packed.status, 200u);
+    EXPECT_EQ(body_of(asked(*door_, "/api/v1/regions/178,51,-178,53" + later)), body_of(packed));
 }
 
 TEST_F(Region, ErrorsSayWhatIsWrong) {

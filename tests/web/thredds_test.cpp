@@ -1,10 +1,13 @@
 // Every request and answer of THREDDS that Siphon and the IDV depend on, over real volumes.
 #include "web/doors/thredds.h"
 
+#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "stormcellar/cache/store.h"
+#include "tests/cache/made_grids.h"
 #include "tests/web/raw_client.h"
 #include "tests/web/served_volumes.h"
 #include "web/http/server.h"
@@ -110,6 +113,33 @@ TEST_F(Thredds, StationsHaveNoNamespace) {
     }
 }
 
+// 2026-11-28: a radar that its file places, but no table, was in no list of places and in no box.
+TEST_F(Thredds, AStationThatItsFilesPlaceHasAPlace) {
+    const auto file = *testing::data_directory() /
+                      "cases/files/6-station-not-in-the-table/ROP420240601_220000_V06";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    ServedVolumes served(false);
+    served.take(file, "ROP420240601_220000_V06");
+    grid::Grid made = testing::small_grid();
+    made.sites = {{"ROP4", 35.24, -97.46, 300}};
+    auto store = *cache::StoreWriter::open(real_file_system(), served.state() / "cache", false);
+    ASSERT_TRUE(store.commit(
+        "ROP4", cache::describe(made),
+        grid::BrickGrid::from(made, grid::default_quantization(level2::Moment::ref)).view()));
+    const auto files = [&](const std::shared_ptr<Grids>& grids) {
+        return RawFiles::open_catalog(
+            {.catalog = served.state() / "catalog", .grids = grids, .scratch = {}});
+    };
+    door_ = std::make_unique<ThreddsDoor>(files(*Grids::open({.cache = served.state() / "cache"})));
+    const std::string station = text_between(query("/stations.xml"), "id=\"ROP4\"", "</station>");
+    EXPECT_EQ(text_between(station, "<latitude>", "<"), "35.24");
+    EXPECT_EQ(text_between(station, "<elevation>", "<"), "300.0");
+    const std::string_view box = "?north=36&south=34&west=-98&east=-96&temporal=all";
+    EXPECT_EQ(count_in(query(box), "urlPath"), 1U);
+    door_ = std::make_unique<ThreddsDoor>(files(nullptr));
+    EXPECT_EQ(count_in(query(box), "urlPath"), 0U) << "without a grid nobody knows";
+}
+
 TEST_F(Thredds, AnAnswerHasWhatClientsResolve) {
     const Answer answer = get(level2 + std::string{"?stn=KTLX&time=2017-01-01T03%3A30%3A00"});
     EXPECT_EQ(answer.status, 200U);
@@ -160,6 +190,10 @@ TEST_F(Thredds, RangesAndPlacesAreHeard) {
     EXPECT_NE(nearest.find("KABR20050101_000745"), nearest.npos);
     EXPECT_EQ(count_in(query("?north=50&south=40&east=-90&west=-100&temporal=all"), "KABR/"), 2U);
     EXPECT_EQ(count_in(query("?north=50&south=48&east=-90&west=-100&temporal=all"), "urlPath"), 0U);
+    for (const char* across : {"east=-90&west=170", "east=270&west=170", "east=-90&west=-190"})
+        EXPECT_EQ(
+            count_in(query(std::string("?north=50&south=40&temporal=all&") + across), "KABR/"), 2U)
+            << across;
 }
 
 // The IDV sends "?&stn=" and an end that is "present", and names that are not there are no error.

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { MapView, boxBetween, draggedMap, fittedMap, isInBox, mapPoint, pixelOf, placeOfPoint, pointAt, scaledMap, tilesOf } from '../src/map/mercator';
+import { MapView, boxAbout, boxBetween, draggedMap, fittedMap, grownBox, holdsBox, isInBox, mapPoint, pixelOf, placeOfPoint, pointAt, scaledMap, tilesOf } from '../src/map/mercator';
 
 const view: MapView = { center: [0.25, 0.4], scale: 4096, width: 800, height: 600 };
 const place = (latitudeDeg: number, longitudeDeg: number) => ({ latitudeDeg, longitudeDeg });
@@ -69,4 +69,25 @@ test('a box holds the places that are drawn in it', () => {
     const pacific: MapView = { ...view, center: mapPoint(place(15, 180)) };
     const wide = boxBetween(pacific, [0, 0], [800, 600]);
     assert.ok(isInBox(place(13.5, 150), wide) && isInBox(place(20, -160), wide) && !isInBox(place(15, -97), wide));
+});
+
+// 2026-11-28: with one radar west of the date line, the start map had no land east of it.
+test('a box goes on across the date line when it grows, and holds what lies there', () => {
+    const grown = grownBox({ west: 130, south: 0, east: 230, north: 60 }, 0.5);
+    assert.deepEqual(grown, { west: 80, south: -30, east: 280, north: 85 });
+    assert.ok(holdsBox(grown, { west: -170, south: 0, east: -130, north: 60 }));
+    assert.ok(holdsBox(grown, { west: 170, south: 0, east: 200, north: 60 }));
+    assert.ok(!holdsBox(grown, { west: -90, south: 0, east: -70, north: 60 }));
+    assert.ok(!holdsBox(grown, { west: 170, south: -40, east: 200, north: 60 }));
+    const all = grownBox({ west: -170, south: -80, east: 160, north: 80 }, 0.5);
+    assert.equal(all.east - all.west, 360);
+    assert.ok(holdsBox(all, { west: -90, south: 0, east: 200, north: 60 }));
+});
+
+// 2026-11-28: a grid across 180 degrees asked for the map of the whole circle.
+test('the box about a longitude is no wider than its places', () => {
+    const box = boxAbout(-178, [place(50, 179), place(52, -175), place(51, -178)]);
+    assert.deepEqual(box, { west: -181, south: 50, east: -175, north: 52 });
+    const east = boxAbout(179, [place(50, 177), place(52, -179)]);
+    assert.deepEqual(east, { west: 177, south: 50, east: 181, north: 52 });
 });

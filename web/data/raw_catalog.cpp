@@ -119,18 +119,7 @@ Result<std::vector<RawStation>> CatalogRawFiles::stations() {
     const auto names = catalog->station_names();
     if (!names) return pass_on(names);
     for (const std::string& icao : *names) {
-        if (icao.empty()) continue;
-        RawStation station;
-        station.icao = icao;
-        if (const auto known = find_station(icao)) {
-            station.name = known->name;
-            station.state = known->state;
-            station.has_place = true;
-            station.latitude_deg = known->latitude_deg;
-            station.longitude_deg = known->longitude_deg;
-            station.altitude_m = known->antenna_altitude_m;
-        }
-        stations.push_back(std::move(station));
+        if (!icao.empty()) stations.push_back(raw_station(icao, options_.grids.get()));
     }
     return stations;
 }

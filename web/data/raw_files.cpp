@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "web/data/station_place.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -10,6 +12,20 @@ std::chrono::milliseconds distance_of(const RawVolume& volume, UtcTime time) {
 }
 
 }  // namespace
+
+RawStation raw_station(std::string_view icao, Grids* grids) {
+    RawStation station;
+    station.icao = icao;
+    const auto known = place_of_station(grids, icao);
+    if (!known) return station;
+    station.name = known->name;
+    station.state = known->state;
+    station.has_place = true;
+    station.latitude_deg = known->latitude_deg;
+    station.longitude_deg = known->longitude_deg;
+    station.altitude_m = known->antenna_altitude_m;
+    return station;
+}
 
 Result<std::optional<RawVolume>> RawFiles::nearest(std::string_view station, UtcTime time,
                                                    std::chrono::milliseconds within) {

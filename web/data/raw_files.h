@@ -32,6 +32,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/catalog/catalog.h"
+#include "web/data/grids.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -42,6 +43,9 @@ struct RawStation {
     bool has_place = false;   // the rest is known
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
 };
+
+// `grids` place a station that no table has; null: they do not.
+[[nodiscard]] RawStation raw_station(std::string_view icao, Grids* grids);
 
 struct RawVolume {
     std::string station;
@@ -92,6 +96,8 @@ struct RawFilesOptions {
     std::filesystem::path catalog;
     // The same, if it is open already.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
+    // Place stations that no table has. Null: they have no place.
+    std::shared_ptr<Grids> grids = nullptr;
     // Joined chunks stand here, in files without a name. Empty: the system's temporary directory.
     std::filesystem::path scratch;
     std::size_t most_joined = 16;      // joined volumes kept; each has at most 1 GiB, usually 10 MB

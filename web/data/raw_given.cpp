@@ -41,19 +41,8 @@ class GivenRawFiles final : public RawFiles {
 
 Result<std::vector<RawStation>> GivenRawFiles::stations() {
     std::vector<RawStation> stations;
-    for (const auto& [icao, volumes] : stations_) {
-        RawStation station;
-        station.icao = icao;
-        if (const auto known = find_station(icao)) {
-            station.name = known->name;
-            station.state = known->state;
-            station.has_place = true;
-            station.latitude_deg = known->latitude_deg;
-            station.longitude_deg = known->longitude_deg;
-            station.altitude_m = known->antenna_altitude_m;
-        }
-        stations.push_back(std::move(station));
-    }
+    for (const auto& [icao, volumes] : stations_)
+        stations.push_back(raw_station(icao, nullptr));
     return stations;
 }
 

@@ -6,11 +6,14 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/grid/grid_window.h"
 #include "stormcellar/grid/projection.h"
 #include "web/data/halved_grid.h"
 #include "web/data/nearest_columns.h"
+#include "web/data/station_place.h"
 
 namespace stormcellar::web {
 namespace {
@@ -28,7 +31,8 @@ Status check_region_box(const RegionBox& box) {
     const double wide = box.east_deg - box.west_deg, high = box.north_deg - box.south_deg;
     if (!(wide >= least_side_deg) || !(high >= least_side_deg) || std::abs(box.west_deg) > 180) {
         return fail(ErrorCode::bad_argument,
-                    "west must be less than east and south less than north, by {} degrees at least",
+                    "west must not be east, and south must be less than north, by {} degrees at "
+                    "least",
                     least_side_deg);
     }
     if (wide > most_side_deg || high > most_side_deg ||
@@ -71,14 +75,16 @@ double reach_of_grid(const grid::GridSpec& spec) {
     return 0.5 * std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m());
 }
 
-bool is_near_region(const Station& station, const RegionBox& box) {
+// Whether a place is in the box, or within so many degrees of it.
+bool is_about(const StationPlace& place, const RegionBox& box, double margin_deg) {
     const double across =
-        std::remainder(station.longitude_deg - 0.5 * (box.west_deg + box.east_deg), 360.0);
-    return std::abs(across) < 0.5 * (box.east_deg - box.west_deg) + farthest_site_deg &&
-           station.latitude_deg > box.south_deg - farthest_site_deg &&
-           station.latitude_deg < box.north_deg + farthest_site_deg;
+        std::remainder(place.longitude_deg - 0.5 * (box.west_deg + box.east_deg), 360.0);
+    return std::abs(across) < 0.5 * (box.east_deg - box.west_deg) + margin_deg &&
+           place.latitude_deg > box.south_deg - margin_deg &&
+           place.latitude_deg < box.north_deg + margin_deg;
 }
 
+// A site near the box, with its newest grid of the moment; without one it stands in the box.
 struct NearbySite {
     std::string name;
     std::shared_ptr<const OpenGrid> newest;
@@ -88,9 +94,11 @@ Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
                                             level2::Moment moment) {
     std::vector<NearbySite> found;
     for (const std::string& domain : grids.domains()) {
-        const auto station = is_icao(domain) ? find_station(domain) : std::nullopt;
-        if (!station || !is_near_region(*station, box)) continue;
+        if (!is_icao(domain)) continue;
+        const auto place = place_of_station(&grids, domain);
+        if (!place || !is_about(*place, box, farthest_site_deg)) continue;
         const auto newest = grids.newest(domain, moment);
+        if (!newest && is_about(*place, box, 0)) found.push_back({domain, nullptr});
         if (!newest) continue;
         auto grid = grids.find(domain, moment, *newest);
         // It may have been evicted meanwhile.
@@ -181,6 +189,16 @@ Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const Re
 
 }  // namespace
 
+RegionBox turned(RegionBox box) {
+    if (!std::isfinite(box.west_deg) || !std::isfinite(box.east_deg)) return box;
+    const double turns_deg = 360 * std::floor((box.west_deg + 180) / 360);
+    box.west_deg -= turns_deg;
+    box.east_deg -= turns_deg;
+    if (box.east_deg < box.west_deg)
+        box.east_deg += 360 * std::ceil((box.west_deg - box.east_deg) / 360);
+    return box;
+}
+
 Result<RegionBox> region_box_of(std::string_view text) {
     RegionBox box;
     for (double* side : {&box.west_deg, &box.south_deg, &box.east_deg, &box.north_deg}) {
@@ -193,6 +211,7 @@ Result<RegionBox> region_box_of(std::string_view text) {
         }
         text.remove_prefix(std::min(text.size(), part.size() + 1));
     }
+    box = turned(box);
     if (Status good = check_region_box(box); !good) return pass_on(good);
     return box;
 }
@@ -204,6 +223,11 @@ Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box, level2::Momen
     RegionPlan plan;
     plan.moment = moment;
     for (const auto& [name, newest] : *nearby) {
+        if (!newest) {
+            plan.left_out.push_back(
+                {name, fmt::format("it has no grids of {}", level2::moment_name(moment))});
+            continue;
+        }
         const grid::GridSpec& own = newest->file.description().spec;
         // The first that reaches the box says what the others must be.
         if (plan.sites.empty()) {
@@ -212,7 +236,13 @@ Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box, level2::Momen
         }
         const auto& site = newest->file.description().sites.front();
         if (!grid::site_window(plan.spec, site, reach_of_grid(own))) continue;
-        (fits(*newest, plan) ? plan.sites : plan.left_out).push_back(name);
+        if (fits(*newest, plan)) {
+            plan.sites.push_back(name);
+        } else {
+            plan.left_out.push_back(
+                {name, fmt::format("its grids have other levels or codes than those of {}",
+                                   plan.sites.front())});
+        }
     }
     if (plan.sites.empty()) {
         return fail(ErrorCode::not_found, "no site with grids of {} reaches this region",

@@ -23,9 +23,13 @@
 
 namespace stormcellar::web {
 
+// West is within [-180, 180); east is greater, and beyond 180 if the box crosses the antimeridian.
 struct RegionBox {
     double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
 };
+// Returns the box with its longitudes so: 170 to -170 and 170 to 190 are the same box, and so are
+// 530 to 550. Longitudes that are equal stay so.
+[[nodiscard]] RegionBox turned(RegionBox box);
 
 // What one request may take.
 inline constexpr std::size_t most_region_columns = 1'000'000;
@@ -34,13 +38,18 @@ inline constexpr int most_region_halvings = 3;
 // Instants of a region: whole multiples of this since midnight.
 inline constexpr std::chrono::minutes region_interval{5};
 
+// A site that the grid of a region leaves out, and why: the rest of a sentence.
+struct LeftOutSite {
+    std::string site, reason;
+};
+
 // What the grid of a region is, before it is made.
 struct RegionPlan {
     level2::Moment moment = level2::Moment::ref;
     grid::GridSpec spec;
     grid::Quantization quantization;
     std::vector<std::string> sites;     // that reach the box, by name
-    std::vector<std::string> left_out;  // that would, but whose grids do not fit the others
+    std::vector<LeftOutSite> left_out;  // that stand in the box or reach it
     int halvings = 0;                   // of the sites' grids
 };
 

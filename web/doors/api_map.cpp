@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/checksum.h"
 #include "render/map/base_map.h"
 #include "web/data/compressed.h"
+#include "web/data/region.h"
 #include "web/doors/api_operations.h"
 
 namespace stormcellar::web {
@@ -29,13 +31,13 @@ constexpr std::string_view city_kind = "city";
 constexpr std::string_view usual_kinds = "state,lake,country,coast,city";
 
 struct MapRequest {
-    double west = 0, south = 0, east = 0, north = 0;
+    RegionBox box;
     int detail = 1;
     std::vector<render::MapKind> kinds;
     bool cities = false;
     [[nodiscard]] std::string text() const {
-        std::string all =
-            fmt::format("{}/{}/{}/{}/{}/{}", west, south, east, north, detail, cities);
+        std::string all = fmt::format("{}/{}/{}/{}/{}/{}", box.west_deg, box.south_deg,
+                                      box.east_deg, box.north_deg, detail, cities);
         for (const render::MapKind kind : kinds)
             all += fmt::format("/{}", static_cast<int>(kind));
         return all;
@@ -70,8 +72,10 @@ Result<MapRequest> read_map_request(const ApiCall& call) {
         double* to;
         double most;
     };
-    for (const Side& side : {Side{"west", &wanted.west, 180}, Side{"east", &wanted.east, 180},
-                             Side{"south", &wanted.south, 90}, Side{"north", &wanted.north, 90}}) {
+    RegionBox& box = wanted.box;
+    for (const Side& side :
+         {Side{"west", &box.west_deg, 540}, Side{"east", &box.east_deg, 540},
+          Side{"south", &box.south_deg, 90}, Side{"north", &box.north_deg, 90}}) {
         const auto number = number_parameter(call, side.name, -side.most, side.most);
         if (!number) return pass_on(number);
         if (!*number) {
@@ -79,8 +83,12 @@ Result<MapRequest> read_map_request(const ApiCall& call) {
         }
         *side.to = **number;
     }
-    if (wanted.west >= wanted.east || wanted.south >= wanted.north) {
-        return fail(ErrorCode::bad_argument, "west must be less than east, south less than north");
+    box = turned(box);
+    const double wide = box.east_deg - box.west_deg;
+    if (!(wide > 0) || wide > 360 || box.south_deg >= box.north_deg) {
+        return fail(ErrorCode::bad_argument,
+                    "west must not be east nor over 360 degrees from it, and south must be less "
+                    "than north");
     }
     const auto detail = whole_parameter(call, "detail", 0, render::map_detail_count - 1, 1);
     if (!detail) return pass_on(detail);
@@ -94,9 +102,23 @@ double five_places(double degrees) {
     return std::round(degrees * 1e5) / 1e5;
 }
 
-bool touches(const render::MapLine& line, const MapRequest& wanted) {
-    return line.west_deg <= wanted.east && line.east_deg >= wanted.west &&
-           line.south_deg <= wanted.north && line.north_deg >= wanted.south;
+// The map's own longitudes are from -180 to 180. A box across the antimeridian shows what lies east
+// of it a whole turn further east.
+constexpr std::array<double, 2> turns_deg{0, 360};
+
+bool is_seen(const render::MapLine& line, const RegionBox& box, double turn_deg) {
+    if (turn_deg > 0 && box.east_deg <= 180) return false;
+    return line.west_deg + turn_deg <= box.east_deg && line.east_deg + turn_deg >= box.west_deg &&
+           line.south_deg <= box.north_deg && line.north_deg >= box.south_deg;
+}
+
+ApiJson places_json(std::span<const grid::GeoPoint> points, double turn_deg) {
+    ApiJson places = ApiJson::array();
+    for (const grid::GeoPoint& point : points) {
+        places.push_back(
+            {five_places(point.longitude_deg + turn_deg), five_places(point.latitude_deg)});
+    }
+    return places;
 }
 
 Status add_lines(const render::BaseMap& map, const MapRequest& wanted, ApiJson& lines) {
@@ -108,24 +130,21 @@ Status add_lines(const render::BaseMap& map, const MapRequest& wanted, ApiJson& 
         }
         const auto named = std::ranges::find(map_kind_names, set.kind, &MapKindName::kind);
         for (const render::MapLine& line : set.lines) {
-            if (!touches(line, wanted)) continue;
-            count += line.point_count;
-            if (count > most_map_points) {
-                return fail(ErrorCode::bad_argument,
-                            "the area holds more than {} points: ask for a smaller one, a coarser "
-                            "detail or fewer kinds",
-                            most_map_points);
+            for (const double turn_deg : turns_deg) {
+                if (!is_seen(line, wanted.box, turn_deg)) continue;
+                count += line.point_count;
+                if (count > most_map_points) {
+                    return fail(ErrorCode::bad_argument,
+                                "the area holds more than {} points: ask for a smaller one, a "
+                                "coarser detail or fewer kinds",
+                                most_map_points);
+                }
+                const auto points = map.points_of(line);
+                if (!points) return pass_on(points);
+                lines.push_back({{"kind", named->name},
+                                 {"is_area", render::is_area(set.kind)},
+                                 {"points", places_json(*points, turn_deg)}});
             }
-            const auto points = map.points_of(line);
-            if (!points) return pass_on(points);
-            ApiJson places = ApiJson::array();
-            for (const grid::GeoPoint& point : *points) {
-                places.push_back(
-                    {five_places(point.longitude_deg), five_places(point.latitude_deg)});
-            }
-            lines.push_back({{"kind", named->name},
-                             {"is_area", render::is_area(set.kind)},
-                             {"points", std::move(places)}});
         }
     }
     return {};
@@ -134,9 +153,12 @@ Status add_lines(const render::BaseMap& map, const MapRequest& wanted, ApiJson& 
 ApiJson cities_json(const render::BaseMap& map, const MapRequest& wanted) {
     ApiJson cities = ApiJson::array();
     for (const render::MapCity& city : map.cities()) {
-        const auto [latitude, longitude] = city.place;
-        const bool inside = longitude >= wanted.west && longitude <= wanted.east &&
-                            latitude >= wanted.south && latitude <= wanted.north;
+        const RegionBox& box = wanted.box;
+        const double latitude = city.place.latitude_deg;
+        double longitude = city.place.longitude_deg;
+        if (longitude < box.west_deg) longitude += 360;
+        const bool inside =
+            longitude <= box.east_deg && latitude >= box.south_deg && latitude <= box.north_deg;
         if (!inside) continue;
         if (cities.size() >= most_cities) break;  // the largest come first
         cities.push_back({{"name", city.name},

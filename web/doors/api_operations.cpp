@@ -245,6 +245,8 @@ ApiJson responses_json(const ApiOperation& operation) {
             {"description", status_text(status)},
             {"content", {{json_type, {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
     }
+    all["4XX"] = {{"description", "The request is refused before the API reads it; a sentence."},
+                  {"content", {{"text/plain", {{"schema", {{"type", "string"}}}}}}}};
     return all;
 }
 
@@ -266,7 +268,9 @@ ApiJson openapi_document(std::string_view base) {
     document["openapi"] = "3.1.0";
     document["info"] = {{"title", "stormcellar"},
                         {"version", "1"},
-                        {"description", "Gridded weather radar data: docs/web/grids.md."}};
+                        {"description", "Gridded weather radar data: docs/web/grids.md."},
+                        {"license", {{"name", "BSD 3-Clause"}, {"identifier", "BSD-3-Clause"}}}};
+    document["security"] = ApiJson::array();
     document["servers"] = ApiJson::array({{{"url", base}}});
     for (const ApiOperation& operation : api_operations()) {
         document["paths"][std::string(operation.path)]["get"] = {

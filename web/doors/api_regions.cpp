@@ -23,8 +23,8 @@ Result<RegionBox> region_parameters_of(const ApiCall& call) {
         double* to;
         double most;
     };
-    // East may be beyond 180, so that a box crosses the antimeridian.
-    for (const Side& side : {Side{"west", &box.west_deg, 180}, Side{"south", &box.south_deg, 90},
+    // A box across the antimeridian has west greater than east, or one of them beyond 180.
+    for (const Side& side : {Side{"west", &box.west_deg, 540}, Side{"south", &box.south_deg, 90},
                              Side{"east", &box.east_deg, 540}, Side{"north", &box.north_deg, 90}}) {
         const auto number = number_parameter(call, side.name, -side.most, side.most);
         if (!number) return pass_on(number);
@@ -41,13 +41,19 @@ ApiJson region_moment_json(const ApiCall& call, const RegionPlan& plan, const st
     const auto instants = region_times(call.grids(), plan);
     for (const UtcTime time : instants)
         times.push_back(format_utc(time));
+    ApiJson left_out = ApiJson::array(), reasons = ApiJson::object();
+    for (const LeftOutSite& one : plan.left_out) {
+        left_out.push_back(one.site);
+        reasons[one.site] = one.reason;
+    }
     return {{"moment", level2::moment_name(plan.moment)},
             {"units", level2::moment_units(plan.moment)},
             {"grids", instants.size()},
             {"newest", times.back()},
             {"age_s", std::floor(seconds_between(instants.back(), now_utc()))},
             {"sites", plan.sites},
-            {"left_out", plan.left_out},
+            {"left_out", std::move(left_out)},
+            {"left_out_because", std::move(reasons)},
             {"nx", plan.spec.nx},
             {"ny", plan.spec.ny},
             {"spacing_m", plan.spec.spacing_m},

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "stormcellar/base/station_table.h"
+#include "web/data/station_place.h"
 #include "web/doors/api_operations.h"
 
 namespace stormcellar::web {
@@ -23,13 +24,13 @@ ApiJson newest_json(std::optional<UtcTime> time, UtcTime now) {
     return {{"time", format_utc(*time)}, {"age_s", age_json(*time, now)}};
 }
 
-ApiJson station_place_json(const std::string& icao) {
+ApiJson station_place_json(const ApiCall& call, const std::string& icao) {
     ApiJson json{{"station", icao}};
-    const auto station = find_station(icao);
+    const auto station = place_of_station(call.state.sources().grids.get(), icao);
     if (!station) return json;
-    json["name"] = station->name;
-    json["state"] = station->state;
-    json["kind"] = station->kind == RadarKind::nexrad ? "nexrad" : "tdwr";
+    if (!station->name.empty()) json["name"] = station->name;
+    if (!station->state.empty()) json["state"] = station->state;
+    if (station->kind) json["kind"] = station->kind == RadarKind::nexrad ? "nexrad" : "tdwr";
     json["latitude_deg"] = station->latitude_deg;
     json["longitude_deg"] = station->longitude_deg;
     json["antenna_altitude_m"] = station->antenna_altitude_m;
@@ -60,7 +61,7 @@ std::set<std::string> station_names(const ApiCall& call, const catalog::CatalogR
 
 ApiJson station_json(const ApiCall& call, const catalog::CatalogReader* catalog,
                      const std::string& icao, UtcTime now) {
-    ApiJson json = station_place_json(icao);
+    ApiJson json = station_place_json(call, icao);
     json["newest_volume"] = nullptr;
     if (catalog != nullptr) {
         const auto latest = catalog->latest(icao);

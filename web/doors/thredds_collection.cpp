@@ -25,17 +25,23 @@ void set_state(ThreddsStation& station, std::string_view state) {
     if (!state.empty()) station.country = is_state ? "US" : std::string{state};
 }
 
+// Of a ConfiguredPlace or a RawStation.
+template <class Place>
+void set_place(ThreddsStation& station, const Place& place) {
+    station.name = place.name;
+    set_state(station, place.state);
+    station.has_place = true;
+    station.latitude_deg = place.latitude_deg;
+    station.longitude_deg = place.longitude_deg;
+    station.altitude_m = place.altitude_m;
+}
+
 ThreddsStation thredds_station(std::string_view id, const std::vector<ConfiguredPlace>& places) {
     ThreddsStation station;
     station.id = id;
     const auto place = std::ranges::find(places, id, &ConfiguredPlace::id);
     if (place != places.end()) {
-        station.name = place->name;
-        set_state(station, place->state);
-        station.has_place = true;
-        station.latitude_deg = place->latitude_deg;
-        station.longitude_deg = place->longitude_deg;
-        station.altitude_m = place->altitude_m;
+        set_place(station, *place);
         return station;
     }
     const auto known = station_of_id(id);
@@ -59,8 +65,11 @@ Result<std::vector<ThreddsStation>> ThreddsCollection::stations() {
         ids = std::move(*all);
     }
     std::vector<ThreddsStation> stations;
-    for (const std::string& id : ids)
-        stations.push_back(thredds_station(id, places_));
+    for (const std::string& id : ids) {
+        ThreddsStation& station = stations.emplace_back(thredds_station(id, places_));
+        if (station.has_place) continue;
+        if (const auto own = placed_by_files(id)) set_place(station, *own);
+    }
     return stations;
 }
 

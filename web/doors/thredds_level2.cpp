@@ -43,6 +43,7 @@ class Level2Collection final : public ThreddsCollection {
 
   protected:
     Result<std::vector<std::string>> station_ids() override;
+    std::optional<RawStation> placed_by_files(std::string_view id) override;
 
   private:
     // STATION/YYYYMMDD/NAME of a station that this data set has.
@@ -78,6 +79,13 @@ Result<std::vector<std::string>> Level2Collection::station_ids() {
     for (const RawStation& station : *stations)
         ids.push_back(station.icao);
     return ids;
+}
+
+std::optional<RawStation> Level2Collection::placed_by_files(std::string_view id) {
+    const auto stations = files_->stations();
+    if (!stations) return std::nullopt;
+    const auto found = std::ranges::find(*stations, id, &RawStation::icao);
+    return found != stations->end() && found->has_place ? std::optional(*found) : std::nullopt;
 }
 
 Result<std::optional<UtcTime>> Level2Collection::oldest() {

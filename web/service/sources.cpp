@@ -113,8 +113,10 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const WebSetup& setup = sources.setup;
     const WebLimits& limits = setup.web.limits;
     auto doors = std::make_shared<Doors>();
-    const auto files = RawFiles::open_catalog(
-        {.catalog = setup.catalog, .reader = sources.catalog, .scratch = {}});
+    const auto files = RawFiles::open_catalog({.catalog = setup.catalog,
+                                               .reader = sources.catalog,
+                                               .grids = sources.grids,
+                                               .scratch = {}});
     if (setup.web.serves(WebPart::volumes))
         doors->add("/volumes", std::make_shared<VolumesDoor>(files));
     if (setup.web.serves(WebPart::polling))

@@ -139,8 +139,30 @@ export function boxBetween(view: MapView, a: [number, number], b: [number, numbe
     };
 }
 
+const turned = (degrees: number): number => ((degrees % 360) + 360) % 360;
+
+// The box of places that lie about a longitude.
+export function boxAbout(middleDeg: number, places: Place[]): MapBox {
+    const longitudes = places.map(place => middleDeg - 180 + turned(place.longitudeDeg - middleDeg + 180));
+    const latitudes = places.map(place => place.latitudeDeg);
+    return { west: Math.min(...longitudes), south: Math.min(...latitudes), east: Math.max(...longitudes), north: Math.max(...latitudes) };
+}
+
+// A box with a margin at each side, as a share of its own sides; no wider than the earth.
+export function grownBox({ west, south, east, north }: MapBox, share: number): MapBox {
+    const wide = Math.min(360, east - west);
+    const dx = Math.min(share * wide, (360 - wide) / 2);
+    const dy = share * (north - south);
+    return { west: west - dx, south: Math.max(-85, south - dy), east: west + wide + dx, north: Math.min(85, north + dy) };
+}
+
+export function holdsBox(outer: MapBox, inner: MapBox): boolean {
+    const [wide, own] = [outer.east - outer.west, inner.east - inner.west];
+    const isWithin = wide >= 360 || turned(inner.west - outer.west) + own <= wide;
+    return isWithin && outer.south <= inner.south && outer.north >= inner.north;
+}
+
 export function isInBox(place: Place, box: MapBox): boolean {
     if (place.latitudeDeg < box.south || place.latitudeDeg > box.north) return false;
-    const from = (((place.longitudeDeg - box.west) % 360) + 360) % 360;
-    return from <= box.east - box.west;
+    return turned(place.longitudeDeg - box.west) <= box.east - box.west;
 }

@@ -1,5 +1,6 @@
 // The map below a grid: lines for the renderer, names for the labels.
 
+import { boxAbout } from '../map/mercator';
 import { MapLines } from '../renderer/line_pass';
 import { Renderer } from '../renderer/renderer';
 import { WaterMask } from '../renderer/water_texture';
@@ -20,14 +21,8 @@ async function mapAround(place: GridPlace): Promise<MapAnswer> {
     const plane = planeOf(place);
     const [halfXM, halfYM] = halfWidthsM(place);
     const corners = [-1, 0, 1].flatMap(x => [-1, 0, 1].map(y => plane.toPlace([x * widerThanGrid * halfXM, y * widerThanGrid * halfYM])));
-    const degrees = (name: 'latitudeDeg' | 'longitudeDeg') => corners.map(corner => corner[name]);
-    return map(
-        Math.max(-180, Math.min(...degrees('longitudeDeg'))),
-        Math.max(-89, Math.min(...degrees('latitudeDeg'))),
-        Math.min(180, Math.max(...degrees('longitudeDeg'))),
-        Math.min(89, Math.max(...degrees('latitudeDeg'))),
-        halfXM > coarseFromM ? 1 : 0,
-    );
+    const box = boxAbout(plane.toPlace([0, 0]).longitudeDeg, corners);
+    return map({ ...box, south: Math.max(-89, box.south), north: Math.min(89, box.north) }, halfXM > coarseFromM ? 1 : 0);
 }
 
 interface MapOnPlane {

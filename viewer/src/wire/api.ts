@@ -79,7 +79,7 @@ export interface AuditRow {
 }
 // Several sites within a box, as one domain (docs/web/grids.md#regions).
 export interface Region extends Domain {
-    moments: (MomentOfDomain & { sites: string[]; left_out: string[]; spacing_m: number; times: string[] })[];
+    moments: (MomentOfDomain & { sites: string[]; left_out: string[]; left_out_because: Record<string, string>; spacing_m: number; times: string[] })[];
 }
 export interface MapLine {
     kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
@@ -106,15 +106,18 @@ export interface ProbedLevel {
 const base = new URL('..', document.baseURI);
 export const address = (path: string): string => new URL(path.replace(/^\//, ''), base).href;
 
+// Of a map: all around the earth, but for what sides lose when they are rounded.
+const mostWideDeg = 359.99;
+
 // A server that computes as much as it may says so, and is asked again.
 const busy = 503;
 const mostTries = 10;
 
-async function ask(path: string, signal?: AbortSignal): Promise<Response> {
-    let answer = await fetch(address(path), signal ? { signal } : {});
+async function ask(path: string, options: RequestInit = {}): Promise<Response> {
+    let answer = await fetch(address(path), options);
     for (let tries = 0; answer.status === busy && tries < mostTries; ++tries) {
         await new Promise(done => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
-        answer = await fetch(address(path), signal ? { signal } : {});
+        answer = await fetch(address(path), options);
     }
     if (answer.ok) return answer;
     let message = answer.statusText;
@@ -171,7 +174,9 @@ export const gridPath = (domain: string, moment: string, time: string): string =
 export const rawPath = (station: string, name: string): string => address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
 // `query`: the parameters of docs/web/packed-grid.md.
 export async function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
-    return (await ask(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, signal)).arrayBuffer();
+    // A grid without its id may have been made again, and the bricks of two grids do not fit together.
+    const options: RequestInit = { ...(query.id === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
+    return (await ask(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options)).arrayBuffer();
 }
 // A grid that is made on request, whole: for an instant between volumes, or of a region.
 export async function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
@@ -185,10 +190,11 @@ export interface Tables {
 export async function tables(): Promise<Tables> {
     return (await ask('api/v1/tables')).json() as Promise<Tables>;
 }
-export async function map(west: number, south: number, east: number, north: number, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
+// East may be beyond 180, and the answer's longitudes go on there, too.
+export async function map({ west, south, east, north }: { west: number; south: number; east: number; north: number }, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
     const kinds = withCounties ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
-    return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(east)}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
+    return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
 }
 
 // -- raw volumes

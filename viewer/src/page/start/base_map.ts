@@ -1,6 +1,6 @@
 // The lines below the start map: coarse ones of all that it shows, finer ones of where it is looked at.
 
-import { MapBox, MapView, boxBetween } from '../../map/mercator';
+import { MapBox, MapView, boxBetween, grownBox, holdsBox } from '../../map/mercator';
 import { City, map } from '../../wire/api';
 import { MapPaths, mapPaths } from './painter';
 
@@ -12,14 +12,6 @@ interface Area {
     box: MapBox;
     detail: number;
     paths: MapPaths;
-}
-
-const holds = (outer: MapBox, inner: MapBox): boolean =>
-    outer.west <= inner.west && outer.east >= inner.east && outer.south <= inner.south && outer.north >= inner.north;
-
-function grown({ west, south, east, north }: MapBox, share: number): MapBox {
-    const [dx, dy] = [share * (east - west), share * (north - south)];
-    return { west: Math.max(-180, west - dx), south: Math.max(-85, south - dy), east: Math.min(180, east + dx), north: Math.min(85, north + dy) };
 }
 
 export class BaseMap {
@@ -35,8 +27,8 @@ export class BaseMap {
     }
 
     async begin(box: MapBox): Promise<void> {
-        if (this.coarse && holds(this.coarse.box, box)) return;
-        this.coarse = await this.load(grown(box, 0.5), 1);
+        if (this.coarse && holdsBox(this.coarse.box, box)) return;
+        this.coarse = await this.load(grownBox(box, 0.5), 1);
         this.loaded();
     }
 
@@ -45,10 +37,10 @@ export class BaseMap {
         const box = boxBetween(view, [0, 0], [view.width, view.height]);
         const detail = view.scale >= fineFromScale ? 0 : 1;
         window.clearTimeout(this.timer);
-        if (detail === 0 && !(this.fine && holds(this.fine.box, box))) {
-            this.timer = window.setTimeout(() => void this.refine(grown(box, 0.3), view.scale >= finestFromScale), settledAfterMs);
+        if (detail === 0 && !(this.fine && holdsBox(this.fine.box, box))) {
+            this.timer = window.setTimeout(() => void this.refine(grownBox(box, 0.3), view.scale >= finestFromScale), settledAfterMs);
         }
-        return (detail === 0 && this.fine && holds(this.fine.box, box) ? this.fine : this.coarse)?.paths ?? null;
+        return (detail === 0 && this.fine && holdsBox(this.fine.box, box) ? this.fine : this.coarse)?.paths ?? null;
     }
 
     private async refine(box: MapBox, withCounties: boolean): Promise<void> {
@@ -59,6 +51,6 @@ export class BaseMap {
     }
 
     private async load(box: MapBox, detail: number, withCounties = false): Promise<Area> {
-        return { box, detail, paths: mapPaths(await map(box.west, box.south, box.east, box.north, detail, withCounties)) };
+        return { box, detail, paths: mapPaths(await map(box, detail, withCounties)) };
     }
 }

@@ -26,8 +26,11 @@ export interface MapPaths {
 function pathOf(lines: [number, number][][]): Path2D {
     const path = new Path2D();
     for (const line of lines) {
+        // The page draws each earth from 180 degrees west to 180 east.
+        const turn = line.some(([longitudeDeg]) => longitudeDeg > 180) ? 1 : 0;
         line.forEach(([longitudeDeg, latitudeDeg], i) => {
-            const [x, y] = mapPoint({ latitudeDeg, longitudeDeg });
+            const point = mapPoint({ latitudeDeg, longitudeDeg });
+            const [x, y] = [point[0] - turn, point[1]];
             if (i === 0) path.moveTo(x, y);
             else path.lineTo(x, y);
         });
