@@ -169,6 +169,25 @@ TEST_F(WebServer, AnswersWithWhatEveryAnswerHas) {
     EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
 }
 
+// 2026-11-28: a tile of 600 bytes carried 593 bytes of headers, most of them for pages.
+TEST_F(WebServer, DataHasNoHeadersOfPages) {
+    add("/tile", [](const Request&) { return text_answer(200, "image/png", "a tile"); });
+    add("/page", [](const Request&) { return text_answer(200, "text/html", "a page"); });
+    add("/drawing", [](const Request&) { return text_answer(200, "image/svg+xml", "may run"); });
+    start();
+    const std::string tile = get("/tile");
+    EXPECT_LT(tile.size(), 250u) << tile;
+    for (const char* header :
+         {"X-Content-Type-Options: nosniff", "Cross-Origin-Resource-Policy: same-origin"})
+        EXPECT_NE(tile.find(header), std::string::npos) << header;
+    for (const char* path : {"/page", "/drawing"}) {
+        for (const char* header :
+             {"Content-Security-Policy", "Cross-Origin-Opener-Policy: same-origin",
+              "Cross-Origin-Embedder-Policy: require-corp", "Referrer-Policy: no-referrer"})
+            EXPECT_NE(get(path).find(header), std::string::npos) << path << header;
+    }
+}
+
 TEST_F(WebServer, LetsOtherPagesReadIfThatWasChosen) {
     options_.any_origin = true;
     start();

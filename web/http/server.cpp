@@ -47,10 +47,21 @@ EndPoint end_point_of(const sockaddr* raw) {
     return {text.data(), ntohs(v4->sin_port)};
 }
 
-// What no page and no answer of ours needs, a browser must not do with it.
-const Fields& security_headers() {
+// Whether a browser shows it as data: no page and no script. Anything unknown is none.
+bool is_data(const Answer& answer) {
+    const auto type = std::ranges::find(answer.headers, "Content-Type", &Fields::value_type::first);
+    if (type == answer.headers.end()) return false;
+    constexpr std::array<std::string_view, 7> types{
+        "image/png",           "image/jpeg",       "image/webp",
+        "image/tiff",          "application/json", "application/octet-stream",
+        "application/x-netcdf"};
+    return std::ranges::any_of(types,
+                               [&](std::string_view one) { return type->second.starts_with(one); });
+}
+
+// What no page of ours needs, a browser must not do with it.
+const Fields& headers_of_pages() {
     static const Fields headers = {
-        {"X-Content-Type-Options", "nosniff"},
         {"Content-Security-Policy",
          "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src "
          "'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "
@@ -298,8 +309,11 @@ bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
 
 // What every answer has.
 void Server::Impl::finish(Answer& answer, const Request& request) const {
-    for (const auto& [name, value] : security_headers())
-        answer.with(name, value);
+    answer.with("X-Content-Type-Options", "nosniff");
+    if (!is_data(answer)) {
+        for (const auto& [name, value] : headers_of_pages())
+            answer.with(name, value);
+    }
     answer.with("Cross-Origin-Resource-Policy",
                 options.any_origin ? "cross-origin" : "same-origin");
     if (options.any_origin) {
