@@ -60,6 +60,7 @@ export class App {
     private stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
     private heard = new Map<Happening, (() => void)[]>();
+    private coming = 0; // times that are not shown yet
     private addressTimer = 0;
     private addressAt = 0; // when it was written
     private turn = 0; // of what is to be shown
@@ -320,17 +321,20 @@ export class App {
         if (time === undefined) return this.say(texts.notFound);
         const { domain, moment } = this.state;
         const turn = ++this.turn;
+        const isLate = () => turn !== this.turn || this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain;
+        ++this.coming;
         try {
             const loaded = await this.load(time);
             // Another version of the same grid may be on its way.
-            if (turn !== this.turn || this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain) return;
+            if (isLate()) return;
             const next = this.shownOf(time, loaded);
             await this.alongside(next, false);
-            if (turn !== this.turn || this.player.times[this.player.at] !== time) return;
-            this.take(next);
+            if (!isLate()) this.take(next);
         } catch (error) {
             if (!this.leaveOut(time, error)) return this.fail(error);
             if (this.player.times[this.player.at] !== undefined) await this.showTime();
+        } finally {
+            --this.coming;
         }
     }
     private shownOf(time: string, loaded: LoadedGrid): Shown {
@@ -377,12 +381,20 @@ export class App {
     // The neighbors in time, so that a step shows at once; of a loop more.
     private loadAhead(): void {
         const { times: all, at: now, isPlaying } = this.player;
+        const { domain, moment } = this.state;
         const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(this.player, i + 1)) : [now + 1, now - 1];
+        // The server computes what is halved: of grids in parts one is asked for after the other.
+        const isInParts = this.shown?.loaded.stream != null;
+        let before = Promise.resolve();
         for (const [i, index] of next.entries()) {
             const time = all[index ?? -1];
             // What is made on request is not made in vain.
             if (time === undefined || (this.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
-            this.loadWhole(time, true).catch(error => this.leaveOut(time, error));
+            const load = async () => {
+                if (this.state.domain !== domain || this.state.moment !== moment) return;
+                await this.loadWhole(time, true).catch(error => this.leaveOut(time, error));
+            };
+            before = isInParts ? before.then(load) : load();
         }
     }
 
@@ -413,7 +425,8 @@ export class App {
 
     private tick(): void {
         if (!this.player.isPlaying) return;
-        const { player, waitsFor } = this.isShownWhole() ? advanced(this.player, time => this.isWhole(time)) : { player: this.player, waitsFor: null };
+        const { player, waitsFor } = this.coming === 0 && this.isShownWhole() ? advanced(this.player, time => this.isWhole(time)) : { player: this.player, waitsFor: null };
+        if (this.coming > 0) this.say(texts.waiting(this.player.times[this.player.at] ?? ''), false);
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
             this.loadWhole(waitsFor, false).catch(error => this.leaveOut(waitsFor, error) || this.fail(error));

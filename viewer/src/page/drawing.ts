@@ -3,7 +3,7 @@
 import { ViewGeometry } from '../camera/geometry';
 import { Governor } from '../renderer/governor';
 import { Rung, rungs, usualRungs } from '../renderer/ladder';
-import { Frame, Renderer } from '../renderer/renderer';
+import { Frame, LoadedGrid, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
 import { App } from './app';
@@ -67,7 +67,7 @@ export class Drawing {
         this.windows = new Windows(loader.decoder, loader.budget.bytes, () => app.cellsCame(), error => app.fail(error));
         loader.besides = () => this.windows!.bytes;
         this.layers = new LayerMaker(app, this.windows, () => this.draw());
-        app.alongside = (next, isAhead) => this.layers!.alongside(next, isAhead);
+        app.alongside = (next, isAhead) => this.layers!.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
         app.isShownWhole = () => !this.layers!.isWaiting;
         app.on('cells', () => this.draw());
         app.on('shown', () => {
@@ -97,12 +97,14 @@ export class Drawing {
     // `grain`: how many pixels of the page a pixel of the picture is wide.
     geometry(grain = 1): ViewGeometry | null {
         const shown = this.app?.shown;
-        if (!shown) return null;
+        return shown ? this.geometryOf(shown.loaded, grain) : null;
+    }
+    private geometryOf({ grid }: LoadedGrid, grain: number): ViewGeometry {
         const ratio = window.devicePixelRatio || 1;
         const width = Math.max(16, Math.round((this.picture.clientWidth * ratio) / grain));
         const height = Math.max(16, Math.round((this.picture.clientHeight * ratio) / grain));
         const { camera, exaggeration } = this.app!.state;
-        return new ViewGeometry(boxOf(shown.loaded.grid), camera, exaggeration, width, height);
+        return new ViewGeometry(boxOf(grid), camera, exaggeration, width, height);
     }
 
     // Something is being dragged: pictures are drawn fast, and a fine one after it rests.

@@ -28,6 +28,7 @@ import { Windows } from './windows';
 
 const sectionColumns = 480;
 const sectionRows = 192;
+const oldestVolumeMs = 30 * 60 * 1000; // no radar takes so long for one volume
 const sweepsOfBudget = 0.2; // of the bytes that the page may hold
 
 // A sweep as it is drawn, and the sweeps of its volume.
@@ -127,7 +128,8 @@ export class LayerMaker {
     }
 
     // What else must come before this is shown: a sweep, or the grid of another moment; null if all is there.
-    alongside(next: Shown, isAhead: boolean): Promise<void> | null {
+    // `geometry` is that of the next picture.
+    alongside(next: Shown, isAhead: boolean, geometry: ViewGeometry): Promise<void> | null {
         const { surface, sweepDeg } = this.app.state.layers;
         const waits: Promise<unknown>[] = [];
         if (sweepDeg !== null && this.sweeps.isNeeded(this.sweepKey(next))) waits.push(this.takeSweep(next, isAhead));
@@ -135,7 +137,20 @@ export class LayerMaker {
         const key = Loader.key(next.domain, other, next.time);
         if (other !== next.moment && next.loaded.stream === null && !this.app.loader.has(key) && !this.missingOthers.has(key))
             waits.push(this.app.loader.load(next.domain, other, next.time, this.app.isBetween(next.time)).catch(() => this.missingOthers.add(key)));
+        // There is room for the windows of one grid ahead.
+        const windows = isAhead ? null : this.windows.next(next.loaded, () => this.cellsOf(next.loaded, geometry, false));
+        if (windows) waits.push(windows);
         return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
+    }
+    // The cells of which layers are made; what no layer needs is given back.
+    private cellsOf(loaded: LoadedGrid, geometry: ViewGeometry, isMoving: boolean): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
+        const { layers } = this.app.state;
+        const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || layers.hasFolded;
+        return {
+            seen: this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving)),
+            lit: this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving)),
+            crossed: this.needed('section', layers.section !== null, () => this.windows.along(loaded, layers.section!)),
+        };
     }
 
     // Null if nothing is to be drawn but the volume as it always was. While the view moves, no other part of a
@@ -147,10 +162,7 @@ export class LayerMaker {
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
         if (!shown || !table || isUsual) return this.nothing();
         const { loaded } = shown;
-        const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || layers.hasFolded;
-        const seen = this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving));
-        const lit = this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving));
-        const crossed = this.needed('section', layers.section !== null, () => this.windows.along(loaded, layers.section!));
+        const { seen, lit, crossed } = this.cellsOf(loaded, geometry, isMoving);
         return {
             plane: seen && this.planeOf(seen, shown.moment, layers.planeM),
             section: crossed && this.sectionOf(crossed, shown.moment, layers.section!),
@@ -263,7 +275,8 @@ export class LayerMaker {
         if (!asked) {
             asked = (async () => {
                 const volume = await volumeBefore(station, time);
-                if (volume === null) throw new Error(texts.layers.noVolume(station));
+                // The sweep of an older one is not what was there at this time.
+                if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs) throw new Error(texts.layers.noVolume(station));
                 return { time: volume, rows: await sweeps(station, volume) };
             })();
             known.set(station, asked);

@@ -27,10 +27,13 @@ interface Held {
     has: BrickWindow | null; // the last one that came
     cells: Cells | null; // of it
     abort: AbortController | null; // of the request on its way
+    done: Promise<void>; // it came, or failed
 }
 
 export class Windows {
     private held = new Map<Purpose, Held>();
+    private ahead = new Map<Purpose, Held>(); // of the grid that is shown next
+    private taken = this.held; // where what is asked for goes
     private wholes = new WeakMap<PackedGrid, Cells>();
 
     constructor(
@@ -45,7 +48,7 @@ export class Windows {
         return [...this.held].some(([purpose, { abort }]) => purpose !== 'ray' && abort !== null);
     }
     get bytes(): number {
-        return [...this.held.values()].reduce((sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0), 0);
+        return [...this.held.values(), ...this.ahead.values()].reduce((sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0), 0);
     }
     // How often the coarsest of what layers are made of was halved.
     get coarsest(): number {
@@ -74,6 +77,16 @@ export class Windows {
         return this.about(loaded, stream, 'section', points.filter((point): point is Plane => point !== null), finest);
     }
 
+    // What `ask` asks for of the grid that is shown next, before it is. Null if all of it is there.
+    next(loaded: LoadedGrid, ask: () => void): Promise<void> | null {
+        if (!loaded.stream) return null;
+        this.taken = this.ahead;
+        ask();
+        this.taken = this.held;
+        const waits = [...this.ahead.values()].filter(one => one.of === loaded && one.abort !== null);
+        return waits.length > 0 ? Promise.all(waits.map(one => one.done)).then(() => undefined) : null;
+    }
+
     // What lies between points, exactly if there is room.
     ray(loaded: LoadedGrid, points: readonly Plane[]): Cells | null {
         const { grid, stream } = loaded;
@@ -86,9 +99,9 @@ export class Windows {
         if (!bounds) return null;
         const level = Math.min(finest, stream.pyramid.levels.length - 1);
         const window = windowAbout(bounds, level, 1, stream.pyramid, grid, this.limitsFor(purpose, grid));
-        this.take(loaded, stream, purpose, window);
-        const held = this.held.get(purpose)!;
-        return held.has && holds(held.has, window) ? held.cells : null;
+        const cells = this.take(loaded, stream, purpose, window);
+        const has = this.taken.get(purpose)?.has;
+        return has && holds(has, window) ? cells : null;
     }
 
     private whole(grid: PackedGrid): Cells {
@@ -110,12 +123,16 @@ export class Windows {
 
     // The window, or until it comes the one before it.
     private take(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, window: BrickWindow): Cells | null {
-        let held = this.held.get(purpose);
+        let held = this.taken.get(purpose);
         if (held?.of !== loaded) {
             held?.abort?.abort();
-            this.held.set(purpose, (held = { of: loaded, asked: null, has: null, cells: null, abort: null }));
+            const other = this.taken === this.held ? this.ahead : this.held;
+            const known = other.get(purpose);
+            if (known?.of === loaded && other === this.ahead) other.delete(purpose);
+            held = known?.of === loaded ? known : { of: loaded, asked: null, has: null, cells: null, abort: null, done: Promise.resolve() };
+            this.taken.set(purpose, held);
         }
-        if (!held.asked || !holds(held.asked, window)) void this.fetch(held, loaded, stream, window);
+        if (!held.asked || !holds(held.asked, window)) held.done = this.fetch(held, loaded, stream, window);
         return held.cells;
     }
 
