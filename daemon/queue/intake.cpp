@@ -257,19 +257,32 @@ void Intake::give_next_turn(const Finished& finished) {
     offer(std::move(job), finished.taken->stamp);
 }
 
+// Two jobs may be collected in the other order than they looked at their volume. A chunk whose job
+// comes later than that of the chunk that relieved it must not be waited for.
+void Intake::note_represented(const std::filesystem::path& former,
+                              const std::filesystem::path& by) {
+    if (former.empty() || former == by) return;
+    growing_.forget(former);
+    if (schedule_.is_running(former)) relieved_.insert_or_assign(former, by);
+}
+
 void Intake::job_ended(const Finished& finished) {
     const std::filesystem::path& path = finished.job.path;
     schedule_.worked(path, finished.ended - finished.started, finished.ended, is_good(finished));
+    const auto relieved = relieved_.extract(path);
     if (!finished.taken) return job_failed(finished);
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     SteadyTime again{};
     followed_.erase(path);
     note_going_on(path, outcome.goes_on);
+    const bool is_relieved = relieved && relieved.mapped() != outcome.former_representative;
     if (const auto* rest = std::get_if<ended::Incomplete>(&outcome.ending)) {
         if (rest->has_next_turn) return give_next_turn(finished);
         if (!rest->is_followed) again = finished.ended + reread_;
-        if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended, rest->is_followed,
-                                     station_of(path))) {
+        if (is_relieved) {
+            // Another chunk stands for its volume.
+        } else if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
+                                            rest->is_followed, station_of(path))) {
             leave_to_scan(path);
         } else if (rest->is_followed) {
             followed_.insert(path);
@@ -277,8 +290,7 @@ void Intake::job_ended(const Finished& finished) {
     } else if (std::holds_alternative<ended::Vanished>(outcome.ending)) {
         seen_.forget(path);
     }
-    const std::filesystem::path& representative = outcome.former_representative;
-    if (!representative.empty() && representative != path) growing_.forget(representative);
+    note_represented(outcome.former_representative, path);
     schedule_.finished(path, again);
     note_displaced();
 }

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -111,6 +112,7 @@ class Intake final : public WatchListener {
     void give_next_turn(const Finished& finished);
     // A scan finds again the files that had to give up their places.
     void note_displaced();
+    void note_represented(const std::filesystem::path& former, const std::filesystem::path& by);
     void note_going_on(const std::filesystem::path& path, bool goes_on);
     void leave_to_scan(const std::filesystem::path& path);
 
@@ -127,6 +129,9 @@ class Intake final : public WatchListener {
     SeenFiles seen_;
     // Growing files of which only new data are read, without a wait.
     std::set<std::filesystem::path> followed_;
+    // Chunks whose jobs are still to be collected, and that another chunk has relieved meanwhile:
+    // by which one.
+    std::map<std::filesystem::path, std::filesystem::path> relieved_;
     // Volumes of which sweeps have closed: files, and keys of volumes in chunks
     // (pipeline/drop/chunk_path.h).
     std::unordered_set<std::string> going_on_;

@@ -79,6 +79,12 @@ class Schedule {
     // Puts a running job back, not to run before now + retry_delay(its failures). Returns false if
     // too many wait already; the job is then forgotten.
     [[nodiscard]] bool retry(Job job, SteadyTime now);
+    // Returns true while a job of the file is with a worker, or has ended there and was not passed
+    // to finished() or retry() yet.
+    [[nodiscard]] bool is_running(const std::filesystem::path& path) const {
+        const auto entry = entries_.find(path.native());
+        return entry != entries_.end() && entry->second.has_worker;
+    }
     // The worker of a job that next() returned is free again. Call it before finished() or retry().
     // `is_good`: something of its station was gridded or shown.
     void worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now,
