@@ -102,7 +102,7 @@ int run(int argc, char** argv) {
     cache::install_map_guard();
     CLI::App app{"Catalogs, grids and draws NEXRAD Level II weather radar volumes."};
     app.name("stormcellar");
-    app.set_version_flag("--version", std::string{software_version});
+    app.set_version_flag("--version", fmt::format("stormcellar {}", software_version));
     app.set_help_all_flag("--help-all", "Print help with all options");
     app.require_subcommand(1);
 
