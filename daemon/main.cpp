@@ -8,7 +8,9 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <pwd.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "base/beneath.h"
 #include "base/memory.h"
@@ -25,6 +27,7 @@
 #include "daemon/service/ingest_sink.h"
 #include "daemon/service/service.h"
 #include "daemon/status/status_server.h"
+#include "daemon/watch/unreadable.h"
 #include "pipeline/keep/instance_lock.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
@@ -37,11 +40,11 @@ constexpr int exit_bad_usage = 2;
 constexpr std::string_view no_loops = "--no-loops", loops_only = "--loops-only";
 
 constexpr std::string_view usage =
-    "usage: stormcellard --config FILE [--no-loops | --loops-only | --check-config]\n"
+    "usage: stormcellard --config FILE [--no-loops | --loops-only] [--check-config]\n"
     "  --config FILE    read the configuration from FILE (TOML)\n"
     "  --no-loops       leave the [[loop]] tables to another stormcellard\n"
     "  --loops-only     run the [[loop]] tables and do nothing else\n"
-    "  --check-config   check FILE and its loops' scenes, and exit\n"
+    "  --check-config   check FILE and, without --no-loops, its loops' scenes, and exit\n"
     "  --version, --help\n";
 
 // Errors: bad_argument for invalid arguments.
@@ -84,6 +87,16 @@ std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     return std::filesystem::is_directory(directory, error) ? "" : directory;
 }
 
+// Returns the name of the user whose rights this process has. Root learns nothing of what the
+// service may read.
+std::string own_user() {
+    if (::geteuid() == 0)
+        return "root, who may read everything; as the service: sudo -u stormcellar stormcellard "
+               "...";
+    const passwd* user = ::getpwuid(::geteuid());
+    return user == nullptr ? fmt::format("{}", ::geteuid()) : printable(user->pw_name);
+}
+
 // Reports what is valid but may not be intended.
 void print_notes(const Config& config) {
     const PathsConfig& paths = config.fixed.paths;
@@ -91,8 +104,14 @@ void print_notes(const Config& config) {
         fmt::print(stderr, "stormcellard: note: {}\n", what);
     };
     if (const auto names = names_beneath(paths.drop, paths.drop); !names) {
-        note(fmt::format("cannot read the drop directory {}; the service will wait for it",
-                         printable(names.error().message)));
+        note(fmt::format("cannot read the drop directory {}; the service will wait for it{}",
+                         printable(names.error().message),
+                         remedy_for(paths.drop, names.error().code)));
+    } else if (is_below_home(paths.drop) && std::getenv("INVOCATION_ID") == nullptr) {
+        note(
+            "the drop directory is below /home, which the units hide from the services "
+            "(ProtectHome=); install ldm-in-home.conf for stormcellard and web-ldm-in-home.conf "
+            "for stormcellar-web");
     }
     for (const auto& [key, path] : {std::pair{"state", paths.state}, {"cache", paths.cache}}) {
         const std::filesystem::path stands = in_the_way_of(path);
@@ -213,17 +232,23 @@ int run(int argc, char** argv) {
                                          : fmt::format("stormcellard {}\n", software_version));
         return EXIT_SUCCESS;
     }
-    const Result<Config> config = load_config(
-        *arguments->config, arguments->check ? SceneFiles::must_exist : SceneFiles::as_named);
+    const Result<Config> config =
+        load_config(*arguments->config, arguments->check && !arguments->flags.contains(no_loops)
+                                            ? SceneFiles::must_exist
+                                            : SceneFiles::as_named);
     if (!config) return complain(config.error());
     if (arguments->check) {
-        if (const Status fine = check_loops(config->reloadable.loops, config->fixed.paths.cache);
-            !fine) {
+        if (arguments->flags.contains(no_loops)) {
+            // The loops are another service's.
+        } else if (const Status fine =
+                       check_loops(config->reloadable.loops, config->fixed.paths.cache);
+                   !fine) {
             return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
                                                             fine.error().message)});
         }
         print_notes(*config);
-        fmt::print("{}: ok\n", printable(arguments->config->native()));
+        fmt::print("checked as the user {}\n{}: ok\n", own_user(),
+                   printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
     set_added_stations(config->fixed.ingest.added_stations);

@@ -84,6 +84,21 @@ std::string drop_line(const json& status, Paint paint) {
                        is_lost ? "; " + in_red("LOST: " + text(status, "drop_lost"), paint) : "");
 }
 
+std::string unreadable_lines(const json& status, Paint paint) {
+    const json& unreadable = at(status, "unreadable");
+    const json& directories = at(unreadable, "directories");
+    if (!directories.is_array()) return {};
+    std::string lines;
+    for (const json& one : directories) {
+        lines += "unread   " +
+                 in_red(fmt::format("{}: {}", text(one, "directory"), text(one, "reason")), paint) +
+                 "\n";
+    }
+    if (const auto all = count(unreadable, "count"); all > directories.size())
+        lines += fmt::format("unread   and {} more\n", all - directories.size());
+    return lines;
+}
+
 std::string cache_line(const json& status) {
     const json& rolling = at(status, "rolling");
     std::string line = "cache    " + text(status, "cache");
@@ -348,6 +363,7 @@ std::string status_table(const json& status, UtcTime now, Paint paint) {
     const std::vector<const json*> stations = sorted_stations(status);
     std::string page = heading(status, now, paint);
     page += drop_line(status, paint);
+    page += unreadable_lines(status, paint);
     page += cache_line(status) + counts_lines(status, paint) + loops_line(status, paint) + "\n";
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)

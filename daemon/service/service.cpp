@@ -19,9 +19,8 @@ constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 constexpr std::chrono::seconds between_held_back{1};
 constexpr std::chrono::milliseconds between_memory_looks{250};
-constexpr std::chrono::seconds longest_start{60};  // the longest time between two looks
-// At the start, a missing drop directory is looked for this often instead of once a minute.
-constexpr std::chrono::seconds between_first_scans{1};
+// A missing drop directory is looked for this often.
+constexpr std::chrono::seconds between_drop_looks{1};
 
 // Free memory beyond this is returned to the system. Volumes that are decoded one after the other
 // leave less, which is used again at once.
@@ -66,7 +65,6 @@ Service::Service(const Config& config, std::filesystem::path config_file, Servic
       row_keeper_(parts_.sink),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(fixed_.paths.cache, [this] { wake_up_.set(); }) {
-    need([this] { return drop_trouble_.is_over(); });
     need([this] { return can_write_in(parts_.file_system, fixed_.paths.state); });
     need([this] { return parts_.sink.can_store(); });
     watcher_.on_step([this] { keep_workers_busy(); });
@@ -101,13 +99,12 @@ void Service::start() {
     if (parts_.runs_loops) loop_keeper_.set(config_.loops);
 }
 
-// Without READY, systemd would give up after TimeoutStartSec, so it is told that we still wait.
+// Systemd ends the wait after TimeoutStartSec and starts the service again, so the machine's boot
+// does not wait for ever for a disk that does not come.
 void Service::get_ready() {
     if (!readiness_.look(parts_.clock.steady())) return;
     if (!readiness_.is_ready()) {
-        parts_.notifier.send(fmt::format("STATUS=waiting: {}\nEXTEND_TIMEOUT_USEC={}",
-                                         printable(readiness_.missing()),
-                                         std::chrono::microseconds{longest_start}.count()));
+        parts_.notifier.send("STATUS=waiting: " + printable(readiness_.missing()));
         if (readiness_.is_news()) {
             log_warning({Event::not_ready}, "not ready: {}; looking again every second",
                         printable(readiness_.missing()));
@@ -119,8 +116,9 @@ void Service::get_ready() {
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: watching {} ({}) with {}; {} to look at",
-             printable(fixed_.paths.drop.native()),
+    const bool is_lost = !status_.facts().drop_lost.empty();
+    log_info({Event::ready}, "ready: {} {} ({}) with {}; {} to look at",
+             is_lost ? "waiting for" : "watching", printable(fixed_.paths.drop.native()),
              counted(watcher_.directory_count(), "directory", "directories"),
              counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"),
              counted(pending.waiting + pending.growing, "file"));
@@ -235,16 +233,20 @@ void Service::scan() {
     intake_.begin_scan();
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
-    drop_trouble_.scanned(scanned, fixed_.paths.drop, config_.rescan, status_);
+    drop_trouble_.scanned(scanned, fixed_.paths.drop, status_);
+    note_unreadable();
     if (scanned && !is_poll) row_keeper_.look(began, config_.gone_rows_kept_for);
     status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
     if (!is_poll) scan_times_.set_next_regular(ended + config_.rescan);
     auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
-    if (!scanned && !readiness_.is_ready())
-        gap = std::min<std::chrono::milliseconds>(gap, between_first_scans);
+    if (!scanned) gap = std::min<std::chrono::milliseconds>(gap, between_drop_looks);
     scan_times_.scanned(began, ended, gap);
+}
+
+void Service::note_unreadable() {
+    if (status_.set_unreadable(watcher_.unreadable())) status_file_.changed();
 }
 
 void Service::start_jobs() {
@@ -328,6 +330,7 @@ void Service::keep_house() {
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         Reporter::report_directory(problem);
+    note_unreadable();
     if (now >= next_memory_look_) {
         next_memory_look_ = now + between_memory_looks;
         (void)give_back_freed_memory(most_kept_bytes(config_.worker_count()));

@@ -2,9 +2,10 @@
 //
 // One thread does all the bookkeeping (events, schedule, logs, status); the workers only ingest
 // files. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start            scans the drop directory and queues the files there; reports READY once drop
-//                    directory, state, cache and sockets answer (readiness.h). Until then it
-//                    ingests what it can
+//   start            scans the drop directory and queues the files there; reports READY once
+//                    state, cache and sockets answer (readiness.h). Until then it ingests what it
+//                    can. It does not wait for the drop directory: the status names that it is
+//                    missing, and it is looked for every second
 //   SIGTERM, SIGINT  running jobs end, and the queue is dropped (the next start finds the files
 //                    again)
 //   SIGHUP           the configuration is read again; paths, grid and queue limit stay until a
@@ -99,6 +100,7 @@ class Service {
     void collect();
     void scan_if_due();
     void scan();
+    void note_unreadable();
     void keep_workers_busy();
     void get_ready();
     void start_jobs();

@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "daemon/log/log.h"
 #include "daemon/loops/others_loops.h"
+#include "daemon/watch/unreadable.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -56,22 +57,18 @@ void log_left_alone(const CatalogState& state) {
 }  // namespace
 
 void DropTrouble::scanned(const Status& scanned, const std::filesystem::path& drop,
-                          std::chrono::milliseconds rescan, StatusBook& status) {
-    why_ = scanned ? std::string{} : scanned.error().message;
+                          StatusBook& status) {
+    std::string why;
+    if (!scanned) why = scanned.error().message + remedy_for(drop, scanned.error().code);
     if (!scanned && !is_lost_) {
-        log_error({Event::drop_lost}, "cannot read the drop directory {}; looking again every {} s",
-                  printable(why_), std::chrono::duration<double>(rescan).count());
+        log_error({Event::drop_lost},
+                  "cannot read the drop directory {}; looking again every second", printable(why));
     } else if (scanned && is_lost_) {
         log_info({Event::drop_back}, "the drop directory {} can be read again",
                  printable(drop.native()));
     }
     is_lost_ = !scanned;
-    status.set_drop_lost(printable(why_));
-}
-
-Status DropTrouble::is_over() const {
-    if (!is_lost_) return {};
-    return fail(ErrorCode::not_found, "drop directory {}", why_);
+    status.set_drop_lost(printable(why));
 }
 
 bool StateTrouble::look(SteadyTime now, StateKeeper& keeper, const std::filesystem::path& state) {

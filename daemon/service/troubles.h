@@ -23,15 +23,11 @@ namespace stormcellar::daemon {
 // The drop directory cannot be read.
 class DropTrouble {
   public:
-    // Takes the result of a scan; the directory is scanned again after `rescan`.
-    void scanned(const Status& scanned, const std::filesystem::path& drop,
-                 std::chrono::milliseconds rescan, StatusBook& status);
-    // The trouble as an error. It is no trouble if the directory was not scanned yet.
-    [[nodiscard]] Status is_over() const;
+    // Takes the result of a scan.
+    void scanned(const Status& scanned, const std::filesystem::path& drop, StatusBook& status);
 
   private:
     bool is_lost_ = false;
-    std::string why_;
 };
 
 // The state directory was deleted and cannot be made again.

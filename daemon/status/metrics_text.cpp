@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/printable.h"
 #include "stormcellar/base/version.h"
 
 namespace stormcellar::daemon {
@@ -17,6 +18,20 @@ double seconds_between(UtcTime from, UtcTime to) {
 
 double seconds_since_epoch(UtcTime time) {
     return seconds_between(UtcTime{}, time);
+}
+
+void write_unreadable(MetricsWriter& out, const StatusFacts& facts) {
+    out.gauge("stormcellar_drop_directory_lost", "1 while the drop directory cannot be read.",
+              std::uint64_t{facts.drop_lost.empty() ? 0U : 1U});
+    out.gauge("stormcellar_unreadable_directories",
+              "Directories below the drop directory that cannot be read.",
+              facts.unreadable.count());
+    if (facts.unreadable.named.empty()) return;
+    out.family("stormcellar_unreadable_directory", Type::gauge,
+               "Always 1; a directory that cannot be read, of the first 16.");
+    for (const auto& [directory, reason] : facts.unreadable.named)
+        out.sample(std::uint64_t{1},
+                   {{"directory", printable(directory)}, {"reason", printable(reason)}});
 }
 
 void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& pending) {
@@ -53,6 +68,7 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.counter("stormcellar_scans_total", "Scans of the whole drop directory.", facts.scans);
     out.gauge("stormcellar_watched_directories",
               "Directories in the drop directory that are watched.", facts.directories);
+    write_unreadable(out, facts);
 }
 
 void write_files(MetricsWriter& out, const StatusFacts& facts) {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/status/status_json.h"
 
@@ -35,6 +36,12 @@ StatusBook::StatusBook(std::filesystem::path drop, std::filesystem::path cache) 
 void StatusBook::set_listening(std::filesystem::path socket, int http_port) {
     facts_.socket = std::move(socket);
     facts_.http_port = http_port;
+}
+
+bool StatusBook::set_unreadable(const Unreadable& directories) {
+    if (facts_.unreadable == directories) return false;
+    facts_.unreadable = directories;
+    return true;
 }
 
 bool StatusBook::add(const Finished& finished, UtcTime at) {
@@ -119,8 +126,12 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
 }
 
 std::string StatusBook::line(const Pending& pending) const {
-    const std::string lost =
-        facts_.drop_lost.empty() ? "" : fmt::format("drop directory {}; ", facts_.drop_lost);
+    std::string lost;
+    if (!facts_.drop_lost.empty()) {
+        lost = fmt::format("waiting for the drop directory {}; ", facts_.drop_lost);
+    } else if (const auto unreadable = facts_.unreadable.count(); unreadable > 0) {
+        lost = fmt::format("cannot read {}; ", counted(unreadable, "directory", "directories"));
+    }
     std::string latest;
     if (!facts_.volumes.empty()) {
         const RecentVolume& volume = facts_.volumes.back();

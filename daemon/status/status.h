@@ -26,6 +26,7 @@
 #include "daemon/status/station_book.h"
 #include "daemon/status/status_names.h"
 #include "daemon/status/timings.h"
+#include "daemon/watch/unreadable.h"
 #include "pipeline/mosaic/site_watch.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/cache/store.h"
@@ -55,6 +56,7 @@ struct RejectedFile {
 struct StatusFacts {
     std::filesystem::path drop, cache, socket;  // socket: empty if there is none
     std::string drop_lost;  // why the drop directory cannot be read; empty: it can
+    Unreadable unreadable;  // directories below it
     int http_port = 0;      // 0: none
     UtcTime started = now_utc();
     std::string state = "starting";
@@ -103,6 +105,8 @@ class StatusBook {
     void count_scan() { ++facts_.scans; }
     void set_directories(std::size_t watched) { facts_.directories = watched; }
     void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
+    // Returns true if they are others than before.
+    bool set_unreadable(const Unreadable& directories);
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);
     void add(pipeline::PairReport report);
@@ -117,7 +121,8 @@ class StatusBook {
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
     // Returns the text for STATUS=: "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1,
-    // waiting 3". It begins with "drop directory DIR: WHY; " while the directory cannot be read.
+    // waiting 3". It begins with "waiting for the drop directory DIR: WHY; " while the directory
+    // cannot be read, and with "cannot read N directories; " while some below it cannot.
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 

@@ -200,6 +200,13 @@ Json json_of(const std::string& name, const StationState& state, UtcTime now) {
             {"missing", missing}};
 }
 
+Json json_of(const Unreadable& unreadable) {
+    Json directories = Json::array();
+    for (const auto& [directory, reason] : unreadable.named)
+        directories.push_back({{"directory", printable(directory)}, {"reason", printable(reason)}});
+    return {{"count", unreadable.count()}, {"directories", directories}};
+}
+
 Json listening_of(const StatusFacts& facts) {
     Json socket = nullptr;
     if (!facts.socket.empty()) socket = printable(facts.socket.native());
@@ -224,6 +231,7 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"updated", format_utc(now)},
             {"drop", printable(facts.drop.native())},
             {"drop_lost", facts.drop_lost.empty() ? Json() : Json(facts.drop_lost)},
+            {"unreadable", json_of(facts.unreadable)},
             {"cache", printable(facts.cache.native())},
             {"listening", listening_of(facts)},
             {"ingested", facts.ingested},

@@ -7,6 +7,8 @@
 //   pid, version, started, updated
 //   drop, cache    the directories (bytes that are not UTF-8 are escaped)
 //   drop_lost      why the drop directory cannot be read (null: it can); it is tried again
+//   unreadable     directories below it that cannot be read: {"count", "directories":
+//                  [{"directory", "reason"}] of the first 16}; the reason ends with what may help
 //   listening      {"socket" (null: none), "http_port" (null: none)}: the configured addresses
 //   ingested       files whose volumes were gridded, counted each time
 //   grids          grids committed to the cache

@@ -33,28 +33,36 @@ std::string reason_of(int error_number) {
     return std::system_category().message(error_number);
 }
 
-std::string too_deep(const std::filesystem::path& path) {
-    return fmt::format("{}: is more than {} directories deep, so it is not read", path.native(),
-                       max_walk_depth);
+ErrorCode code_of(int error_number) {
+    if (error_number == EACCES || error_number == EPERM) return ErrorCode::permission;
+    return error_number == ENOENT || error_number == ENOTDIR ? ErrorCode::not_found : ErrorCode::io;
 }
 
-void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
+void report_too_deep(const std::filesystem::path& path, const WalkVisitor& visitor) {
+    visitor.problem(path, {ErrorCode::unsupported,
+                           fmt::format("{}: is more than {} directories deep, so it is not read",
+                                       path.native(), max_walk_depth)});
+}
+
+// Returns false if there was not even an entry for the directory itself.
+bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor);
 
 void walk_below(int parent, const char* name, const std::filesystem::path& path, int depth,
                 const WalkVisitor& visitor) {
     if (depth > max_walk_depth) {
-        visitor.problem(too_deep(path));
+        report_too_deep(path, visitor);
         return;
     }
     visitor.directory(path);
     const DirectoryHandle directory = open_directory(parent, name);
     if (directory) {
-        walk_entries(directory.get(), path, depth, visitor);
+        (void)walk_entries(directory.get(), path, depth, visitor);
     } else if (errno != ENOENT && errno != ENOTDIR &&
                errno != ELOOP) {  // it went meanwhile: no problem
         const int error_number = errno;
-        visitor.problem(fmt::format("{}: {}", path.native(), reason_of(error_number)));
+        visitor.problem(path, {code_of(error_number),
+                               fmt::format("{}: {}", path.native(), reason_of(error_number))});
         const bool is_for_now =
             error_number == EMFILE || error_number == ENFILE || error_number == ENOMEM;
         if (is_for_now && visitor.unseen) visitor.unseen();
@@ -66,9 +74,9 @@ class NameProblem {
   public:
     NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)
         : path_(path), visitor_(visitor) {}
-    void say(std::string_view what) {
+    void say(ErrorCode code, std::string_view what) {
         if (!std::exchange(said_, true))
-            visitor_.problem(fmt::format("{}: {}", path_.native(), what));
+            visitor_.problem(path_, {code, fmt::format("{}: {}", path_.native(), what)});
     }
 
   private:
@@ -81,12 +89,14 @@ void walk_entry(int descriptor, const char* name, const std::filesystem::path& d
                 const WalkVisitor& visitor, NameProblem& problem) {
     struct stat facts {};
     if (::fstatat(descriptor, name, &facts, AT_SYMLINK_NOFOLLOW) != 0) {
-        if (errno != ENOENT) problem.say(reason_of(errno));
+        const int error_number = errno;
+        if (error_number != ENOENT) problem.say(code_of(error_number), reason_of(error_number));
         return;
     }
     std::filesystem::path path = directory / name;
     if (path.native().size() >= most_path_bytes) {
-        problem.say(fmt::format("holds paths of more than {} bytes, which are not read",
+        problem.say(ErrorCode::unsupported,
+                    fmt::format("holds paths of more than {} bytes, which are not read",
                                 most_path_bytes - 1));
     } else if (S_ISREG(facts.st_mode)) {
         visitor.file(path, stamp_of(facts));
@@ -97,7 +107,7 @@ void walk_entry(int descriptor, const char* name, const std::filesystem::path& d
     }
 }
 
-void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
+bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor) {
     const int descriptor = ::dirfd(directory);
     NameProblem problem(path, visitor);
@@ -106,19 +116,26 @@ void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
         errno = 0;
         const struct dirent* entry = ::readdir(directory);
         if (entry == nullptr) {
-            if (errno != 0) problem.say(reason_of(errno));
-            return;
+            const int error_number = errno;
+            if (error_number != 0) problem.say(code_of(error_number), reason_of(error_number));
+            return entries > 1;
         }
         if (pipeline::is_temporary_name(entry->d_name)) continue;
         walk_entry(descriptor, entry->d_name, path, depth, visitor, problem);
     }
 }
 
+// A mount keeps a directory after it was deleted; then it has no link.
+bool is_deleted(DIR* directory) {
+    struct stat facts {};
+    return ::fstat(::dirfd(directory), &facts) == 0 && facts.st_nlink == 0;
+}
+
 }  // namespace
 
 Status walk(const std::filesystem::path& root, const WalkVisitor& visitor, int depth) {
     if (depth > max_walk_depth) {
-        visitor.problem(too_deep(root));
+        report_too_deep(root, visitor);
         return {};
     }
     visitor.directory(root);
@@ -126,14 +143,15 @@ Status walk(const std::filesystem::path& root, const WalkVisitor& visitor, int d
     const DirectoryHandle directory = open_directory(AT_FDCWD, opened.c_str());
     if (!directory) {
         const int error_number = errno;
-        const ErrorCode code = error_number == ENOENT || error_number == ENOTDIR
-                                   ? ErrorCode::not_found
-                               : error_number == EACCES ? ErrorCode::permission
-                                                        : ErrorCode::io;
-        return fail(code, "{}: {}", root.native(), reason_of(error_number));
+        return fail(code_of(error_number), "{}: {}", root.native(), reason_of(error_number));
     }
-    walk_entries(directory.get(), root, depth, visitor);
-    return {};
+    if (walk_entries(directory.get(), root, depth, visitor) || !is_deleted(directory.get()))
+        return {};
+    return fail(
+        ErrorCode::io,
+        "{}: was deleted, and only a mount of it is left, which a new directory of this name "
+        "does not replace; restart the service",
+        root.native());
 }
 
 }  // namespace stormcellar::daemon

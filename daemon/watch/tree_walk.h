@@ -27,9 +27,9 @@ struct WalkVisitor {
     // Called before the entries of the directory are read, so that a watch set here misses nothing.
     std::function<void(const std::filesystem::path&)> directory;
     std::function<void(const std::filesystem::path&, const FileStamp&)> file;
-    // Reports in one line a directory below the root that cannot be read or is too deep. The walk
-    // goes on.
-    std::function<void(const std::string&)> problem;
+    // Reports a directory that cannot be read (permission, io), or names in it that are not used
+    // (unsupported: too deep, too long). The message is one line that names it. The walk goes on.
+    std::function<void(const std::filesystem::path&, const Error&)> problem;
     // Reports an entry that is neither file nor directory: a link, a FIFO, a device. May be empty.
     std::function<void(const std::filesystem::path&, mode_t mode)> other = {};
     // Called in addition to `problem` if the system has no descriptors or memory left. May be
@@ -41,7 +41,8 @@ struct WalkVisitor {
 };
 
 // `depth` is the depth of the root below the directory from which depth is counted; a root of depth
-// 0 may itself be a link. Errors: not_found, permission or io if the root itself cannot be read.
+// 0 may itself be a link. Errors: not_found, permission or io if the root itself cannot be read;
+// io also if it was deleted and lives on in a mount alone, where nothing will ever come.
 [[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor,
                           int depth = 0);
 

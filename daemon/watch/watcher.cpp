@@ -35,6 +35,7 @@ Watcher::Watcher(std::filesystem::path drop, EventSource& events, WatchListener&
 
 Status Watcher::scan() {
     unwatched_ = silent_ = 0;
+    unreadable_ = {};
     saw_all_ = true;
     ++scan_;
     Status scanned = scan_below(drop_);
@@ -52,8 +53,8 @@ Status Watcher::scan_below(const std::filesystem::path& directory) {
                  [this](const std::filesystem::path& path, const FileStamp& stamp) {
                      listener_.file_found(path, stamp);
                  },
-                 [this](const std::string& problem) {
-                     listener_.directory_problem({ErrorCode::io, problem});
+                 [this](const std::filesystem::path& path, const Error& problem) {
+                     report_problem(path, problem);
                  },
                  [this](const std::filesystem::path& path, mode_t mode) {
                      listener_.entry_left_out(path, kind_of_file(mode));
@@ -64,6 +65,21 @@ Status Watcher::scan_below(const std::filesystem::path& directory) {
                  },
                  [this] { step(); }},
                 static_cast<int>(depth));
+}
+
+void Watcher::report_problem(const std::filesystem::path& directory, const Error& problem) {
+    const std::string remedy = remedy_below(problem.code);
+    const bool is_unreadable =
+        problem.code == ErrorCode::permission || problem.code == ErrorCode::io;
+    if (is_unreadable) {
+        const std::string reason = problem.message.substr(
+            std::min(problem.message.size(), directory.native().size() + std::size(": ") - 1));
+        unreadable_.add(directory, reason + remedy);
+    }
+    // The codes `unsupported` and `no_space` are for directories that are not watched.
+    const ErrorCode code =
+        problem.code == ErrorCode::permission ? ErrorCode::permission : ErrorCode::io;
+    listener_.directory_problem({code, problem.message + remedy});
 }
 
 void Watcher::look_for_silence(const std::filesystem::path& directory) {
@@ -191,7 +207,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
         if (!has_time) return listener_.directory_unread();
         const Status scanned = scan_below(path);
         if (!scanned && scanned.error().code != ErrorCode::not_found) {
-            listener_.directory_problem(scanned.error());
+            report_problem(path, scanned.error());
             if (scanned.error().cause() == Cause::system) listener_.entry_unseen();
         }
     }

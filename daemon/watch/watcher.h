@@ -22,6 +22,7 @@
 
 #include "daemon/watch/file_stamp.h"
 #include "daemon/watch/inotify.h"
+#include "daemon/watch/unreadable.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::daemon {
@@ -81,6 +82,8 @@ class Watcher {
     // Handles the events that wait at events.descriptor().
     void read_events();
     [[nodiscard]] std::size_t directory_count() const { return watch_of_.size(); }
+    // Returns the directories that could not be read in the last scan and since.
+    [[nodiscard]] const Unreadable& unreadable() const { return unreadable_; }
     // Returns true if the changes of some directories come without events, according to the last
     // scan and the events since.
     [[nodiscard]] bool is_blind() const { return unwatched_ > 0 || silent_ > 0; }
@@ -93,6 +96,7 @@ class Watcher {
     void forget_unseen();
     void unwatch_tree(const std::filesystem::path& directory);
     void add_watch(const std::filesystem::path& directory);
+    void report_problem(const std::filesystem::path& directory, const Error& problem);
     void look_for_silence(const std::filesystem::path& directory);
     [[nodiscard]] Status scan_below(const std::filesystem::path& directory);
 
@@ -112,6 +116,7 @@ class Watcher {
     std::map<std::string, int> watch_of_;
     std::uint64_t scan_ = 0;
     bool saw_all_ = true;  // in that scan
+    Unreadable unreadable_;
     using Clock = std::chrono::steady_clock;
     double owed_s_ = 0;  // see most_owed_s; as of owed_at_
     Clock::time_point owed_at_{};

@@ -174,6 +174,22 @@ TEST(StatusTable, SaysWhenTheDropDirectoryIsLost) {
         std::string::npos);
 }
 
+// 2026-11-28: LDM with umask 027 and a service outside of its group looked like a feed without
+// data.
+TEST(StatusTable, NamesDirectoriesThatCannotBeRead) {
+    const json status = {
+        {"drop", "/d"},
+        {"unreadable",
+         {{"count", 3U},
+          {"directories",
+           {{{"directory", "/d/KLOT"}, {"reason", "Permission denied; (ldm-group.conf)"}}}}}}};
+    const std::string page = status_table(status, now);
+    EXPECT_NE(page.find("unread   /d/KLOT: Permission denied; (ldm-group.conf)\n"
+                        "unread   and 2 more\n"),
+              std::string::npos)
+        << page;
+}
+
 TEST(StatusTable, ControlCharactersAreNotPassedOn) {
     const json status = {{"state", "\x1b[2J"}, {"stations", {{{"station", "K\n\x07"}}}}};
     const std::string page = status_table(status, now);

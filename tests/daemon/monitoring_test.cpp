@@ -46,6 +46,9 @@ std::map<std::string, MetricFamily> all_families() {
     book.add(one, now);
     book.set_usage({.grids = 1, .pinned = 0, .bytes = 1, .budget_bytes = 2});
     book.set_loops({{"a", true, 0, 1, now, 24, ""}});
+    Unreadable unreadable;
+    unreadable.add("/d/KLOT", "Permission denied");
+    book.set_unreadable(unreadable);
     book.set_machines({{.name = "north", .newest = now, .arrived = now}});
     pipeline::PairReport report;
     report.domain = "plains";

@@ -283,9 +283,20 @@ TEST(StatusBook, LoopsAreSummedAndListed) {
 TEST(StatusBook, ADropDirectoryThatIsLostIsNamedFirst) {
     StatusBook book("/d", "/c");
     EXPECT_TRUE(nlohmann::json::parse(book.json({}, now_utc()))["drop_lost"].is_null());
+    Unreadable unreadable;
+    for (int i = 0; i < 20; ++i)
+        unreadable.add(fmt::format("/d/{:02}", i), "Permission denied");
+    unreadable.add("/d/00", "Permission denied");
+    EXPECT_TRUE(book.set_unreadable(unreadable));
+    EXPECT_FALSE(book.set_unreadable(unreadable)) << "as before";
+    EXPECT_TRUE(book.line({}).starts_with("cannot read 20 directories; ")) << book.line({});
+    const auto named = nlohmann::json::parse(book.json({}, now_utc()))["unreadable"];
+    EXPECT_EQ(named["count"], 20);
+    EXPECT_EQ(named["directories"].size(), 16U);
+    EXPECT_EQ(named["directories"][0]["directory"], "/d/00");
     book.set_drop_lost("/d: Permission denied");
     EXPECT_EQ(book.line({}),
-              "drop directory /d: Permission denied; ingested 0, rejected 0, "
+              "waiting for the drop directory /d: Permission denied; ingested 0, rejected 0, "
               "waiting 0, running 0, growing 0");
     EXPECT_EQ(nlohmann::json::parse(book.json({}, now_utc()))["drop_lost"],
               "/d: Permission denied");

@@ -4,6 +4,8 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -27,7 +29,7 @@ Result<Seen> walked(const fs::path& root, int depth = 0) {
               [&](const fs::path& path, const FileStamp&) {
                   seen.files.insert(path.lexically_relative(root));
               },
-              [&](const std::string& problem) { seen.problems.insert(problem); },
+              [&](const fs::path&, const Error& problem) { seen.problems.insert(problem.message); },
               [&](const fs::path& path, mode_t mode) {
                   EXPECT_FALSE(S_ISREG(mode) || S_ISDIR(mode));
                   seen.others.insert(path.lexically_relative(root));
@@ -123,7 +125,7 @@ TEST(TreeWalk, GivesTheStampOfAFile) {
                                             EXPECT_EQ(stamp, look_at(path).stamp);
                                             EXPECT_EQ(stamp.size_bytes, 5U);
                                         },
-                                        [](const std::string&) {}}));
+                                        [](const fs::path&, const Error&) {}}));
     EXPECT_EQ(files, 1);
 }
 
@@ -153,6 +155,26 @@ TEST(TreeWalk, GoesOnAfterADirectoryThatMayNotBeRead) {
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->files, std::set<std::string>{"open"});
     EXPECT_EQ(seen->problems.size(), 1U);
+}
+
+// 2026-11-28: after LDM had removed its empty drop directory and made it again, the service went on
+// looking at the removed one, which a bind mount of its unit kept, and nothing said so.
+TEST(TreeWalk, ARootThatAMountAloneKeepsIsAnError) {
+    if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "this machine does not let it mount";
+    const testing::TemporaryDirectory directory;
+    ASSERT_EQ(::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr), 0);
+    fs::create_directory(directory / "drop");
+    fs::create_directory(directory / "seen");
+    ASSERT_EQ(::mount((directory / "drop").c_str(), (directory / "seen").c_str(), nullptr, MS_BIND,
+                      nullptr),
+              0);
+    EXPECT_TRUE(walked(directory / "seen"));
+    fs::remove(directory / "drop");
+    const Result<Seen> dead = walked(directory / "seen");
+    ASSERT_FALSE(dead);
+    EXPECT_EQ(dead.error().code, ErrorCode::io);
+    EXPECT_NE(dead.error().message.find("was deleted"), std::string::npos) << dead.error().message;
+    ::umount((directory / "seen").c_str());
 }
 
 TEST(TreeWalk, AMissingRootIsAnError) {

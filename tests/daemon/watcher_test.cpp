@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <set>
 #include <thread>
@@ -278,6 +279,38 @@ TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
     }
     EXPECT_EQ(watcher_->directory_count(), 17U) << "16 below the drop directory";
     EXPECT_EQ(notes_.problems.size(), 1U) << "nobody hears of what lies below";
+}
+
+// 2026-11-28: LDM with umask 027 and a service outside of its group. One line in the log was all.
+TEST_F(RealWatcher, NamesTheDirectoriesThatItMayNotRead) {
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become somebody else";
+    fs::permissions(drop(), fs::perms{0755});
+    fs::create_directory(drop() / "KLOT");
+    fs::permissions(drop() / "KLOT", fs::perms{0700});
+    const auto scan_as = [&](uid_t user) {
+        EXPECT_EQ(::seteuid(user), 0);
+        EXPECT_TRUE(watcher_->scan());
+        EXPECT_EQ(::seteuid(0), 0);
+    };
+    scan_as(65534);
+    const std::map<std::string, std::string> named{
+        {drop() / "KLOT",
+         "Permission denied; the service needs a group that may read it (ldm-group.conf)"}};
+    EXPECT_EQ(watcher_->unreadable().named, named);
+    ASSERT_EQ(notes_.problems.size(), 1U);
+    EXPECT_NE(notes_.problems[0].message.find("KLOT: Permission denied; the service needs a group"),
+              std::string::npos);
+    scan_as(0);
+    EXPECT_EQ(watcher_->unreadable().count(), 0U) << "the rights were mended";
+}
+
+TEST(Unreadable, SaysWhatTheUnitHides) {
+    EXPECT_TRUE(is_below_home("/home/ldm/var"));
+    EXPECT_TRUE(is_below_home("/root/x"));
+    EXPECT_FALSE(is_below_home("/homes/ldm"));
+    EXPECT_NE(remedy_for("/home/ldm/x", ErrorCode::not_found).find("ldm-in-home.conf"),
+              std::string::npos);
+    EXPECT_EQ(remedy_for("/data/x", ErrorCode::not_found), "");
 }
 
 TEST_F(RealWatcher, SaysWhenTheDropDirectoryVanishesAndTakesItAgain) {

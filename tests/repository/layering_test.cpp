@@ -93,7 +93,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"process", {"log"}},
       {"watch", {"process"}},
       {"queue", {"config", "watch"}},
-      {"status", {"config", "log", "process", "queue"}},
+      {"status", {"config", "log", "process", "queue", "watch"}},
       {"loops", {"config", "log", "process", "queue", "status", "watch"}},
       {"care", {"log", "process", "queue", "status"}},
       {"partials", {"config", "log", "process", "status", "watch"}},

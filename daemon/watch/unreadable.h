@@ -1,0 +1,36 @@
+// daemon/watch/unreadable.h -- directories that the service cannot read, and what may help.
+//
+// Threads   A plain value and a pure function.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::daemon {
+
+// Directories below the drop directory that cannot be read, with the reason and the remedy.
+struct Unreadable {
+    static constexpr std::size_t most_named = 16;
+
+    std::map<std::string, std::string> named;  // by path; the first ones that were found
+    std::uint64_t further = 0;
+
+    void add(const std::filesystem::path& directory, const std::string& reason);
+    [[nodiscard]] std::uint64_t count() const { return named.size() + further; }
+    [[nodiscard]] bool operator==(const Unreadable&) const = default;
+};
+
+// Returns what makes a directory readable to the service, as the end of a sentence. Empty: nothing
+// is known that helps. The first is for the drop directory, which the unit may hide (ProtectHome=);
+// the second for directories in it, for which a group is missing.
+[[nodiscard]] std::string remedy_for(const std::filesystem::path& drop, ErrorCode code);
+[[nodiscard]] std::string remedy_below(ErrorCode code);
+
+// Returns true if units with ProtectHome= do not see the path.
+[[nodiscard]] bool is_below_home(const std::filesystem::path& path);
+
+}  // namespace stormcellar::daemon
