@@ -216,6 +216,23 @@ CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string
     return app;
 }
 
+CLI::App* add_get(CLI::App& command, CatalogOptions& options, const std::string& station_help) {
+    CLI::App* get =
+        add_query(command, options, "get",
+                  "Copy raw files out of the archive, or write their volumes as netCDF");
+    get->add_option("--station", options.station, station_help)->required();
+    add_time_range(*get, options.times);
+    get->add_option("-o,--output", options.get.output,
+                    "Directory to write into; - writes one file to standard output")
+        ->required();
+    get->add_flag("--force", options.get.force, "Replace files that exist already");
+    CLI::Option* decode =
+        get->add_flag("--decode", options.get.decode,
+                      "Write each volume as CfRadial netCDF instead of copying its file");
+    add_own_ranges(*get, options.get.own_ranges)->needs(decode);
+    return get;
+}
+
 }  // namespace
 
 Run set_up_catalog(CLI::App& command) {
@@ -233,19 +250,7 @@ Run set_up_catalog(CLI::App& command) {
     CLI::App* oldest = add_query(command, *options, "oldest", "Show the oldest volume");
     for (CLI::App* one : {latest, oldest})
         one->add_option("--station", options->station, station_help)->required();
-    CLI::App* get =
-        add_query(command, *options, "get",
-                  "Copy raw files out of the archive, or write their volumes as netCDF");
-    get->add_option("--station", options->station, station_help)->required();
-    add_time_range(*get, options->times);
-    get->add_option("-o,--output", options->get.output,
-                    "Directory to write into; - writes one file to standard output")
-        ->required();
-    get->add_flag("--force", options->get.force, "Replace files that exist already");
-    CLI::Option* decode =
-        get->add_flag("--decode", options->get.decode,
-                      "Write each volume as CfRadial netCDF instead of copying its file");
-    add_own_ranges(*get, options->get.own_ranges)->needs(decode);
+    CLI::App* get = add_get(command, *options, station_help);
     CLI::App* check = add_query(command, *options, "check",
                                 "Examine the databases and compare their rows with the files");
     CLI::App* rebuild =
