@@ -13,6 +13,7 @@
 #include <sys/resource.h>
 #include <systemd/sd-daemon.h>
 
+#include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "base/service_arguments.h"
@@ -104,6 +105,17 @@ void reload(WebService& service, const std::filesystem::path& file) {
     notify("READY=1");
 }
 
+// Without the right to read it, clients are told only that a file cannot be read now.
+void look_at_drop(const std::filesystem::path& drop) {
+    if (drop.empty()) return;
+    const auto names = names_beneath(drop, drop);
+    if (names) return;
+    say(LogLevel::warning,
+        "cannot read the drop directory {}; clients get no raw files until it can be read "
+        "(web-ldm-group.conf; below /home web-ldm-in-home.conf)",
+        names.error().message);
+}
+
 int serve(const WebSetup& setup, const std::filesystem::path& file) {
     keep_freed_memory();
     cache::install_map_guard();
@@ -117,6 +129,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
         fmt::join((*service)->addresses(), " "));
     if (!(*service)->has_catalog())
         say(LogLevel::warning, "there is no catalog {} yet", setup.catalog.native());
+    look_at_drop(setup.drop);
     notify("READY=1");
     Watchdog watchdog;
     for (;;) {
