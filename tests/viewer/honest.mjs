@@ -95,7 +95,10 @@ try {
   // ---- How old the data are
   const timeAt = 136; // of a packed grid
   const hour = BigInt(Date.now() - 3600e3);
-  listed = (path, body) => (path.includes('/packed') ? (body.writeBigInt64LE(hour, timeAt), body) : body);
+  listed = (path, body) => {
+    if (path.includes('/packed') && body.length > timeAt + 8) body.writeBigInt64LE(hour, timeAt);
+    return body;
+  };
   await page.send('Network.setCacheDisabled', { cacheDisabled: true });
   await page.goto('about:blank');
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
