@@ -102,6 +102,12 @@ export async function pictureOf(page, program, words, w, h, directory) {
   return image(Buffer.concat([Buffer.from(`P6\n${w} ${h}\n255\n`), Buffer.from(text, 'base64')]));
 }
 
+// Latitude and longitude of a text that says them as the page does: "35.292 N, 97.561 W".
+export function placeOf(text) {
+  const [, latitude, north, longitude, east] = text.match(/(\d+\.\d+) ([NS]), (\d+\.\d+) ([EW])/);
+  return [Number(latitude) * (north === 'S' ? -1 : 1), Number(longitude) * (east === 'W' ? -1 : 1)];
+}
+
 // The grids of some stations, once there are some; the server may still be making them.
 export async function gridsOf(address, stations) {
   const ofOne = async (domain) => {

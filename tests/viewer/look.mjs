@@ -2,7 +2,7 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { CheckedPage, Slicer, check, gridsOf, mostDifference, shadesOf, viewOf } from './checked_page.mjs';
+import { CheckedPage, Slicer, check, gridsOf, mostDifference, placeOf, shadesOf, viewOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
 const [address, list, difference, directory, pictures] = process.argv.slice(2);
@@ -123,7 +123,7 @@ for (const [px, py] of [[150, 300], [200, 250], [250, 220], [300, 200], [330, 27
     console.log(`at ${px}, ${py} is`, await page.evaluate(`document.elementFromPoint(${px}, ${py}).outerHTML.slice(0, 80)`));
     continue;
   }
-  const [latitude, longitude] = text.match(/-?\d+\.\d+/g).map(Number);
+  const [latitude, longitude] = placeOf(text);
   const { levels: cells } = await (await fetch(`${address}${grid.path}/probe?at=${latitude},${longitude}`)).json();
   const values = cells.filter(({ state }) => state === 'value').map(({ value }) => value);
   const greatest = Math.max(...values);

@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { ViewGeometry, usualCamera } from '../src/camera/geometry';
 import { boxOf } from '../src/scene/grid_box';
-import { firstVisible } from '../src/scene/first_visible';
+import { firstVisible, mostVisible } from '../src/scene/first_visible';
 import { cellSizeM } from '../src/scene/projection';
 import { codeAt, firstValueCode, readPackedGrid, valueOf } from '../src/wire/packed_grid';
 import { makeGrid } from './made_grid';
@@ -52,4 +52,30 @@ test('what is not visible, or lies outside of the box, is passed', () => {
         assert.ok(passed > 5 && cut >= 0);
         assert.equal(firstVisible({ grid, middle: [0, 0] }, geometry, box, -5000, -5000, all), null);
     }
+});
+
+test('of a volume the cell is read that contributes most (2026-11-28: the first one was, which nobody sees)', () => {
+    const geometry = new ViewGeometry(boxOf(grid), { ...usualCamera, tiltDeg: 0 }, 2, 400, 400);
+    const [width, height] = cellSizeM(grid);
+    const strong = valueOf(grid, 80);
+    const perM = (value: number) => (value >= strong ? 1e-3 : 1e-7);
+    let below = 0;
+    for (let x = 1; x < grid.nx; x += 3) {
+        for (let y = 1; y < grid.ny; y += 3) {
+            const pixel = geometry.project([(x + 0.5 - grid.nx / 2) * width, (y + 0.5 - grid.ny / 2) * height, 0])!;
+            const { cell, share, through } = mostVisible({ grid, middle: [0, 0] }, geometry, box, ...pixel, Infinity, perM);
+            const column = Array.from({ length: grid.nz }, (_, z) => codeAt(grid, x, y, z));
+            const top = column.map((code, z) => (code >= firstValueCode && valueOf(grid, code) >= strong ? z : -1)).reduce((a, b) => Math.max(a, b), -1);
+            if (top < 0) continue;
+            assert.equal(cell?.value, valueOf(grid, column[top]!));
+            assert.equal(cell?.heightM, grid.levelsM[top]);
+            // A cell of 500 m, twice as high, lets exp(-1) through.
+            assert.ok(Math.abs(share - (1 - Math.exp(-1))) < 0.15 && through <= 1 - share + 1e-9, `${share} ${through}`);
+            if (column.slice(top + 1).some(code => code >= firstValueCode)) ++below;
+        }
+    }
+    assert.ok(below > 5);
+    // What is hidden by something solid does not count.
+    const nothing = mostVisible({ grid, middle: [0, 0] }, geometry, box, 200, 200, -Infinity, perM);
+    assert.deepEqual([nothing.cell, nothing.through], [null, 1]);
 });

@@ -25,7 +25,7 @@ inline constexpr int zstd_level = 5;
 // The same for what is compressed once and sent often: it takes longer, and is smaller.
 [[nodiscard]] Result<std::string> compressed_once(std::string_view bytes, Coding coding);
 inline constexpr int gzip_once_level = 9;
-inline constexpr int zstd_once_level = 12;
+inline constexpr int zstd_once_level = 19;
 // For measurements: with another level.
 [[nodiscard]] Result<std::string> gzipped(std::string_view bytes, int level);
 [[nodiscard]] Result<std::string> zstd_packed(std::string_view bytes, int level);

@@ -8,6 +8,7 @@ import { beamTo } from './sweep_cone';
 export interface BeamReading {
     icao: string;
     rangeM: number;
+    azimuthDeg: number;
     elevationDeg: number; // of the beam that meets the point
     widthM: number; // of the beam there, between the points of half power
     sweepDeg: number | null; // the nearest sweep; null where the grid does not say when its sweeps were
@@ -17,6 +18,8 @@ export interface BeamReading {
 
 const beamWidthDeg = 0.95; // of the WSR-88D, between half powers
 const radians = Math.PI / 180;
+
+export const beamWidthM = (rangeM: number): number => rangeM * beamWidthDeg * radians;
 
 function nearest(sweeps: SweepTime[], elevationDeg: number): SweepTime | null {
     let best: SweepTime | null = null;
@@ -46,8 +49,9 @@ export function beamReading(sites: Site[], facts: GridFacts | null, place: Place
     return {
         icao: site.icao,
         rangeM,
+        azimuthDeg,
         elevationDeg,
-        widthM: rangeM * beamWidthDeg * radians,
+        widthM: beamWidthM(rangeM),
         sweepDeg: sweep?.elevation_deg ?? null,
         timeMs: sweep && timeOf(sweep, azimuthDeg),
         rms: row?.rms ?? null,

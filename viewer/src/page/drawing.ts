@@ -3,6 +3,7 @@
 import { ViewGeometry } from '../camera/geometry';
 import { Governor } from '../renderer/governor';
 import { Rung, rungs, usualRungs } from '../renderer/ladder';
+import { DrawnLayers } from '../renderer/layers';
 import { Frame, LoadedGrid, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
@@ -37,6 +38,7 @@ export class Drawing {
     private overlays: Overlay[] = [];
     layers: LayerMaker | null = null;
     windows: Windows | null = null;
+    drawn: DrawnLayers | null = null; // what stands beside the volume in the picture
     private ground: Ground | null = null;
     private app: App | null = null;
     private streaming: Streaming | null = null;
@@ -190,7 +192,7 @@ export class Drawing {
             leastValue: state.least ?? -1e9,
             hasVolume: state.layers.hasVolume,
             hasGround: state.hasGround,
-            layers: this.layers!.make(geometry, isMoving),
+            layers: (this.drawn = this.layers!.make(geometry, isMoving)),
             keepsExposure: isMoving,
         };
         const fetches = state.countsFetches && !isMoving ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;

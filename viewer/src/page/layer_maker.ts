@@ -263,6 +263,11 @@ export class LayerMaker {
         if (found) return texts.layers.sweepAt(station, cutText(found.row, found.rows));
         return this.sweeps.isSettled(this.sweepKey(shown)) ? texts.layers.noSweep(station) : texts.layers.sweepComes(station);
     }
+    // The station whose sweep is drawn.
+    sweepStation(): string {
+        const { shown } = this.app;
+        return shown ? this.stationOf(shown) : '';
+    }
     // Of several sites the one that is nearest to what is looked at.
     private stationOf({ loaded: { grid } }: Shown): string {
         const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];

@@ -149,7 +149,10 @@ export const texts = {
     notSeen: 'not seen',
     noEcho: 'no echo',
     rangeFolded: 'range folded',
-    greatestAt: (value: string, height: string) => `Greatest ${value} at ${height} above sea level`,
+    greatestAt: (value: string, height: string) => `Maximum ${value} at ${height} above sea level`,
+    place: (latitudeDeg: number, longitudeDeg: number) =>
+        `${Math.abs(latitudeDeg).toFixed(3)} ${latitudeDeg < 0 ? 'S' : 'N'}, ${Math.abs(longitudeDeg).toFixed(3)} ${longitudeDeg < 0 ? 'W' : 'E'}`,
+    column: 'The column there:',
     seenBetween: (from: string, to: string) => `seen ${from} – ${to} above sea level`,
     units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
     legend: {
@@ -213,11 +216,14 @@ export const texts = {
     },
     hover: {
         value: (value: string, height: string) => `${value} at ${height}`,
-        beam: (elevation: string, width: string, range: string, icao: string) => `beam of ${elevation}°, ${width} wide, ${range} from ${icao}`,
+        beam: (elevation: string, width: string, range: string, azimuthDeg: number, icao: string) =>
+            `tilt ${elevation}°, beam ${width} wide, ${range} at ${Math.round(azimuthDeg) % 360}° from ${icao}`,
         time: (time: string) => `seen at ${time} UTC`,
-        error: (error: string) => `off by ${error} (RMS of its gates)`,
+        error: (error: string) => `grid differs from the gates by ${error} (RMS)`,
         ground: (status: string) => `Lowest level: ${status}`,
-        hidden: 'echo that is not shown',
+        hidden: (value: string) => `Lowest level: ${value}, which is not shown`,
+        outside: 'Outside the grid',
+        layers: { plane: 'on the plane', section: 'on the section', surface: 'on the surface', maximum: 'maximum of the column' },
         greatestOf: (halvings: number) => `the ${greatestOf(halvings)}`,
     },
     tools: {

@@ -1,7 +1,7 @@
-// What a ray from the eye meets first, from the exact codes of the grid.
+// What a ray from the eye meets, and what of it is seen most, from the exact codes of the grid.
 
 import { ViewGeometry } from '../camera/geometry';
-import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 import { Cells } from './grid_box';
 import { Crop } from './layers';
 import { Plane, cellSizeM } from './projection';
@@ -23,7 +23,7 @@ function levelAt(grid: PackedGrid, heightM: number): number {
 }
 
 // Where a ray is within a box: the first and the last depth; null where it passes by.
-function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [number, number] | null {
+export function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [number, number] | null {
     const start = geometry.point(x, y, 0);
     const way = geometry.along(x, y);
     const least = [box.westM, box.southM, box.bottomM * geometry.exaggeration];
@@ -50,11 +50,19 @@ export function wayWithin(geometry: ViewGeometry, box: Crop, x: number, y: numbe
     return depths && [at(depths[0]), at(depths[1])];
 }
 
-// The first cell along the ray through a pixel whose value is visible, within a box; null if there is none.
-// `cells` is a grid, and where its middle is on the plane of the view.
-export function firstVisible({ grid, middle }: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, isVisible: (value: number) => boolean): Seen | null {
+interface Step {
+    code: number;
+    cell: number; // which cell it is
+    at: Plane;
+    heightM: number; // of the cell
+    lengthM: number; // of the step, in drawn space
+}
+
+// Goes along the ray through a pixel until a depth, as far as it is within a box, by half a cell; `visit` returns true
+// to end. `cells` is a grid, and where its middle is on the plane of the view.
+function walk({ grid, middle }: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, untilDepth: number, visit: (step: Step) => boolean): void {
     const depths = depthsWithin(geometry, box, x, y);
-    if (!depths) return null;
+    if (!depths) return;
     const [width, height] = cellSizeM(grid);
     const start = geometry.point(x, y, 0);
     const way = geometry.along(x, y);
@@ -63,16 +71,59 @@ export function firstVisible({ grid, middle }: Cells, geometry: ViewGeometry, bo
     for (let z = 1; z < grid.nz; ++z) thinnestM = Math.min(thinnestM, grid.levelsM[z]! - grid.levelsM[z - 1]!);
     const perMeter = Math.max(Math.abs(way[0]) / width, Math.abs(way[1]) / height, Math.abs(way[2]) / (thinnestM * geometry.exaggeration), 1e-9);
     const step = Math.max(1 / (stepsACell * perMeter), (depths[1] - depths[0]) / mostSteps);
-    for (let depth = depths[0] + step / 2; depth < depths[1]; depth += step) {
+    const lengthM = step * Math.hypot(...way);
+    for (let depth = depths[0] + step / 2; depth < Math.min(depths[1], untilDepth); depth += step) {
         const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
         const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
         const [column, row] = [Math.floor((at[0] - middle[0]) / width + 0.5 * grid.nx), Math.floor((at[1] - middle[1]) / height + 0.5 * grid.ny)];
         if (column < 0 || row < 0 || column >= grid.nx || row >= grid.ny) continue;
         const level = levelAt(grid, heightM);
         const code = codeAt(grid, column, row, level);
-        if (code < firstValueCode) continue;
-        const value = valueOf(grid, code);
-        if (isVisible(value)) return { at, heightM: grid.levelsM[level]!, value };
+        if (visit({ code, cell: (level * grid.ny + row) * grid.nx + column, at, heightM: grid.levelsM[level]!, lengthM })) return;
     }
-    return null;
+}
+
+// The first cell along the ray through a pixel whose value is visible, within a box; null if there is none.
+export function firstVisible(cells: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, isVisible: (value: number) => boolean): Seen | null {
+    let seen: Seen | null = null;
+    walk(cells, geometry, box, x, y, Infinity, ({ code, at, heightM }) => {
+        if (code < firstValueCode) return false;
+        const value = valueOf(cells.grid, code);
+        if (isVisible(value)) seen = { at, heightM, value };
+        return seen !== null;
+    });
+    return seen;
+}
+
+// The volume as a pixel shows it: the cell that contributes most to it, and how much of what is behind is seen.
+export interface Contribution {
+    cell: Seen | null; // null: no echo is visible
+    share: number; // of the pixel, by that cell
+    through: number; // share of what is behind
+    foldedM: number; // of the way, in drawn space, through range folded air
+}
+
+const opaque = 0.002; // what is behind so little light is not seen
+
+// `perM`: how opaque a value is (extinction per drawn meter); 0: not at all.
+export function mostVisible(cells: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, untilDepth: number, perM: (value: number) => number): Contribution {
+    const found: Contribution = { cell: null, share: 0, through: 1, foldedM: 0 };
+    const ofCode = new Map<number, number>();
+    let [cell, share] = [-1, 0];
+    walk(cells, geometry, box, x, y, untilDepth, step => {
+        const { code, lengthM } = step;
+        if (code === CellState.rangeFolded) found.foldedM += lengthM;
+        if (code < firstValueCode) return false;
+        const value = valueOf(cells.grid, code);
+        if (!ofCode.has(code)) ofCode.set(code, perM(value));
+        const depth = ofCode.get(code)! * lengthM;
+        if (!(depth > 0)) return false;
+        const seen = -found.through * Math.expm1(-depth);
+        share = step.cell === cell ? share + seen : seen;
+        cell = step.cell;
+        if (share > found.share) Object.assign(found, { share, cell: { at: step.at, heightM: step.heightM, value } });
+        found.through -= seen;
+        return found.through < opaque;
+    });
+    return found;
 }

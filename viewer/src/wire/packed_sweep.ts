@@ -21,6 +21,7 @@ export interface PackedSweep {
     elevationsDeg: Float32Array;
     gateCounts: Uint32Array;
     startMs: number; // of the first radial
+    timesMs: Float64Array; // of the radials
     codes: Uint8Array | Uint16Array; // radial by radial
 }
 
@@ -62,11 +63,13 @@ export function readPackedSweep(bytes: Uint8Array): PackedSweep {
         elevationsDeg: new Float32Array(count),
         gateCounts: new Uint32Array(count),
         startMs: count > 0 ? Number(view.getBigInt64(radialsAt, true)) : 0,
+        timesMs: new Float64Array(count),
         codes: codeBytes === 1 ? section : new Uint16Array(section.buffer),
     };
     need(sweep.gateSpacingM > 0 && sweep.scale !== 0, 'the gates of the packed sweep have no size or no scale');
     for (let i = 0; i < count; ++i) {
         const at = radialsAt + i * radialBytes;
+        sweep.timesMs[i] = Number(view.getBigInt64(at, true));
         sweep.azimuthsDeg[i] = f32(at + 8);
         sweep.elevationsDeg[i] = f32(at + 12);
         sweep.gateCounts[i] = Math.min(gateStride, u32(at + 24));

@@ -1,12 +1,15 @@
 // The numbers of the column under a click. After another volume came the same place is read again.
 
+import { ViewGeometry } from '../../camera/geometry';
+import { shades } from '../../renderer/shades';
 import { Plane, planeOf } from '../../scene/projection';
 import { Units, heightNumber, heightText, valueText } from '../../tables/units';
-import { App } from '../app';
-import { button, element, labeledButton, leaveByEscape, paragraph } from '../dom';
+import { App, Shown } from '../app';
+import { button, element, labeledButton, leaveByEscape, paragraph, textScale } from '../dom';
 import { Drawing } from '../drawing';
 import { gridForColumn } from '../exact_column';
 import { Keys } from '../keys';
+import { Picked, pick } from '../picked';
 import { Tool } from '../pointers';
 import { ColumnReading, columnAt, readColumn } from '../reading';
 import { texts } from '../texts';
@@ -14,6 +17,7 @@ import { Hover } from './hover';
 import { profilePlot } from './profile_plot';
 
 const mostRows = 10;
+const markColor = '#ffffff';
 const mostDigits = 6; // of a value: all that its code has
 
 function summaryOf({ greatest, seenFromM }: ColumnReading, unit: string, units: Units): string {
@@ -42,6 +46,7 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
 
 export class Reader implements Tool {
     private at: Plane | null = null; // the place that was clicked, meters from the middle
+    private picked: { of: Shown; what: Picked } | null = null; // what was clicked there
     private domain = '';
     private close = labeledButton('reading-close', '×', texts.close, () => this.leave());
 
@@ -62,6 +67,7 @@ export class Reader implements Tool {
         leaveByEscape(element('reading'), 'picture', () => this.clear());
         keys.add('Escape', () => this.clear());
         keys.add('?', () => this.showHelp());
+        this.drawing.addOverlay((pen, geometry) => this.draw(pen, geometry));
         element('actions').append(button('help', texts.help, () => this.showHelp()));
     }
 
@@ -74,8 +80,42 @@ export class Reader implements Tool {
         this.pointed.hide();
     }
     click(x: number, y: number): void {
-        this.at = this.drawing.geometry()?.ground(x, y) ?? null;
+        const what = pick(this.app, this.drawing, x, y, true);
+        const { shown } = this.app;
+        this.picked = what && shown && { of: shown, what };
+        this.at = what?.at ?? null;
         this.put();
+        this.drawing.drawMarks();
+    }
+
+    // The column that was read, from the ground up to what was clicked.
+    private draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry): void {
+        const { at, picked } = this;
+        if (!at) return;
+        const ratio = window.devicePixelRatio || 1;
+        const pixelAt = (heightM: number) => geometry.project([at[0], at[1], heightM * geometry.exaggeration])?.map(one => one / ratio) as [number, number] | undefined;
+        const foot = pixelAt(geometry.groundM);
+        const head = picked ? pixelAt(picked.what.heightM) : foot;
+        if (!foot || !head) return;
+        const scale = textScale();
+        for (const [color, width] of [
+            [shades.halo, 4],
+            [markColor, 1.5],
+        ] as const) {
+            pen.strokeStyle = color;
+            pen.lineWidth = width * scale;
+            pen.beginPath();
+            pen.moveTo(...foot);
+            pen.lineTo(...head);
+            pen.stroke();
+            pen.beginPath();
+            pen.arc(...foot, 6 * scale, 0, 2 * Math.PI);
+            pen.stroke();
+        }
+        pen.beginPath();
+        pen.arc(...head, 3 * scale, 0, 2 * Math.PI);
+        pen.fillStyle = markColor;
+        pen.fill();
     }
 
     // The place stays with another moment, but not elsewhere.
@@ -89,8 +129,9 @@ export class Reader implements Tool {
         element('picture').focus();
     }
     private clear(): void {
-        this.at = null;
+        this.at = this.picked = null;
         element('reading').hidden = true;
+        this.drawing.drawMarks();
     }
 
     private put(): void {
@@ -103,8 +144,13 @@ export class Reader implements Tool {
         const column = columnAt(grid, ...at);
         const place = planeOf(grid).toPlace(this.at);
         const title = document.createElement('h2');
-        title.textContent = `${place.latitudeDeg.toFixed(3)}, ${place.longitudeDeg.toFixed(3)}`;
+        title.textContent = texts.place(place.latitudeDeg, place.longitudeDeg);
         const body = document.createElement('div');
+        // What was clicked is of one time; the column is read again of another one.
+        const { picked } = this;
+        const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
+        if (said.length > 0) body.append(...said.map(paragraph), paragraph(texts.column));
+        if (!column) body.append(paragraph(texts.hover.outside));
         if (column) {
             gridForColumn(shown.loaded, column)
                 .then(exact => {

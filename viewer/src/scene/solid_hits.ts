@@ -1,0 +1,135 @@
+// Where a ray from the eye meets what is solid, and what a plane, a section, a sweep or the column maximum shows there.
+//
+// Heights are above sea level; depths are those of ViewGeometry. Null: the ray does not meet the layer.
+
+import { ViewGeometry } from '../camera/geometry';
+import { FlatField } from '../fields/flat_field';
+import { Section } from '../fields/section';
+import { Mixer } from '../fields/status_rule';
+import { azimuthSteps, beamAt, beamTo, noRadial } from '../fields/sweep_cone';
+import { CellState } from '../wire/packed_grid';
+import { PackedSweep } from '../wire/packed_sweep';
+import { depthsWithin } from './first_visible';
+import { Extent } from './grid_box';
+import { Crop } from './layers';
+import { GridPlane, Plane, geodesic } from './projection';
+
+export interface SolidHit {
+    depth: number;
+    at: Plane;
+    heightM: number;
+    state: CellState;
+    value: number;
+}
+// A gate of a sweep.
+export interface GateHit extends SolidHit {
+    azimuthDeg: number;
+    rangeM: number;
+    elevationDeg: number;
+    timeMs: number;
+}
+
+const radians = Math.PI / 180;
+
+// What a field shows at a place between its own, as the shader of layers has it.
+export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean): { state: CellState; value: number } {
+    const { width, height, states, values } = field;
+    const index = (column: number, row: number) => Math.min(height - 1, Math.max(0, row)) * width + Math.min(width - 1, Math.max(0, column));
+    const nearest = index(Math.floor(x), Math.floor(y));
+    if (!mixes) return { state: states[nearest]!, value: values[nearest]! };
+    const [left, low] = [Math.floor(x - 0.5), Math.floor(y - 0.5)];
+    const [across, up] = [x - 0.5 - left, y - 0.5 - low];
+    const mixer = new Mixer('mean');
+    for (const [column, row] of [[0, 0], [1, 0], [0, 1], [1, 1]] as const) {
+        const at = index(left + column, low + row);
+        mixer.add(states[at]!, values[at]!, (column ? across : 1 - across) * (row ? up : 1 - up));
+    }
+    mixer.result();
+    return { state: mixer.state, value: mixer.value };
+}
+
+// The level through a height, where a field lies on an extent of it.
+export function levelHit(geometry: ViewGeometry, { field, extent }: { field: FlatField; extent: Extent }, heightM: number, x: number, y: number, mixes: boolean): SolidHit | null {
+    const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
+    const depth = (heightM * geometry.exaggeration - start[2]) / way[2];
+    if (!Number.isFinite(depth) || (geometry.isPerspective && depth <= 0)) return null;
+    const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
+    const [across, up] = [(at[0] - extent.westM) / (extent.eastM - extent.westM), (at[1] - extent.southM) / (extent.northM - extent.southM)];
+    if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return null;
+    if (Math.abs(at[0]) > geometry.box.halfXM || Math.abs(at[1]) > geometry.box.halfYM) return null;
+    return { depth, at, heightM, ...fieldAt(field, across * field.width, up * field.height, mixes) };
+}
+
+// The nearest of the upright strips of a section.
+export function sectionHit(geometry: ViewGeometry, section: Section, x: number, y: number, mixes: boolean): SolidHit | null {
+    const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
+    const { field, ends } = section;
+    let best: SolidHit | null = null;
+    for (let column = 0; column < field.width; ++column) {
+        const [a, b] = [ends[column]!, ends[column + 1]!];
+        const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        // start + depth way = a + share (b - a), seen from above
+        const turn = way[0] * dy - way[1] * dx;
+        const depth = ((a[0] - start[0]) * dy - (a[1] - start[1]) * dx) / turn;
+        const share = ((a[0] - start[0]) * way[1] - (a[1] - start[1]) * way[0]) / turn;
+        if (!(share >= 0 && share < 1) || (geometry.isPerspective && depth <= 0) || (best && best.depth < depth)) continue;
+        const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
+        const row = ((heightM - section.bottomM) / (section.topM - section.bottomM)) * field.height;
+        if (!(row >= 0 && row < field.height) || section.inGrid[column] === 0) continue;
+        best = { depth, at: [a[0] + share * dx, a[1] + share * dy], heightM, ...fieldAt(field, column + share, row, mixes) };
+    }
+    return best;
+}
+
+const steps = 400; // along the ray, before the beam is met between two of them
+const halvings = 30;
+const beyondM = 1000; // below the lowest gate and above the highest
+
+// The box in which a sweep lies.
+function boxOfSweep(gates: PackedSweep, plane: GridPlane): Crop | null {
+    const site = plane.toPlane(gates);
+    const lastM = gates.firstGateM + Math.max(0, ...gates.gateCounts) * gates.gateSpacingM;
+    if (!site) return null;
+    const heights = [0, lastM].map(rangeM => beamAt(gates, gates.elevationDeg, rangeM).heightM);
+    const [low, high] = [Math.min(...heights) - beyondM, Math.max(...heights) + beyondM];
+    return { westM: site[0] - lastM, eastM: site[0] + lastM, southM: site[1] - lastM, northM: site[1] + lastM, bottomM: low, topM: high };
+}
+
+// The gate under a pixel: where the ray crosses the beam of the sweep's elevation.
+export function sweepHit(geometry: ViewGeometry, { gates, radials }: { gates: PackedSweep; radials: Uint16Array }, plane: GridPlane, x: number, y: number): GateHit | null {
+    const box = boxOfSweep(gates, plane);
+    const depths = box && depthsWithin(geometry, box, x, y);
+    if (!depths) return null;
+    const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
+    const seenAt = (depth: number) => {
+        const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
+        const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
+        const { distanceM, azimuth } = geodesic(gates, plane.toPlace(at));
+        return { depth, at, heightM, azimuthDeg: (azimuth / radians + 360) % 360, ...beamTo(gates, distanceM, heightM) };
+    };
+    const isAbove = (depth: number) => seenAt(depth).elevationDeg > gates.elevationDeg;
+    const from = isAbove(depths[0]);
+    for (let i = 1; i <= steps; ++i) {
+        let [low, high] = [i - 1, i].map(n => depths[0] + (n / steps) * (depths[1] - depths[0])) as [number, number];
+        if (isAbove(high) === from) continue;
+        for (let k = 0; k < halvings; ++k) {
+            const middle = (low + high) / 2;
+            if (isAbove(middle) === from) low = middle;
+            else high = middle;
+        }
+        return gateAt(gates, radials, seenAt(high));
+    }
+    return null;
+}
+
+function gateAt(gates: PackedSweep, radials: Uint16Array, place: Omit<GateHit, 'state' | 'value' | 'timeMs'>): GateHit | null {
+    const gate = Math.floor(0.5 + (place.rangeM - gates.firstGateM) / gates.gateSpacingM);
+    const radial = radials[Math.min(azimuthSteps - 1, Math.floor((place.azimuthDeg * azimuthSteps) / 360))]!;
+    if (gate < 0) return null;
+    const hit = { ...place, elevationDeg: gates.elevationDeg };
+    if (radial === noRadial) return { ...hit, state: CellState.notSeen, value: 0, timeMs: gates.startMs };
+    if (gate >= gates.gateCounts[radial]!) return null;
+    const code = gates.codes[radial * gates.gateStride + gate]!;
+    const state = code >= gates.firstValueCode ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho;
+    return { ...hit, state, value: (code - gates.offset) / gates.scale, timeMs: gates.timesMs[radial]! };
+}
