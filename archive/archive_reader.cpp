@@ -23,7 +23,6 @@ namespace stormcellar::archive {
 namespace {
 
 constexpr std::size_t tar_block_bytes = 512;
-constexpr std::size_t read_block_bytes = std::size_t{256} << 10;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // the most that are named
@@ -118,9 +117,9 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
 
 struct ArchiveReader::Impl {
     Limits limits;
-    HeaderBudget header;
+    HeaderBudget header, of_source;        // of the tar or zip, and of what it is packed in
+    std::unique_ptr<PlainSource> plain;    // the bytes of the archive
     std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
-    std::unique_ptr<PlainSource> plain;    // null: it is packed
     Handle handle;                         // must end before what it reads from
     // size of the archive; 0: not known, so what was read of it counts
     std::uint64_t source_bytes = 0;
@@ -140,22 +139,23 @@ struct ArchiveReader::Impl {
     std::unique_ptr<Impl> inner;
 
     // Returns false if it is not an archive. The library may take zeros for an empty archive.
-    bool begin(std::span<const std::byte> start, const PackedStream::OpenSource& source,
-               PlainSource::ReadAt read_at) {
+    bool begin(std::span<const std::byte> start, PlainSource::ReadAt read_at) {
         handle = new_reader();
         if (!handle) return false;
         if (source_bytes > limits.archive_bytes) {
             end_with(fmt::format("has more than {} bytes: it is not read", limits.archive_bytes));
             return true;
         }
-        if (is_packed(start)) {
-            packed = PackedStream::open(source, limits.small_codecs,
+        const bool packs = is_packed(start);
+        plain = std::make_unique<PlainSource>(std::move(read_at), source_bytes,
+                                              packs ? of_source : header);
+        if (packs) {
+            packed = PackedStream::open([this](::archive* of) { return plain->feed(of); },
+                                        of_source, limits.small_codecs,
                                         [this](std::uint64_t read) { return most_bytes(read); });
-            if (!packed || !packed->feed(handle.get(), header)) return false;
-        } else {
-            plain = std::make_unique<PlainSource>(std::move(read_at), source_bytes, header);
-            if (!plain->feed(handle.get())) return false;
         }
+        if (packs ? !packed || !packed->feed(handle.get(), header) : !plain->feed(handle.get()))
+            return false;
         const bool may_be_zip = begins_with(start, "PK");
         const int code = read_header(first, may_be_zip ? most_directory_bytes : most_header_bytes);
         if (end_at_bound()) return true;
@@ -206,7 +206,7 @@ struct ArchiveReader::Impl {
     // Returns true if reading ended because too much came out of a packed archive, or a header was
     // too long.
     bool end_at_bound() {
-        if (header.is_spent()) {
+        if (header.is_spent() || of_source.is_spent()) {
             end_with("has a header that is too long: the rest is not read");
             return true;
         }
@@ -395,17 +395,12 @@ struct ArchiveReader::Impl {
             const auto last = bytes.last(std::min(bytes.size(), tar_block_bytes));
             return std::vector<std::byte>(last.begin(), last.end());
         };
-        const bool begun = impl->begin(
-            start,
-            [bytes](::archive* handle) {
-                return archive_read_open_memory(handle, bytes.data(), bytes.size()) == ARCHIVE_OK;
-            },
-            [bytes](std::uint64_t at, std::span<std::byte> into) {
-                const auto rest = bytes.subspan(std::min<std::uint64_t>(bytes.size(), at));
-                const auto piece = rest.first(std::min(rest.size(), into.size()));
-                std::ranges::copy(piece, into.begin());
-                return static_cast<std::int64_t>(piece.size());
-            });
+        const bool begun = impl->begin(start, [bytes](std::uint64_t at, std::span<std::byte> into) {
+            const auto rest = bytes.subspan(std::min<std::uint64_t>(bytes.size(), at));
+            const auto piece = rest.first(std::min(rest.size(), into.size()));
+            std::ranges::copy(piece, into.begin());
+            return static_cast<std::int64_t>(piece.size());
+        });
         return begun ? std::move(impl) : nullptr;
     }
 };
@@ -443,15 +438,9 @@ std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) 
         last.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
         return last;
     };
-    ::lseek(descriptor, 0, SEEK_SET);
-    const bool begun = impl->begin(
-        head,
-        [descriptor](::archive* handle) {
-            return archive_read_open_fd(handle, descriptor, read_block_bytes) == ARCHIVE_OK;
-        },
-        [descriptor](std::uint64_t at, std::span<std::byte> into) {
-            return ::pread(descriptor, into.data(), into.size(), static_cast<off_t>(at));
-        });
+    const bool begun = impl->begin(head, [descriptor](std::uint64_t at, std::span<std::byte> into) {
+        return ::pread(descriptor, into.data(), into.size(), static_cast<off_t>(at));
+    });
     if (!begun) return std::nullopt;
     return ArchiveReader(std::move(impl));
 }

@@ -11,6 +11,8 @@ namespace stormcellar::archive {
 namespace {
 
 constexpr std::size_t unpacked_block_bytes = std::size_t{256} << 10;
+// Of the source, until something comes out. 256 KiB of what a codec cannot pack take as much.
+constexpr std::uint64_t most_source_bytes = std::uint64_t{4} << 20;
 constexpr int one_filter = 2;  // libarchive counts the source itself as one
 
 // None of these filters starts another program.
@@ -42,11 +44,15 @@ std::string error_text_of(::archive* handle) {
     return text == nullptr ? "it is damaged" : text;
 }
 
-PackedStream::PackedStream(Handle source, Bound bound)
-    : source_(std::move(source)), bound_(std::move(bound)), block_(unpacked_block_bytes) {}
+PackedStream::PackedStream(Handle source, HeaderBudget& of_source, Bound bound)
+    : source_(std::move(source)),
+      of_source_(of_source),
+      bound_(std::move(bound)),
+      block_(unpacked_block_bytes) {}
 
-std::unique_ptr<PackedStream> PackedStream::open(const OpenSource& source, bool small_codecs,
-                                                 Bound bound) {
+std::unique_ptr<PackedStream> PackedStream::open(const OpenSource& source, HeaderBudget& of_source,
+                                                 bool small_codecs, Bound bound) {
+    of_source.begin(most_source_bytes);
     Handle handle{archive_read_new()};
     const bool ready = handle && support_filters(handle.get(), small_codecs) &&
                        archive_read_support_format_raw(handle.get()) >= ARCHIVE_WARN &&
@@ -54,7 +60,8 @@ std::unique_ptr<PackedStream> PackedStream::open(const OpenSource& source, bool 
     if (!ready || archive_filter_count(handle.get()) != one_filter) return nullptr;
     ::archive_entry* whole = nullptr;
     if (archive_read_next_header(handle.get(), &whole) < ARCHIVE_WARN) return nullptr;
-    return std::unique_ptr<PackedStream>(new PackedStream(std::move(handle), std::move(bound)));
+    return std::unique_ptr<PackedStream>(
+        new PackedStream(std::move(handle), of_source, std::move(bound)));
 }
 
 bool PackedStream::feed(::archive* handle, HeaderBudget& header) {
@@ -66,6 +73,7 @@ bool PackedStream::feed(::archive* handle, HeaderBudget& header) {
 }
 
 std::int64_t PackedStream::read_more(::archive* handle, const void** bytes) {
+    of_source_.begin(most_source_bytes);
     const la_ssize_t got = archive_read_data(source_.get(), block_.data(), block_.size());
     if (got < 0) {
         archive_set_error(handle, EIO, "%s", error_text_of(source_.get()).c_str());

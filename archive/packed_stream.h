@@ -56,7 +56,10 @@ class PackedStream {
     // Opens a stream. Returns none if the source is not packed exactly once by a known filter.
     // `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory whatever
     // the input says; without it, xz and zstd are allowed too (up to 1 GiB).
+    // `of_source`, which must outlive the object, counts what is read of the source at a time: the
+    // header of a gzip file may have a name without an end.
     [[nodiscard]] static std::unique_ptr<PackedStream> open(const OpenSource& source,
+                                                            HeaderBudget& of_source,
                                                             bool small_codecs, Bound bound);
     // Lets `handle`, which must end before this object, read the unpacked bytes.
     // `header`, which must outlive `handle`, counts what its headers take.
@@ -65,10 +68,11 @@ class PackedStream {
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
 
   private:
-    PackedStream(Handle source, Bound bound);
+    PackedStream(Handle source, HeaderBudget& of_source, Bound bound);
     std::int64_t read_more(::archive* handle, const void** bytes);
 
     Handle source_;
+    HeaderBudget& of_source_;
     Bound bound_;
     std::vector<std::byte> block_;
     std::uint64_t unpacked_ = 0;

@@ -287,6 +287,15 @@ TEST(ArchiveReader, AHeaderThatIsTooLongEndsIt) {
     }
 }
 
+TEST(ArchiveReader, ANameOfGzipWithoutAnEndTakesNoMemory) {
+    std::vector<std::byte> gzip = packed(Kind::tar_gz, bytes_of("x"));
+    gzip[3] = std::byte{8};  // a name comes after the header
+    gzip.resize(std::size_t{64} << 20, std::byte{'n'});
+    const std::size_t before = peak_bytes();
+    EXPECT_FALSE(ArchiveReader::open(gzip));
+    EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
+}
+
 TEST(ArchiveReader, ASparseFileIsLeftOut) {
     auto reader = ArchiveReader::open(sparse_tar(2));
     ASSERT_TRUE(reader);
