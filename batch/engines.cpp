@@ -4,10 +4,12 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "batch/resources.h"
 
 namespace stormcellar::batch {
@@ -82,12 +84,18 @@ std::string targets_of(const char* kind, const std::vector<std::size_t>& numbers
     return text;
 }
 
-// In a Makefile a dollar is doubled.
+// In a variable of a Makefile a dollar is doubled, and # begins a comment unless a backslash stands
+// before it. The backslashes before it are doubled then.
 std::string in_makefile(const std::string& text) {
-    std::string doubled;
-    for (const char c : text)
-        doubled += c == '$' ? "$$" : std::string(1, c);
-    return doubled;
+    std::string escaped;
+    std::size_t backslashes = 0;
+    for (const char c : text) {
+        if (c == '$') escaped += '$';
+        if (c == '#') escaped += std::string(backslashes + 1, '\\');
+        backslashes = c == '\\' ? backslashes + 1 : 0;
+        escaped += c;
+    }
+    return escaped;
 }
 
 }  // namespace
@@ -102,6 +110,25 @@ std::string quoted(const std::string& text) {
         }
     }
     return in_quotes + "'";
+}
+
+Status check_names(const Plan& plan, const EngineOptions& options) {
+    const auto refuse = [](std::string_view what, const std::string& name) {
+        return fail(ErrorCode::bad_argument, "{}: {}", printable(name), what);
+    };
+    for (const std::filesystem::path& path : {plan.directory(), options.program}) {
+        if (!is_plan_text(path.native()))
+            return refuse(
+                "a script cannot hold this path: it has control characters or is no UTF-8",
+                path.native());
+    }
+    const auto is_plain = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view{"_-.,+"}.find(c) != std::string_view::npos;
+    };
+    if (!std::ranges::all_of(options.partition, is_plain))
+        return refuse("is not the name of a partition", options.partition);
+    return {};
 }
 
 TaskLists lists_of(const Plan& plan, const std::vector<std::size_t>& missing) {

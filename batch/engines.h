@@ -27,6 +27,10 @@ struct EngineOptions {
     std::size_t array_size = 1000;
 };
 
+// Returns bad_argument if a script cannot name the plan's directory, the program or the partition:
+// a line of it would end within the name.
+[[nodiscard]] Status check_names(const Plan& plan, const EngineOptions& options);
+
 // The tasks that are not done, in three steps: grids, then frames, then statistics.
 struct TaskLists {
     std::vector<std::size_t> grids, frames, statistics;

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/printable.h"
 #include "base/system_error.h"
 #include "pipeline/mosaic/domain_frames.h"
 #include "stormcellar/base/file_system.h"
@@ -317,11 +318,31 @@ Result<Task> Plan::task(std::size_t number) const {
     return fail(ErrorCode::corrupt, "{}: the line of task {} is damaged", path.native(), number);
 }
 
+bool is_plan_text(const std::string& text) {
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+    if (std::ranges::any_of(text, is_control)) return false;
+    try {
+        (void)Json(text).dump();
+    } catch (const Json::type_error&) {
+        return false;
+    }
+    return true;
+}
+
 Status write_plan(const fs::path& directory, const Recipe& recipe,
                   const std::vector<StationDay>& all) {
     if (all.empty()) {
         return fail(ErrorCode::not_found, "{}: has no volume of these stations and times",
                     recipe.source);
+    }
+    for (const std::string& name :
+         {directory.native(), fs::path(recipe.source).native(), fs::path(recipe.cache).native()}) {
+        if (!is_plan_text(name)) {
+            return fail(
+                ErrorCode::bad_argument,
+                "{}: a plan cannot hold this path: it has control characters or is no UTF-8",
+                printable(name));
+        }
     }
     PlanText plan(recipe);
     for (const StationDay& day : all)

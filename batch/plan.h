@@ -83,6 +83,9 @@ class Plan {
     std::uint64_t first_task_at_ = 0, task_bytes_ = 0;
 };
 
+// Returns true if a plan can hold the text as it is: UTF-8 without control characters.
+[[nodiscard]] bool is_plan_text(const std::string& text);
+
 // Writes the plan of these station-days. Errors: also bad_argument if the directory has another
 // plan, or nothing is to be done.
 [[nodiscard]] Status write_plan(const std::filesystem::path& directory, const Recipe& recipe,

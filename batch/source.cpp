@@ -10,6 +10,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include "base/printable.h"
+#include "batch/plan.h"
 #include "pipeline/drop/drop_names.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/descriptor.h"
@@ -119,6 +121,7 @@ class Walk {
             return;
         }
         if (!span_.has(volume->start)) return;
+        if (!is_plan_text(in)) return note_nameless(printable(in));
         Found& found = found_[{volume->day(), volume->station}];
         found.day.day = volume->day();
         found.day.station = volume->station;

@@ -268,9 +268,10 @@ int run_plan(const PlanOptions& options) {
     const auto listing = take_stations(options, recipe);
     if (!listing) return report_error(listing.error());
     if (listing->nameless > 0) {
-        print_note(fmt::format("left out: {} {} whose names say no station and time, such as {}",
-                               listing->nameless, plural(listing->nameless, "file"),
-                               listing->first_nameless));
+        print_note(fmt::format(
+            "left out: {} {} whose names say no station and time, or cannot be in a plan, such "
+            "as {}",
+            listing->nameless, plural(listing->nameless, "file"), listing->first_nameless));
     }
     if (Status written = batch::write_plan(options.output, recipe, listing->days); !written) {
         return report_error(written.error());

@@ -140,6 +140,8 @@ int run_submit(SubmitCommand command) {
     std::error_code error;
     command.options.program = command.program.empty() ? fs::read_symlink("/proc/self/exe", error)
                                                       : fs::path(command.program);
+    if (Status named = batch::check_names(*plan, command.options); !named)
+        return report_error(named.error());
     const auto report = check_with_bar(*plan, command.deep, false);
     if (!report) return report_error(report.error());
     const batch::TaskLists tasks = batch::lists_of(*plan, report->missing);

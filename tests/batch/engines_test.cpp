@@ -1,7 +1,10 @@
 // What Slurm and make are told.
 #include "batch/engines.h"
 
+#include <cstdlib>
+#include <fstream>
 #include <numeric>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +55,7 @@ class BatchEngines : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    std::filesystem::path place_ = directory_ / "it's a $plan";
+    std::filesystem::path place_ = directory_ / "it's a $plan \\#1";
     std::optional<Plan> plan_;
 };
 
@@ -66,7 +69,7 @@ TEST_F(BatchEngines, SlurmHasAnArrayOfGridsAndOneOfFrames) {
     EXPECT_THAT(all[0].text, HasSubstr("first=$((0 + SLURM_ARRAY_TASK_ID * 1))\n"));
     EXPECT_THAT(all[0].text, HasSubstr("((last < 20)) || last=19\n"));
     EXPECT_THAT(all[0].text, HasSubstr("exec '/opt/stormcellar' batch run --plan "));
-    EXPECT_THAT(all[0].text, HasSubstr("/it'\\''s a $plan' --task"));
+    EXPECT_THAT(all[0].text, HasSubstr("/it'\\''s a $plan \\#1' --task"));
     EXPECT_EQ(all[1].name, "frames");
     EXPECT_THAT(all[1].text, HasSubstr("#SBATCH --array=0-3%4\n"));
     EXPECT_THAT(all[1].text, HasSubstr("first=$((20 + SLURM_ARRAY_TASK_ID * 1))\n"));
@@ -95,13 +98,46 @@ TEST_F(BatchEngines, MakeKnowsWhichGridsTheFramesNeed) {
         makefile_of(*plan_, lists_of(*plan_, {1, 2, 12, 20, 22, 23}), {.program = "stormcellar"});
     ASSERT_TRUE(text);
     EXPECT_THAT(*text, HasSubstr("GRIDS = grid-1 grid-2 grid-12\n"));
-    EXPECT_THAT(*text, HasSubstr("/it'\\''s a $$plan' --threads 1 --task\n"));
+    EXPECT_THAT(*text, HasSubstr("/it'\\''s a $$plan \\\\\\#1' --threads 1 --task\n"));
     // 22:00 to 22:59 lies in one day; the hour after midnight needs both days.
     EXPECT_THAT(*text, HasSubstr("frame-20: needs-0-10\n"));
     EXPECT_THAT(*text, HasSubstr("needs-0-10: grid-1 grid-2\n"));
     EXPECT_THAT(*text, HasSubstr("frame-22: needs-0-20\n"));
     EXPECT_THAT(*text, HasSubstr("needs-0-20: grid-1 grid-2 grid-12\n"));
     EXPECT_THAT(*text, HasSubstr("frame-23: needs-10-20\nneeds-10-20: grid-12\n"));
+}
+
+// 2026-11-28: a # in a plan's path ended the line for make, and a line feed in it ended a comment
+// of the script, so that the rest of the name ran as a command. So did one in --partition.
+TEST_F(BatchEngines, MakeReadsThePathOfThePlanBack) {
+    const auto text = makefile_of(*plan_, lists_of(*plan_, {1}), {.program = "/bin/echo"});
+    ASSERT_TRUE(text);
+    const auto makefile = directory_ / "Makefile";
+    std::ofstream(makefile) << *text;
+    const std::string command = "make -s -f " + quoted(makefile.native()) + " grid-1 > " +
+                                quoted((directory_ / "said").native());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::string said;
+    std::getline(std::ifstream(directory_ / "said"), said);
+    EXPECT_EQ(said, "batch run --plan " + place_.native() + " --threads 1 --task 1");
+}
+
+TEST_F(BatchEngines, NamesThatEndALineAreRefused) {
+    EXPECT_TRUE(check_names(*plan_, {.partition = "day_long-2"}));
+    for (const char* partition : {"a\ntouch pwned", "a b", "$(x)", "a;b"})
+        EXPECT_FALSE(check_names(*plan_, {.partition = partition})) << partition;
+    EXPECT_FALSE(check_names(*plan_, {.program = "/bin/x\ntouch pwned"}));
+    Recipe recipe;
+    recipe.source = "/archive";
+    recipe.cache = "/share/cache";
+    recipe.from = recipe.to = at("2013-05-20T22:00Z");
+    const std::vector<StationDay> days{
+        {std::chrono::floor<std::chrono::days>(recipe.from), "KTLX", {"."}, 1, 1}};
+    for (const char* name : {"x\ntouch pwned #", "d\xEFx"}) {
+        const Status written = write_plan(directory_ / name, recipe, days);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().code, ErrorCode::bad_argument);
+    }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace stormcellar::batch {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -52,6 +53,8 @@ TEST(Source, ListsADirectoryByDayAndStation) {
     write(directory / "a/.KFDR20130521_000900");
     write(directory / "a/KFDR20130521_000900.part");
     write(directory / "a/readme");
+    // 2026-11-28: a plan wrote this name with another letter, and its task failed for good.
+    write(directory / "d\xEFx/KTLX20130521_001500");
     const auto listing = list_source(directory.path().native(), at("2013-05-20"), at("2013-05-22"));
     ASSERT_TRUE(listing);
     ASSERT_EQ(listing->days.size(), 3U);
@@ -61,8 +64,8 @@ TEST(Source, ListsADirectoryByDayAndStation) {
     EXPECT_EQ(listing->days[0].bytes, 8U);
     EXPECT_EQ(listing->days[1].station, "KFDR");
     EXPECT_EQ(listing->days[2].station, "KTLX");
-    EXPECT_EQ(listing->nameless, 1U);
-    EXPECT_EQ(listing->first_nameless, "a/readme");
+    EXPECT_EQ(listing->nameless, 2U);
+    EXPECT_THAT(listing->first_nameless, AnyOf("a/readme", "d\\xEFx", "d\\xefx"));
     EXPECT_EQ(list_source((directory / "none").native(), {}, {}).error().code,
               ErrorCode::not_found);
 }
