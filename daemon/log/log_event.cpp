@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, event_count> names = {
     "vanished",
     "registered",
     "store_failed",
+    "held_back",
     "watch_failed",
     "directory_problem",
     "overflow",

@@ -36,6 +36,7 @@ enum class Event {
     vanished,
     registered,
     store_failed,
+    held_back,
     // about the drop directory
     watch_failed,
     directory_problem,

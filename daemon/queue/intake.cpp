@@ -108,12 +108,30 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
 
 void Intake::offer(Job job, const FileStamp& stamp) {
     const std::filesystem::path path = job.path;
+    hold(job);
     if (schedule_.offer(std::move(job), clock_.steady()) == Offered::refused) {
         leave_to_scan(path);
     } else {
         seen_.add(path, stamp);
     }
     note_displaced();
+}
+
+void Intake::hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits) {
+    for (const auto& [path, wait] : waits)
+        held_back_[path] = clock_.steady() + wait;
+}
+
+void Intake::hold(Job& job) {
+    const auto held = held_back_.find(job.path);
+    if (held == held_back_.end()) return;
+    if (clock_.steady() >= held->second) {
+        held_back_.erase(held);
+        return;
+    }
+    job.not_before = std::max(job.not_before, held->second);
+    job.urgency = Urgency::backlog;
+    job.newest_ns = 0;
 }
 
 // Files keep the order in which they were closed, even if the wall clock is set back.

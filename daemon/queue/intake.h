@@ -43,6 +43,9 @@ class Intake final : public WatchListener {
     // short of disk, memory or descriptors, it is tried for as long as that lasts.
     static constexpr int most_tries = 8;
 
+    // These files were being ingested when the process last ended. They wait so long from now, and
+    // are then the last of the backlog.
+    void hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits);
     // Sets new waiting times and another number of workers.
     void reload(const ReloadableConfig& config);
 
@@ -102,6 +105,7 @@ class Intake final : public WatchListener {
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
+    void hold(Job& job);
     [[nodiscard]] Job job_for(const std::filesystem::path& path, Urgency urgency) const;
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
@@ -124,6 +128,7 @@ class Intake final : public WatchListener {
     StationRule stations_;
     Clock clock_;
     std::chrono::milliseconds reread_;
+    std::map<std::filesystem::path, SteadyTime> held_back_;
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;

@@ -3,8 +3,10 @@
 // twice at a time for one path.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -54,6 +56,10 @@ class Sink {
     // stored.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
+    // The files that were being taken when the process last ended, and how long each has to wait.
+    [[nodiscard]] virtual std::map<std::filesystem::path, std::chrono::seconds> waits() const {
+        return {};
+    }
     // For a file that must wait: writes it into the catalog unread (stands), or marks its rows if
     // it is gone (gone; then nothing is left to do). May run beside take() of other paths.
     virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {

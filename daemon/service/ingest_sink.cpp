@@ -15,12 +15,28 @@ bool is_known_group(std::string_view group, const StationRule& stations) {
     return stations.kind() == StationRule::Kind::listed && stations.knows(group);
 }
 
+class Trying {
+  public:
+    Trying(TriedFiles& tried, const std::filesystem::path& path, const FileStamp& stamp)
+        : tried_(tried), path_(path) {
+        tried_.begin(path_, stamp);
+    }
+    Trying(const Trying&) = delete;
+    Trying& operator=(const Trying&) = delete;
+    ~Trying() { tried_.end(path_); }
+
+  private:
+    TriedFiles& tried_;
+    const std::filesystem::path& path_;
+};
+
 }  // namespace
 
 IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store,
                        const FixedConfig& config, std::shared_ptr<StationRule> stations,
                        const DescriptorPlan& descriptors)
     : drop_(config.paths.drop),
+      tried_(config.paths.state / "tried"),
       stations_(std::move(stations)),
       growing_(descriptors.growing),
       partial_sources_(std::make_shared<pipeline::PartialSources>(config.partials.late_after)),
@@ -118,6 +134,15 @@ std::vector<std::string> IngestSink::take_repairs() {
     return lines;
 }
 
+Result<Taken> IngestSink::give_up(const std::filesystem::path& path, Taken taken) {
+    auto outcome = ingestor_.give_up(
+        path, {ErrorCode::unsupported,
+               fmt::format("the service ended {} times while it read it", TriedFiles::most_ends)});
+    if (!outcome) return pass_on(outcome);
+    taken.ingest = std::move(*outcome);
+    return taken;
+}
+
 Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) {
     Taken taken;
@@ -127,6 +152,8 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as
         taken.ingest.ending = pipeline::ended::Vanished{};  // another file has taken its name
         return taken;
     }
+    if (tried_.is_given_up(path, found.stamp)) return give_up(path, std::move(taken));
+    const Trying trying(tried_, path, found.stamp);
     Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_as_is, tries);
     if (!outcome) return pass_on(outcome);
     taken.ingest = std::move(*outcome);

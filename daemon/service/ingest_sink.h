@@ -10,6 +10,7 @@
 #include "daemon/config/config.h"
 #include "daemon/config/descriptor_plan.h"
 #include "daemon/queue/sink.h"
+#include "daemon/queue/tried_files.h"
 #include "pipeline/care/mend_cache.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "pipeline/mosaic/site_watch.h"
@@ -23,6 +24,9 @@ class IngestSink final : public Sink {
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                        pipeline::Tries tries) override;
+    [[nodiscard]] std::map<std::filesystem::path, std::chrono::seconds> waits() const override {
+        return tried_.waits();
+    }
     Result<pipeline::Noted> note(const std::filesystem::path& path) override {
         return ingestor_.note(path);
     }
@@ -55,9 +59,11 @@ class IngestSink final : public Sink {
     IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store, const FixedConfig& config,
                std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors);
 
+    Result<Taken> give_up(const std::filesystem::path& path, Taken taken);
     [[nodiscard]] pipeline::IngestOptions options_of(const FixedConfig& config) const;
 
     std::filesystem::path drop_;
+    TriedFiles tried_;
     std::shared_ptr<StationRule> stations_;
     std::size_t growing_;  // descriptors for growing volumes (descriptor_plan.h)
     catalog::LeftAlone left_alone_;

@@ -48,6 +48,14 @@ Result<Taken> note(Sink& sink, const Job& job) {
 
 }  // namespace
 
+void Service::hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits) {
+    for (const auto& [path, wait] : waits)
+        log_warning({.event = Event::held_back, .file = path},
+                    "{} was being read when the service ended; it waits {} s",
+                    printable(path.native()), wait.count());
+    intake_.hold_back(waits);
+}
+
 Service::Service(const Config& config, std::filesystem::path config_file, ServiceParts parts)
     : fixed_(config.fixed),
       config_(config.reloadable),
@@ -67,6 +75,7 @@ Service::Service(const Config& config, std::filesystem::path config_file, Servic
       loop_keeper_(fixed_.paths.cache, [this] { wake_up_.set(); }) {
     need([this] { return can_write_in(parts_.file_system, fixed_.paths.state); });
     need([this] { return parts_.sink.can_store(); });
+    hold_back(parts_.sink.waits());
     watcher_.on_step([this] { keep_workers_busy(); });
     status_.set_listening(parts_.socket, fixed_.status.http_port);
     watch("missing", row_keeper_.pulse());

@@ -20,6 +20,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -90,6 +91,7 @@ class Service {
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
+    void hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits);
     void start();
     void turn();
     void wait();

@@ -96,6 +96,11 @@ Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error&
     return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
 
+Result<IngestOutcome> Ingestor::give_up(const fs::path& path, const Error& why) {
+    const Running running(impl_->context);
+    return impl_->give_up(path, why);
+}
+
 bool Ingestor::Impl::is_waited_for(const fs::path& path) const {
     const auto chunk = ChunkPath::of(path);
     const auto shared = chunk ? context.chunks.find_known(*chunk) : nullptr;

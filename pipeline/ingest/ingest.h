@@ -50,6 +50,9 @@ class Ingestor {
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path,
                                        const ReadCheck& is_the_same = {});
 
+    // Rejects a file unread, "given up: WHY". After a restart it is offered again.
+    Result<IngestOutcome> give_up(const std::filesystem::path& path, const Error& why);
+
     [[nodiscard]] MosaicMaker& mosaics();
 
   private:

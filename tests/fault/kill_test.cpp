@@ -5,9 +5,12 @@
 #include <random>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "stormcellar/base/file_system.h"
+#include "tests/daemon/write_file.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/load.h"
 
@@ -67,6 +70,30 @@ TEST(Kill, AtRandomMomentsUnderLoad) {
         kills, killing_s, at_start, in_a_write, settled_before, after.files,
         after.summary().c_str());
     std::fflush(stdout);
+}
+
+// 2026-11-28: a tar that took all memory was met again at each start, until systemd gave up.
+TEST(Kill, AFileThatEndsTheProcessIsLastAndThenGivenUp) {
+    for (const int ends : {0, 5}) {
+        daemon::RunningDaemon daemon;
+        const std::filesystem::path bomb = daemon.drop() / "KTLX20130520_201643_V06";
+        daemon::write_file(bomb, "no volume");
+        struct stat facts {};
+        ASSERT_EQ(::stat(bomb.c_str(), &facts), 0);
+        std::filesystem::create_directories(daemon.root() / "state");
+        daemon::write_file(daemon.root() / "state/tried",
+                           fmt::format("{} 1 {} {} {}", ends, facts.st_size,
+                                       facts.st_mtim.tv_sec * 1'000'000'000 + facts.st_mtim.tv_nsec,
+                                       bomb.native()) +
+                               '\0');
+        daemon.start();
+        if (ends == 0) {
+            EXPECT_TRUE(daemon.wait_for_log("was being read when the service ended; it waits 2 s"));
+        }
+        EXPECT_TRUE(daemon.wait_for_log(
+            ends == 0 ? "rejected" : "given up: the service ended 6 times while it read it"));
+        EXPECT_EQ(daemon.terminate(), 0);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+// What is remembered of files that were being ingested when the process ended.
+#include "daemon/queue/tried_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/daemon/write_file.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+
+class TriedFilesTest : public ::testing::Test {
+  protected:
+    fs::path make(const char* name) {
+        write_file(directory_ / name, name);
+        return directory_ / name;
+    }
+    static FileStamp stamp(const fs::path& path) { return look_at(path).stamp; }
+    [[nodiscard]] fs::path file() const { return directory_ / "tried"; }
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(TriedFilesTest, WhatWasUnderWayWaitsLongerEachTimeAndIsGivenUp) {
+    const fs::path bomb = make("bomb"), good = make("good\nname");
+    EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
+    for (const int wait : {2, 8, 32, 128, 512, 0}) {
+        {
+            TriedFiles tried(file());
+            EXPECT_FALSE(tried.is_given_up(bomb, stamp(bomb)));
+            tried.begin(good, stamp(good));
+            tried.begin(bomb, stamp(bomb));
+            tried.end(good);
+        }  // the process ends
+        if (wait == 0) break;
+        EXPECT_THAT(TriedFiles(file()).waits(), ElementsAre(Pair(bomb, seconds{wait})));
+    }
+    EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty()) << "it is rejected at once";
+    EXPECT_TRUE(TriedFiles(file()).is_given_up(bomb, stamp(bomb)));
+    write_file(bomb, "another one");
+    TriedFiles tried(file());
+    EXPECT_FALSE(tried.is_given_up(bomb, stamp(bomb)));
+    tried.begin(bomb, stamp(bomb));
+    tried.end(bomb);
+    EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
+}
+
+TEST_F(TriedFilesTest, AStartBetweenDoesNotCount) {
+    const fs::path bomb = make("bomb");
+    TriedFiles(file()).begin(bomb, stamp(bomb));
+    for (int i = 0; i < 3; ++i)
+        EXPECT_THAT(TriedFiles(file()).waits(), ElementsAre(Pair(bomb, seconds{2})));
+    fs::remove(bomb);
+    EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
+}
+
+TEST_F(TriedFilesTest, WhatMakesNoSenseIsPassedOver) {
+    const fs::path there = make("there");
+    using namespace std::string_literals;
+    for (const std::string& text : {"x"s, "1 1 1 1 "s, "\0\0\0"s, std::string(2'000'000, '1'),
+                                    "1 1 1 "s + there.native() + "\0"s,
+                                    "-1 1 99999999999999999999 1 "s + there.native() + "\0"s}) {
+        write_file(file(), text);
+        EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
+    }
+    const TriedFiles nowhere(directory_ / "none/tried");
+    EXPECT_THAT(nowhere.waits(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
