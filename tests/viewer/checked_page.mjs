@@ -150,4 +150,4 @@ export class Slicer {
 // The view of a scene: the volume alone.
 export const viewOf = ({ station, moment, azimuth, tilt, zoom, field, exaggeration, opacity, at }) =>
   `domain=${station}&moment=${moment}&ground=0&azimuth=${azimuth}&tilt=${tilt}&zoom=${zoom}&field-of-view=${field}` +
-  `&exaggeration=${exaggeration}&opacity=${opacity}&look-at-km=${at.join(',')}`;
+  `&exaggeration=${exaggeration}&opacity=${opacity}&folded=0&look-at-km=${at.join(',')}`;

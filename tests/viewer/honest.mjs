@@ -92,6 +92,12 @@ try {
   await page.until("document.getElementById('notice').textContent === ''", 30).catch(() => undefined);
   check('it speaks again', (await text('notice')) === '');
 
+  // ---- A graphics processor that is lost, and comes back (2026-11-28: it looked like clear air)
+  await page.evaluate(`window.loser = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context'); loser.loseContext()`);
+  check(`a lost graphics processor: ${await says('notice', 'graphics processor')}`, (await page.evaluate("!document.getElementById('reload').hidden && getComputedStyle(document.getElementById('labels')).visibility")) === 'hidden');
+  await viewer.settled(() => page.evaluate('loser.restoreContext()'));
+  check('it is back', (await text('notice')) === '' && (await page.evaluate("getComputedStyle(document.getElementById('labels')).visibility")) === 'visible');
+
   // ---- How old the data are
   const timeAt = 136; // of a packed grid
   const hour = BigInt(Date.now() - 3600e3);

@@ -2,6 +2,7 @@
 // pointers change it through its methods, and hear what happened.
 
 import { Camera } from '../camera/geometry';
+import { isClearAir } from '../fields/clear_air';
 import { LoadedGrid } from '../renderer/renderer';
 import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
@@ -54,6 +55,7 @@ export class App {
     // What else a picture needs that shows this: until it has come, the one before stays. Null: it is there.
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
     isShownWhole: () => boolean = () => true; // the picture has all of what is shown
+    isGraphicsLost = false; // nothing can be drawn
     isCutOff = false; // the server does not answer
     silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
     missed = ''; // what was asked for and is not there
@@ -97,7 +99,8 @@ export class App {
         return this.shown ? this.book?.of(this.state, this.shown.moment) : undefined;
     }
     get unit(): string {
-        return this.domain?.moments.find(one => one.moment === this.state.moment)?.units ?? '';
+        const moment = this.shown?.moment ?? this.state.moment;
+        return this.domain?.moments.find(one => one.moment === moment)?.units ?? '';
     }
 
     // The view was changed by a panel.
@@ -170,6 +173,10 @@ export class App {
     takeServer(answers: boolean): void {
         if (this.isCutOff === !answers) return;
         this.isCutOff = !answers;
+        this.tell('notice');
+    }
+    takeGraphics(isThere: boolean): void {
+        this.isGraphicsLost = !isThere;
         this.tell('notice');
     }
     // `silentS`: for how long; null: it spoke.
@@ -364,6 +371,10 @@ export class App {
     }
 
     private take(shown: Shown): void {
+        const { book } = this;
+        // The colors stay while a loop plays. Of a grid in parts the codes are not all here.
+        const isOther = this.shown?.domain !== shown.domain || !this.player.isPlaying;
+        if (book && isOther) book.isClearAir = shown.moment === 'REF' && !shown.loaded.stream && isClearAir(shown.loaded.grid);
         this.shown = shown;
         this.state.time = this.player.follows ? 'latest' : shown.time;
         this.loadAhead();

@@ -88,7 +88,11 @@ export class Drawing {
             this.renderer.forget();
             this.ground!.forget();
         });
-        this.picture.addEventListener('webglcontextrestored', () => app.restore());
+        this.picture.addEventListener('webglcontextlost', () => app.takeGraphics(false));
+        this.picture.addEventListener('webglcontextrestored', () => {
+            app.takeGraphics(true);
+            app.restore();
+        });
         window.addEventListener('resize', () => this.draw());
     }
 

@@ -76,7 +76,8 @@ export class Ground {
     async show({ domain, loaded }: Shown): Promise<void> {
         const { grid } = loaded;
         const place = keyOf(domain, grid);
-        const key = `${place} ${this.app.state.units.distance.name}`;
+        // Sites of a region come and go with time.
+        const key = `${place} ${this.app.state.units.distance.name} ${grid.sites.map(site => site.icao).join()}`;
         if (this.shownKey === key) return;
         // No map of another place lies below the grid.
         if (!this.shownKey.startsWith(`${place} `)) this.put(grid, null);

@@ -12,13 +12,13 @@ import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
 import { Cells, extentOf, placingOf } from '../scene/grid_box';
-import { Layers, isBelow, usualLayers } from '../scene/layers';
+import { Layers, isBelow, usualLayers, veilsFolded } from '../scene/layers';
 import { Place, Plane, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
 import { SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
-import { PackedGrid } from '../wire/packed_grid';
+import { PackedGrid, valueOf } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
 import { FetchedInTurn } from './fetched_in_turn';
@@ -145,7 +145,7 @@ export class LayerMaker {
     // The cells of which layers are made; what no layer needs is given back.
     private cellsOf(loaded: LoadedGrid, geometry: ViewGeometry, isMoving: boolean): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
         const { layers } = this.app.state;
-        const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || layers.hasFolded;
+        const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || veilsFolded(layers, this.app.shown?.moment ?? '');
         return {
             seen: this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving)),
             lit: this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving)),
@@ -160,7 +160,9 @@ export class LayerMaker {
         const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
-        if (!shown || !table || isUsual) return this.nothing();
+        if (!shown || !table) return this.nothing();
+        const hasFolded = veilsFolded(layers, shown.moment);
+        if (isUsual && !hasFolded) return this.nothing();
         const { loaded } = shown;
         const { seen, lit, crossed } = this.cellsOf(loaded, geometry, isMoving);
         return {
@@ -171,9 +173,9 @@ export class LayerMaker {
             sweep: this.sweepOf(shown)?.drawn ?? null,
             crop: layers.crop,
             falls: lit && this.fallsOf(lit, shown, table),
-            air: seen && (layers.hasHaze || layers.hasFolded) ? this.airOf(seen, shown) : null,
+            air: seen && (layers.hasHaze || hasFolded) ? this.airOf(seen, shown) : null,
             hasHaze: layers.hasHaze,
-            hasFolded: layers.hasFolded,
+            hasFolded,
             mixes: mixingOf(shown.moment) === 'mean',
             folded: table.range_folded,
             looks: this.looksOf(table, state.least),
@@ -240,12 +242,21 @@ export class LayerMaker {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
+    // A volume of which nothing is visible says so.
+    private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
+        const { state, shownTable: table } = this.app;
+        const unit = this.app.domain?.moments.find(one => one.moment === moment)?.units ?? '';
+        if (!table) return [];
+        const least = Math.max(table.stops[0]!.from, table.extinction[0]!.value, state.least ?? -Infinity);
+        const hasVisible = atlas.brickCount > 0 && valueOf(grid, atlas.greatest) >= least;
+        return hasVisible ? [] : [texts.layers.noEchoFrom(valueText(least, unit, state.units))];
+    }
     // What is drawn beside the volume, in words.
     told(): string[] {
         const { shown, state } = this.app;
         const { layers, units } = state;
         if (!shown) return [];
-        const said: string[] = [];
+        const said = layers.hasVolume ? this.emptyTold(shown) : [];
         if (layers.planeM !== null) said.push(texts.layers.planeTold(heightText(layers.planeM, units)));
         if (layers.surface) {
             const moment = layers.surface.moment || shown.moment;

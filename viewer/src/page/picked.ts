@@ -38,7 +38,7 @@ interface Met {
 function solidsAt(app: App, drawing: Drawing, geometry: ViewGeometry, cells: Cells | null, whole: Crop, x: number, y: number): Met[] {
     const { drawn } = drawing;
     if (!drawn) return [];
-    const { shown, table, state } = app;
+    const { shown, shownTable: table, state } = app;
     const plane = planeOf(shown!.loaded.grid);
     const isShown = ({ state: status, value }: SolidHit) =>
         status === CellState.rangeFolded || (status === CellState.value && value > (state.least ?? -Infinity) && colorOf(table!, value) !== null);
@@ -87,7 +87,7 @@ function heightOfMaximum({ grid, middle }: Cells, [x, y]: Plane): number | null 
 export function pick(app: App, drawing: Drawing, left: number, top: number, asks: boolean): Picked | null {
     const [x, y] = [left + 0.5, top + 0.5]; // the middle of the pixel, as it is drawn
     const geometry = drawing.geometry();
-    const { shown, table, state } = app;
+    const { shown, shownTable: table, state } = app;
     if (!geometry || !shown || !table) return null;
     const { grid, stream } = shown.loaded;
     const plane = planeOf(grid);

@@ -10,10 +10,12 @@ import { texts } from './texts';
 // Tables of the server with this in front differ from class to class for every kind of color vision
 // (render/colour/built_in_tables.h).
 const safePrefix = 'safe-';
+const clearAir = 'smooth-clear-air';
 export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.editor.safe(name) : name);
 
 export class TableBook {
     readonly usual: UsualOpacity;
+    isClearAir = false; // what is shown: reflectivity has the colors of clear air then, as `stormcellar frame` has it
     private made = new WeakMap<Draft, ColorTable>();
 
     constructor(private tables: Tables) {
@@ -28,7 +30,8 @@ export class TableBook {
     }
     preset(moment: string, name: string): ColorTable | undefined {
         const presets = this.presets(moment);
-        return presets.find(table => table.name === name) ?? presets.find(table => table.name === this.tables.usual[moment]);
+        const usual = name === '' && moment === 'REF' && this.isClearAir ? clearAir : name;
+        return presets.find(table => table.name === usual) ?? presets.find(table => table.name === this.tables.usual[moment]);
     }
 
     // The table of a moment in a view; the same draft has the same table.

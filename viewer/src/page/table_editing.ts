@@ -38,7 +38,7 @@ export class TableEditing {
         const { state, book } = this.app;
         const draft = state.drafts.find(one => one.moment === state.moment);
         if (draft) return draft;
-        const key = `${state.moment} ${state.colors}`;
+        const key = `${state.moment} ${state.colors} ${book?.isClearAir}`;
         if (this.known.key !== key || !this.known.draft) this.known = { key, draft: book?.draftOf(state, state.moment) };
         return this.known.draft;
     }

@@ -28,11 +28,14 @@ export interface Layers {
     crop: Crop | null; // of volume and surface
     isLit: boolean;
     hasHaze: boolean; // where no beam saw
-    hasFolded: boolean; // range folded air
+    hasFolded: boolean | null; // range folded air; null: as the moment has it
 }
 
 // Of velocities a negative value encloses what is faster toward the radar.
 export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
+
+// Air that is range folded is not clear: a volume of velocities or their widths shows it unless it is told not to.
+export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean => hasFolded ?? (hasVolume && (moment === 'VEL' || moment === 'SW'));
 
 export const usualLayers: Layers = {
     hasVolume: true,
@@ -45,7 +48,7 @@ export const usualLayers: Layers = {
     crop: null,
     isLit: false,
     hasHaze: false,
-    hasFolded: false,
+    hasFolded: null,
 };
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
@@ -73,7 +76,7 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.crop) parts.push(['crop-km', cropSides.map(side => kilometers(layers.crop![side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
     if (layers.hasHaze) parts.push(['haze', '1']);
-    if (layers.hasFolded) parts.push(['folded', '1']);
+    if (layers.hasFolded !== null) parts.push(['folded', layers.hasFolded ? '1' : '0']);
     return parts;
 }
 
@@ -120,7 +123,7 @@ export function layersOf(query: URLSearchParams): Layers {
         crop: cropOf(query.get('crop-km')),
         isLit: query.get('light') === 'gradient',
         hasHaze: query.get('haze') === '1',
-        hasFolded: query.get('folded') === '1',
+        hasFolded: query.get('folded') === '1' ? true : query.get('folded') === '0' ? false : null,
     };
 }
 

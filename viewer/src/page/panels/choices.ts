@@ -1,6 +1,6 @@
 // The head of the page: domain, moments, and what is shown.
 
-import { isRegion } from '../../wire/api';
+import { Region, isRegion } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
@@ -42,8 +42,10 @@ function putNotice(app: App): void {
         const ageS = sinceMs === undefined ? Infinity : (Date.now() - sinceMs) / 1000;
         return ageS < newsS ? [texts.notice.silent(site, ageS)] : [];
     });
-    const text = [app.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
+    const text = [app.isGraphicsLost ? texts.notice.noGraphics : '', app.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
     for (const id of ['notice', 'start-notice']) if (element(id).textContent !== text) element(id).textContent = text;
+    document.documentElement.classList.toggle('lost', app.isGraphicsLost);
+    element('reload').hidden = !app.isGraphicsLost;
     press('follow', app.player.follows && !app.isCutOff && silent.length === 0);
     const newest = app.player.times[app.player.times.length - 1];
     const isLive = newest !== undefined && Date.now() - Date.parse(newest) < 1000 * liveS;
@@ -51,10 +53,21 @@ function putNotice(app: App): void {
 }
 
 // When each site of a region was seen.
-function putSites({ sites }: FactsOfShown): void {
+function putSites(app: App, { sites }: FactsOfShown): void {
     const box = element('sites-told');
-    box.textContent = texts.start.sitesAt((sites ?? []).map(({ site, volumes }) => ({ site, middlesS: volumes.map(one => one.middle_s) })));
-    box.hidden = sites === null;
+    const { shown } = app;
+    const inPicture = shown?.loaded.grid.sites.map(site => site.icao) ?? [];
+    const ofSites = (sites ?? []).filter(({ site }) => inPicture.includes(site)).map(({ site, volumes }) => ({ site, middlesS: volumes.map(one => one.middle_s) }));
+    const region = shown && isRegion(shown.domain) ? (app.domain as Region).moments.find(one => one.moment === shown.moment) : undefined;
+    const without = region?.sites.filter(site => !inPicture.includes(site)) ?? [];
+    const told = [
+        texts.start.sitesAt(ofSites),
+        without.length > 0 ? texts.start.withoutVolume(without) : '',
+        region && region.left_out.length > 0 ? texts.start.withOtherCells(region.left_out) : '',
+        shown?.moment === 'VEL' && inPicture.length > 1 ? texts.start.ownVelocities : '',
+    ];
+    box.textContent = told.filter(Boolean).join('; ');
+    box.hidden = box.textContent === '';
 }
 
 export function addChoices(app: App, facts: FactsOfShown): void {
@@ -62,6 +75,8 @@ export function addChoices(app: App, facts: FactsOfShown): void {
     sites.id = 'sites-told';
     sites.hidden = true;
     element('title').after(sites);
+    element('notice').after(button('reload', texts.notice.reload, () => location.reload()));
+    element('reload').hidden = true;
     app.on('choices', () => putChoices(app));
     for (const happening of ['notice', 'time', 'shown', 'map'] as const) app.on(happening, () => putNotice(app));
     window.setInterval(() => {
@@ -70,8 +85,8 @@ export function addChoices(app: App, facts: FactsOfShown): void {
     }, againAfterMs);
     app.on('shown', () => {
         putTitle(app);
-        putSites(facts);
-        void facts.askSites().then(() => putSites(facts), () => undefined);
+        putSites(app, facts);
+        void facts.askSites().then(() => putSites(app, facts), () => undefined);
     });
     element<HTMLSelectElement>('domain').addEventListener('change', event => void app.chooseDomain((event.target as HTMLSelectElement).value));
 }

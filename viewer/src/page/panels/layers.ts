@@ -1,7 +1,7 @@
 // The panel of layers: what is drawn beside the map, and its keys.
 
 import { cutsOf, isChosen } from '../../fields/sweep_choice';
-import { Crop, Layers, isBelow, sectionOf, sectionText } from '../../scene/layers';
+import { Crop, Layers, isBelow, sectionOf, sectionText, veilsFolded } from '../../scene/layers';
 import { planeOf } from '../../scene/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
@@ -89,7 +89,7 @@ export class LayersPanel {
         this.addToggle('crop', words.crop, () => this.toggleCrop(), this.cropParts());
         this.addToggle('light', words.light, () => this.set({ isLit: !this.layers.isLit }));
         this.addToggle('haze', words.haze, () => this.set({ hasHaze: !this.layers.hasHaze }));
-        this.addToggle('folded', words.folded, () => this.set({ hasFolded: !this.layers.hasFolded }));
+        this.addToggle('folded', words.folded, () => this.set({ hasFolded: !this.hasFolded }));
     }
 
     private addToggle(name: string, text: string, act: () => void, parts?: HTMLElement[]): void {
@@ -175,12 +175,15 @@ export class LayersPanel {
         keys.add('b', () => this.toggleCrop());
         keys.add('g', () => this.set({ isLit: !this.layers.isLit }));
         keys.add('n', () => this.set({ hasHaze: !this.layers.hasHaze }));
-        keys.add('u', () => this.set({ hasFolded: !this.layers.hasFolded }));
+        keys.add('u', () => this.set({ hasFolded: !this.hasFolded }));
         keys.add('Escape', () => this.open(false));
     }
 
     // -- what they do
 
+    private get hasFolded(): boolean {
+        return veilsFolded(this.layers, this.app.state.moment);
+    }
     private get layers(): Layers {
         return this.app.state.layers;
     }
@@ -291,7 +294,7 @@ export class LayersPanel {
             crop: layers.crop !== null,
             light: layers.isLit,
             haze: layers.hasHaze,
-            folded: layers.hasFolded,
+            folded: this.hasFolded,
         };
         for (const [name, on] of Object.entries(isOn)) {
             element<HTMLInputElement>(`layer-${name}`).checked = on;

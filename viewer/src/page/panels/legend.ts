@@ -1,5 +1,6 @@
 // What the shades of the ground and of layers mean, and how much higher the picture is than the earth.
 
+import { veilsFolded } from '../../scene/layers';
 import { shades } from '../../renderer/shades';
 import { App } from '../app';
 import { element } from '../dom';
@@ -19,7 +20,7 @@ function rowsOf({ state, table }: App): Row[] {
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.legend.aloft, color: shades.seenAloft });
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.notSeen, isHatched: true });
     if (layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.haze });
-    const showsFolded = layers.hasFolded || layers.hasMaximum || layers.planeM !== null || layers.section !== null || layers.sweepDeg !== null;
+    const showsFolded = veilsFolded(layers, state.moment) || layers.hasMaximum || layers.planeM !== null || layers.section !== null || layers.sweepDeg !== null;
     if (showsFolded && table) rows.push({ text: texts.rangeFolded, color: table.range_folded });
     if (exaggeration !== 1) rows.push({ text: texts.legend.heights(exaggeration), color: null });
     return rows;

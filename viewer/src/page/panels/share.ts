@@ -1,6 +1,6 @@
 // Taking along what is shown: the address, the command that draws the same, the picture, the grid.
 
-import { beyondCommand } from '../../scene/layers';
+import { beyondCommand, veilsFolded } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
 import { commandOf } from '../../scene/view_state';
 import { address, gridPath, isRegion, rawNameBefore } from '../../wire/api';
@@ -85,7 +85,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     // The cut that is drawn, whichever rule has chosen it.
     const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
-    const notes = [state.layers.hasVolume ? '' : texts.commandFlat, state.layers.hasVolume && state.layers.hasFolded ? texts.commandWithoutFolded : ''];
+    const notes = [state.layers.hasVolume ? '' : texts.commandFlat, state.layers.hasVolume && veilsFolded(state.layers, moment) ? texts.commandWithoutFolded : ''];
     const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', raw ? texts.commandOf(raw) : texts.commandCopied);
     const file = editing.tomlForCommand();

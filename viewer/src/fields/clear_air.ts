@@ -1,0 +1,36 @@
+// Whether a grid of reflectivity shows clear air: there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less
+// than 60 km2, by the greatest values of columns (render/view/echo_outline.h).
+
+import { cellSizeM } from '../scene/projection';
+import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
+
+const limits = [
+    { dbz: 20, km2: 150 },
+    { dbz: 30, km2: 60 },
+];
+
+// Storms are known after a few bricks.
+export function isClearAir(grid: PackedGrid): boolean {
+    const [width, height] = cellSizeM(grid);
+    const cellKm2 = (width * height) / 1e6;
+    const edge = grid.brickEdge;
+    const leastCodes = limits.map(({ dbz }) => firstValueCode + Math.ceil((dbz - valueOf(grid, firstValueCode)) / grid.step));
+    const reached = new Uint8Array(grid.nx * grid.ny); // how many of the limits a column reaches
+    const km2 = [0, 0];
+    let hasEcho = false;
+    grid.kind.forEach((kind, brick) => {
+        if (kind !== BrickKind.codes) return;
+        hasEcho = true;
+        if (grid.greatestCode[brick]! < leastCodes[0]!) return;
+        const column = Math.floor(brick / grid.bricks[2]);
+        const [x0, y0] = [Math.floor(column / grid.bricks[1]) * edge, (column % grid.bricks[1]) * edge];
+        const from = grid.block[brick]! * edge ** 3;
+        for (let i = 0; i < edge ** 3; ++i) {
+            const code = grid.codes[from + i]!;
+            if (code < leastCodes[0]!) continue;
+            const at = (y0 + (Math.floor(i / edge) % edge)) * grid.nx + x0 + Math.floor(i / edge ** 2);
+            while (reached[at]! < limits.length && code >= leastCodes[reached[at]!]!) km2[reached[at]++]! += cellKm2;
+        }
+    });
+    return hasEcho && limits.every((limit, i) => km2[i]! < limit.km2);
+}
