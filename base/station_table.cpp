@@ -252,6 +252,28 @@ constexpr bool is_letter_or_digit(char c) {
     return is_letter(c) || (c >= '0' && c <= '9');
 }
 
+constexpr std::size_t icao_letters = 4;
+
+std::string_view without_number_of_ncei(std::string_view name) {
+    constexpr std::string_view of_ncei = "6500";
+    if (name.starts_with(of_ncei)) name.remove_prefix(of_ncei.size());
+    return name;
+}
+
+// Returns the known station with which a text begins.
+std::string known_at_start(std::string_view text) {
+    const auto icao = icao_of(text.substr(0, icao_letters));
+    return icao && find_station(*icao) ? *icao : std::string{};
+}
+
+// Returns the known station that a word is, or with which it begins before a date.
+std::string known_in_word(std::string_view word) {
+    word = without_number_of_ncei(word);
+    const bool goes_on = word.size() > icao_letters;
+    if (goes_on && (word[icao_letters] < '0' || word[icao_letters] > '9')) return {};
+    return known_at_start(word);
+}
+
 }  // namespace
 
 std::span<const Station> all_stations() {
@@ -276,10 +298,18 @@ std::optional<Station> find_station(std::string_view icao) {
 }
 
 std::string station_in_name(std::string_view file_name) {
-    constexpr std::string_view of_ncei = "6500";
-    if (file_name.starts_with(of_ncei)) file_name.remove_prefix(of_ncei.size());
-    const auto icao = icao_of(file_name.substr(0, 4));
-    return icao && find_station(*icao) ? *icao : std::string{};
+    std::string found = known_at_start(without_number_of_ncei(file_name));
+    if (!found.empty()) return found;
+    constexpr std::string_view in_words =
+        "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    while (!file_name.empty()) {
+        const std::size_t end = std::min(file_name.find_first_not_of(in_words), file_name.size());
+        const std::string named = known_in_word(file_name.substr(0, end));
+        if (!named.empty() && !found.empty() && named != found) return {};
+        if (!named.empty()) found = named;
+        file_name.remove_prefix(std::min(end + 1, file_name.size()));
+    }
+    return found;
 }
 
 void set_added_stations(std::vector<AddedStation> stations_to_add) {

@@ -197,5 +197,19 @@ TEST(IsIcao, RefusesEveryOtherByte) {
     }
 }
 
+TEST(StationTable, AFileIsNamedAfterItsStation) {
+    for (const char* name :
+         {"KTLX20240601_220000_V06", "KTLX_any", "ktlx.gz", "6500KTLX19910720_160529.Z",
+          "Level2_KTLX_19990503_2356.ar2v", "19990503_235621_KTLX.gz", "NEXRAD_KTLX.dat",
+          "L2-BZIP2_KTLX_20150908215946_494_43_I_V06_0", "copy of ktlx20240601_220000",
+          "KTLX and again KTLX"}) {
+        EXPECT_EQ(station_in_name(name), "KTLX") << name;
+    }
+    for (const char* name : {"", "20240601-220000-001-S", "storm.ar2v", "XKTLX.gz", "old-KTLXX.gz",
+                             "from_KTLX_and_KFDR.tar", "..."}) {
+        EXPECT_EQ(station_in_name(name), "") << name;
+    }
+}
+
 }  // namespace
 }  // namespace stormcellar

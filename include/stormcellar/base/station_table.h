@@ -37,8 +37,10 @@ struct Station {
 [[nodiscard]] std::optional<Station> find_station(std::string_view icao);
 
 // Returns the station that a file name begins with, as in KTLX20240601_220000_V06, or as in NCEI's
-// names, 6500KTLX19910720_160529.Z, in upper or lower case. Returns an empty text if find_station()
-// does not know the station.
+// names, 6500KTLX19910720_160529.Z; or else the one that a word of the name is, as in
+// Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or begins with before a date. Upper
+// and lower case are alike. Returns an empty text if find_station() knows none of these, or if
+// words name different stations.
 [[nodiscard]] std::string station_in_name(std::string_view file_name);
 
 // A station that a configuration or a command line adds to the table. A station that the table has
