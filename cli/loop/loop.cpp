@@ -296,6 +296,12 @@ Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
         return fail(ErrorCode::bad_argument,
                     "--all-elevations shows all sweeps; leave out --elevation and --sweep");
     }
+    if (options.repeats &&
+        (options.all_elevations || scene.sweep_number != render::Scene::no_number)) {
+        return fail(ErrorCode::bad_argument,
+                    "--repeats shows the sweeps of one elevation; leave out --all-elevations "
+                    "and --sweep");
+    }
     return {};
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,13 +48,14 @@ struct SweepFrame {
     std::size_t volume = 0;
     double elevation_deg = render::Scene::lowest_sweep;
     UtcTime time;
+    std::optional<UtcTime> nearest_to;  // of several sweeps of the elevation; none: the newest
 };
 
 // What the frames share, and the volume that was decoded last.
 struct SweepDrawing {
     GridOptions grid;
     render::Scene scene;
-    bool all_elevations = false;
+    bool all_elevations = false, repeats = false;
     std::optional<std::size_t> decoded;
     std::optional<SweptVolume> volume;
     std::optional<grid::GridSpec> plane;  // of the first frame
@@ -160,16 +162,45 @@ void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
 }
 
 // Returns the sweep on the plane of the first.
-Result<PictureGrid> sweep_of(const SweptVolume& volume, double elevation_deg,
-                             SweepDrawing& drawing) {
-    drawing.scene.elevation_deg = elevation_deg;
+Result<PictureGrid> sweep_of(SweptVolume volume, const SweepFrame& frame, SweepDrawing& drawing) {
+    drawing.scene.elevation_deg = frame.elevation_deg;
+    if (frame.nearest_to) volume.request.frame_time = frame.nearest_to;
     if (!drawing.plane) {
         const auto first = PictureGrid::of_sweep(volume, drawing.scene);
         if (!first) return pass_on(first);
         drawing.plane = first->description().spec;
         if (drawing.all_elevations) limit_plane(volume, *drawing.plane);
     }
-    return PictureGrid::of_sweep(volume, drawing.scene, &*drawing.plane);
+    return PictureGrid::of_sweep(std::move(volume), drawing.scene, &*drawing.plane);
+}
+
+// Returns the middle of each sweep's time, rising.
+std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
+    std::vector<UtcTime> times;
+    for (const level2::Sweep& sweep : volume.source().volume.sweeps) {
+        const UtcTime start = sweep.radials.front().time, end = sweep.radials.back().time;
+        if (sweep.find(volume.request.moment) != nullptr)
+            times.push_back(start + (end - start) / 2);
+    }
+    std::ranges::sort(times);
+    return times;
+}
+
+// Returns the frames that a volume may have. With --repeats each sweep asks for the one of the
+// elevation that is nearest to it in time, which several sweeps may have in common.
+std::vector<SweepFrame> frames_to_try(std::size_t number, const SweptVolume& volume,
+                                      double asked_deg, const SweepDrawing& drawing) {
+    std::vector<SweepFrame> frames;
+    if (drawing.all_elevations) {
+        for (const double elevation_deg : elevations_of(volume))
+            frames.push_back({number, elevation_deg, {}, {}});
+    } else if (drawing.repeats) {
+        for (const UtcTime time : times_of_sweeps(volume))
+            frames.push_back({number, asked_deg, {}, time});
+    } else {
+        frames.push_back({number, asked_deg, {}, {}});
+    }
+    return frames;
 }
 
 // Finds the frames of each volume; what cannot be read is left out and named.
@@ -187,15 +218,17 @@ std::vector<SweepFrame> frames_of(const SweepSources& sources, const std::atomic
             leave_out(i, volume.error());
             continue;
         }
-        const std::vector<double> elevations =
-            drawing.all_elevations ? elevations_of(**volume) : std::vector{asked_deg};
-        for (const double elevation_deg : elevations) {
-            const auto sweep = sweep_of(**volume, elevation_deg, drawing);
-            if (sweep) {
-                frames.push_back({i, elevation_deg, sweep->description().time});
-            } else {
+        std::set<UtcTime> taken;
+        for (SweepFrame& frame : frames_to_try(i, **volume, asked_deg, drawing)) {
+            const auto sweep = sweep_of(**volume, frame, drawing);
+            if (!sweep) {
                 leave_out(i, sweep.error());
+                if (frame.nearest_to) break;  // no sweep is near the elevation
+                continue;
             }
+            frame.time = sweep->description().time;
+            if (frame.nearest_to && !taken.insert(frame.time).second) continue;
+            frames.push_back(frame);
         }
     }
     return frames;
@@ -206,7 +239,7 @@ Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const Lo
     const auto start = steady_now();
     const auto volume = volume_of(sources, frame.volume, drawing);
     if (!volume) return pass_on(volume);
-    const auto sweep = sweep_of(**volume, frame.elevation_deg, drawing);
+    const auto sweep = sweep_of(**volume, frame, drawing);
     if (!sweep) return pass_on(sweep);
     report.read_s += seconds_since(start);
     const auto read = steady_now();
@@ -227,7 +260,7 @@ Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>&
                      SweepDrawing& drawing, LoopOptions& options) {
     const auto volume = volume_of(sources, frames.front().volume, drawing);
     if (!volume) return pass_on(volume);
-    const auto sweep = sweep_of(**volume, frames.front().elevation_deg, drawing);
+    const auto sweep = sweep_of(**volume, frames.front(), drawing);
     if (!sweep) return pass_on(sweep);
     if (options.domain.empty()) options.domain = sweep->name();
     const auto facts =
@@ -292,6 +325,7 @@ int run_sweep_loop(LoopOptions options, const render::Scene& scene, Interrupt& i
     drawing.grid.threads = render::thread_count(options.scene);
     drawing.scene = scene;
     drawing.all_elevations = options.all_elevations;
+    drawing.repeats = options.repeats;
     LoopReport report;
     auto frames = frames_of(*sources, interrupt.flag(), drawing, report);
     if (interrupt.flag()) return end_interrupted(interrupt);

@@ -302,6 +302,13 @@ constexpr std::array option_rows{
                   .value = FlagValue{.field = [](To to) { return &to.loop->all_elevations; }},
                   .used_by = by_ppi,
                   .help = "Show each elevation of each volume, from the lowest up"},
+    PictureOption{.option = "--repeats",
+                  .section = "loop",
+                  .key = "repeats",
+                  .value = FlagValue{.field = [](To to) { return &to.loop->repeats; }},
+                  .used_by = by_ppi,
+                  .help = "Show each sweep that a volume has at the elevation, in order of time, "
+                          "where the radar repeats it (SAILS, MRLE). Default: the newest"},
     PictureOption{.option = "--ping-pong",
                   .section = "loop",
                   .key = "ping_pong",

@@ -55,6 +55,7 @@ struct LoopChoices {
     double orbit_deg = 0;  // how far the camera moves around the grid during the loop
     bool ping_pong = false;
     bool all_elevations = false;  // of a ppi, a frame for each elevation of each volume
+    bool repeats = false;         // of a ppi, a frame for each sweep of the elevation
     AnimationOptions animation;
 };
 

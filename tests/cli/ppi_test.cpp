@@ -136,6 +136,28 @@ TEST_F(Ppi, ALoopGoesThroughTheElevations) {
     EXPECT_EQ(nlohmann::json::parse(by_scene.out)["frames"], 8);
 }
 
+// The lowest two angles of this volume came twice (MRLE), each as a split cut.
+TEST_F(Ppi, ALoopShowsEachSweepThatTheRadarRepeated) {
+    const std::string chunks = (data_ / "chunks/L2D_230").native();
+    const auto loop = [&](std::vector<std::string> words) {
+        words.insert(words.begin(),
+                     {"loop", chunks, "--product", "ppi", "--width", "400", "--height", "300",
+                      "--cache", out("own"), "--json", "--quiet", "-o", out("frames/")});
+        const auto made = run(words);
+        EXPECT_EQ(made.status, 0) << made.err;
+        return nlohmann::json::parse(made.out);
+    };
+    EXPECT_EQ(loop({})["frames"], 1);
+    const auto repeats = loop({"--repeats"});
+    EXPECT_EQ(repeats["frames"], 2);
+    EXPECT_EQ(repeats["from"].get<std::string>().substr(0, 16), "2021-07-29T12:38");
+    EXPECT_GT(repeats["to"], repeats["from"]);
+    EXPECT_EQ(loop({"--repeats", "--moment", "VEL", "--elevation", "0.9"})["frames"], 2);
+    EXPECT_EQ(loop({"--repeats", "--elevation", "1.3"})["frames"], 1);
+    std::ofstream(directory_ / "low.toml") << "[loop]\nrepeats = true\n";
+    EXPECT_EQ(loop({"--scene", out("low.toml")})["frames"], 2);
+}
+
 TEST_F(Ppi, ALoopGoesThroughTheVolumesOfFilesAndOfADomain) {
     const auto made =
         run({"loop", (data_ / "sequence-kbgm").native(), "--product", "ppi", "--cache", out("own"),
@@ -165,6 +187,8 @@ TEST_F(Ppi, ALoopRefusesWhatMakesNoSense) {
                 HasSubstr("--all-elevations is for ppi"));
     EXPECT_THAT(refused({"--product", "ppi", "--all-elevations", "--elevation", "1"}),
                 HasSubstr("leave out --elevation"));
+    EXPECT_THAT(refused({"--product", "ppi", "--all-elevations", "--repeats"}),
+                HasSubstr("--repeats shows the sweeps of one elevation"));
     EXPECT_THAT(refused({"--product", "ppi", "--interval", "60"}), HasSubstr("--interval"));
     EXPECT_THAT(refused({"--product", "ppi", "--frames", "50"}), HasSubstr("--frames"));
 }
