@@ -50,6 +50,8 @@ const fs::path& CatalogReader::directory() const {
 
 Status admit_existing(const fs::path& directory, StationRule& rule) {
     if (rule.kind() != StationRule::Kind::any) return {};
+    std::error_code ignored;
+    if (!fs::exists(directory, ignored)) return {};
     auto names = database_names(directory);
     if (!names) return pass_on(names);
     std::vector<std::pair<fs::file_time_type, std::string>> by_time;

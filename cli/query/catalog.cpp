@@ -29,7 +29,7 @@ struct CatalogOptions {
     TimeRangeOptions times;
     bool rejected = false;
     bool json = false;
-    std::string stations = "known";
+    std::string stations;  // empty: see set_up_catalog()
     bool clear_unknown = false;
     GetOptions get;
 };
@@ -233,6 +233,22 @@ CLI::App* add_get(CLI::App& command, CatalogOptions& options, const std::string&
     return get;
 }
 
+void add_care_options(CLI::App& check, CLI::App& rebuild, const std::string& station_help,
+                      CatalogOptions& options) {
+    for (CLI::App* one : {&check, &rebuild})
+        one->add_option("--station", options.station, station_help + ". Default: all radars");
+    for (CLI::App* one : {&check, &rebuild})
+        one->add_option("--stations", options.stations,
+                        "Stations that may have a database: known (those in the station table), "
+                        "any, or a list such as known,XABC. Default: known; for rebuild with "
+                        "--catalog and --drop, any");
+    check.add_flag("--clear-unknown", options.clear_unknown,
+                   "First remove the databases of all other stations (only while no daemon runs)");
+    rebuild.add_option("--drop", options.drop,
+                       "The drop directory, into which LDM writes the raw files. Default: that of "
+                       "the service");
+}
+
 }  // namespace
 
 Run set_up_catalog(CLI::App& command) {
@@ -256,21 +272,15 @@ Run set_up_catalog(CLI::App& command) {
     CLI::App* rebuild =
         add_query(command, *options, "rebuild",
                   "Set damaged databases aside and register the files in the drop directory");
-    for (CLI::App* one : {check, rebuild})
-        one->add_option("--station", options->station, station_help + ". Default: all radars");
-    for (CLI::App* one : {check, rebuild})
-        one->add_option("--stations", options->stations,
-                        "Stations that may have a database: known (those in the station table), "
-                        "any, or a list such as known,XABC");
-    check->add_flag("--clear-unknown", options->clear_unknown,
-                    "First remove the databases of all other stations (only while no daemon runs)");
-    rebuild->add_option("--drop", options->drop,
-                        "The drop directory, into which LDM writes the raw files. Default: that of "
-                        "the service");
+    add_care_options(*check, *rebuild, station_help, *options);
     for (CLI::App* one : {stations, list, latest, oldest, check, rebuild})
         one->add_flag("--json", options->json, "Print one JSON document");
 
     return [=] {
+        // Whoever names both makes a catalog of files of their own, not that of the service.
+        const bool is_own =
+            rebuild->parsed() && !options->place.directory.empty() && !options->drop.empty();
+        if (options->stations.empty()) options->stations = is_own ? "any" : "known";
         if (Status found = options->place.find(); !found) return report_error(found.error());
         if (stations->parsed()) return run_stations(*options);
         if (list->parsed()) return run_list(*options);
