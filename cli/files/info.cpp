@@ -1,4 +1,4 @@
-// stormcellar info FILE [--json] [--to OUT.nc]: decodes a Level II file and describes it.
+// stormcellar info FILE... [--json] [--to OUT.nc]: decodes a Level II file and describes it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/files/volume_export.h"
@@ -24,7 +25,7 @@ namespace stormcellar::cli {
 namespace {
 
 struct InfoOptions {
-    std::string file;
+    std::vector<std::string> files;
     bool json = false;
     int threads = 0;  // 0: as many as the machine has
     std::string to;   // CfRadial file to write; empty: none
@@ -151,16 +152,11 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
     print_problems(report);
 }
 
-// For a directory: the sum of the files in it.
-std::uintmax_t size_of(const std::filesystem::path& path) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(path, error)) {
-        const auto size = std::filesystem::file_size(path, error);
-        return error ? 0 : size;
-    }
+std::uintmax_t size_of(const std::vector<std::filesystem::path>& chunks) {
     std::uintmax_t sum = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
-        const auto size = entry.file_size(error);
+    for (const std::filesystem::path& chunk : chunks) {
+        std::error_code error;
+        const auto size = std::filesystem::file_size(chunk, error);
         if (!error) sum += size;
     }
     return sum;
@@ -169,8 +165,9 @@ std::uintmax_t size_of(const std::filesystem::path& path) {
 // Checks before long work that the CfRadial file can be written.
 Status check_output(const InfoOptions& options) {
     if (options.to.empty()) return {};
-    std::error_code ignored;
-    if (std::filesystem::equivalent(options.file, options.to, ignored)) {
+    for (const std::string& file : options.files) {
+        std::error_code ignored;
+        if (!std::filesystem::equivalent(file, options.to, ignored)) continue;
         return fail(ErrorCode::bad_argument, "{}: this is the input file itself; name another file",
                     options.to);
     }
@@ -178,31 +175,32 @@ Status check_output(const InfoOptions& options) {
                              options.json);
 }
 
-// Returns the number of the volume that is to be written, from 0.
-Result<std::size_t> chosen_volume(const InfoOptions& options, std::size_t count) {
+// Returns the number of the volume that is to be written, from 0. Of chunks one volume was decoded.
+Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& file,
+                                  std::size_t count) {
+    if (!file.chunks.empty() && count == 1) return 0;
     if (options.volume == 0 && count > 1) {
         return fail(ErrorCode::bad_argument,
-                    "{}: holds {} volumes; choose one with --volume 1 to {}", options.file, count,
+                    "{}: holds {} volumes; choose one with --volume 1 to {}", file.label, count,
                     count);
     }
     const auto number = static_cast<std::size_t>(std::max(options.volume, 1));
     if (number > count) {
         return fail(ErrorCode::bad_argument, "--volume {}: {} holds only {} volume{}", number,
-                    options.file, count, count == 1 ? "" : "s");
+                    file.label, count, count == 1 ? "" : "s");
     }
     return number - 1;
 }
 
-Status write_chosen(const InfoOptions& options, const std::string& source,
-                    level2::Decoded decoded) {
+Status write_chosen(const InfoOptions& options, const InputFile& file, level2::Decoded decoded) {
     const level2::DecodeReport report = decoded.report;
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
-    const auto chosen = chosen_volume(options, volumes.size());
+    const auto chosen = chosen_volume(options, file, volumes.size());
     if (!chosen) return pass_on(chosen);
     auto output = OutputFile::open(options.to);
     if (!output) return pass_on(output);
-    Status written =
-        export_volume(volumes, *chosen, report, source, output->path(), options.own_ranges);
+    Status written = export_volume(volumes, *chosen, report, file.file_name(), output->path(),
+                                   options.own_ranges);
     return written ? output->finish() : written;
 }
 
@@ -216,17 +214,18 @@ Result<nlohmann::ordered_json> run_one(const InfoOptions& options, InputFiles& i
     auto decoded = inputs.decode(file, decode_options, &size);
     if (!decoded) return pass_on(decoded);
     if (Status applied = apply_site(site, decoded->volume); !applied) return pass_on(applied);
-    if (size == 0) size = size_of(file.path);
+    if (size == 0) size = size_of(file.chunks);
     const level2::FileFacts facts{file.file_name(), size};
     auto json = options.json ? level2::describe(*decoded, facts) : nlohmann::ordered_json{};
     if (!options.to.empty()) {
         const std::size_t count = decoded->report.further_volume_starts.size() + 1;
-        if (const auto chosen = chosen_volume(options, count); !chosen) return pass_on(chosen);
+        if (const auto chosen = chosen_volume(options, file, count); !chosen)
+            return pass_on(chosen);
     }
     const bool is_taken = options.json || is_stdout(options.to);
     if (!is_taken) print_facts(*decoded, facts);
     if (!options.to.empty()) {
-        const Status written = write_chosen(options, file.file_name(), std::move(*decoded));
+        const Status written = write_chosen(options, file, std::move(*decoded));
         if (!written) return pass_on(written);
         json["written"] = options.to;
         if (!is_taken) fmt::print("\n{}: written as CfRadial\n", printable(options.to));
@@ -238,15 +237,22 @@ int run_info(const InfoOptions& options) {
     if (const Status good = check_output(options); !good) return report_error(good.error());
     const auto site = parse_site(options.site);
     if (!site) return report_error(site.error());
-    auto inputs = InputFiles::find({options.file});
+    const std::string names = fmt::format("{}", fmt::join(options.files, ", "));
+    auto inputs = InputFiles::find(options.files, options.volume);
     if (!inputs) return report_error(inputs.error());
     for (const std::string& one : inputs->left_out())
         print_note(fmt::format("left out: {}", one));
     const auto& files = inputs->files();
+    const bool is_of_chunks = files.size() == 1 && !files.front().chunks.empty();
+    if (options.volume > 0 && options.to.empty() && !is_of_chunks) {
+        return report_error({ErrorCode::bad_argument,
+                             "--volume chooses what --to writes, or one of the volumes of which a "
+                             "directory has chunks"});
+    }
     if (!options.to.empty() && files.size() > 1) {
         return report_error({ErrorCode::bad_argument,
-                             fmt::format("{}: holds {} files; name one of them, such as {}",
-                                         options.file, files.size(), files.front().label)});
+                             fmt::format("{}: holds {} files; name one of them, such as {}", names,
+                                         files.size(), files.front().label)});
     }
     nlohmann::ordered_json document;
     int status = exit_done;
@@ -275,9 +281,9 @@ int run_info(const InfoOptions& options) {
         fmt::print("{}\n", document.dump(1, ' ', true, replace));
     }
     if (!any && status == exit_done) {
-        return report_error({ErrorCode::not_level2,
-                             fmt::format("{}: none of its {} {} is a Level II file", options.file,
-                                         files.size(), plural(files.size(), "file"))});
+        return report_error(
+            {ErrorCode::not_level2, fmt::format("{}: none of its {} {} is a Level II file", names,
+                                                files.size(), plural(files.size(), "file"))});
     }
     for (const std::string& one : no_volumes)
         print_note(fmt::format("left out: {}", one));
@@ -288,18 +294,20 @@ int run_info(const InfoOptions& options) {
 
 Run set_up_info(CLI::App& info) {
     const auto options = std::make_shared<InfoOptions>();
-    info.add_option("FILE", options->file,
-                    "The file to describe: a Level II file, a directory of chunks, or - for "
+    info.add_option("FILE", options->files,
+                    "The files to describe: Level II files, a directory of chunks, or - for "
                     "standard input. For a tar or zip archive or a directory of files, each file "
-                    "is described. The content of a file decides what it is")
+                    "is described. Chunks that are named one by one are put together. The content "
+                    "of a file decides what it is")
         ->required();
     info.add_flag("--json", options->json, "Print one JSON document");
     CLI::Option* to = info.add_option("--to", options->to,
                                       "Also write the volume to this file as CfRadial netCDF");
     info.add_option("--volume", options->volume,
-                    "Number of the volume to write, from 1, if the file holds several")
-        ->check(CLI::Range(1, 1000))
-        ->needs(to);
+                    "Number of the volume, from 1: the one to write if the file holds several, or "
+                    "the one to describe if a directory has chunks of several (default: the "
+                    "newest)")
+        ->check(CLI::Range(1, 1000));
     add_own_ranges(info, options->own_ranges)->needs(to);
     add_site_options(info, options->site);
     info.add_option("--threads", options->threads,

@@ -298,8 +298,12 @@ std::vector<level2::Moment> GridRequest::moments() const {
 }
 
 Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options) {
-    auto inputs = InputFiles::find(options.files);
+    auto inputs = InputFiles::find(options.files, options.volume);
     if (!inputs) return pass_on(inputs);
+    if (options.volume > 0 && inputs->files().size() > 1) {
+        return fail(ErrorCode::bad_argument, "--volume chooses a volume of one file, not of {}",
+                    inputs->files().size());
+    }
     options.files = inputs->labels();
     for (const std::string& one : inputs->left_out())
         print_note(fmt::format("left out: {}", one));
@@ -319,6 +323,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     auto site = parse_site(options.site);
     if (!site) return pass_on(site);
     request.site = std::move(*site);
+    request.volume = options.volume;
     if (auto done = parse_beside(options, request); !done) return pass_on(done);
     request.threads = options.threads > 0
                           ? options.threads
@@ -361,6 +366,7 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
            fmt::format("The file to write, as {}; - writes {} to standard output",
                        grid_export::known_grid_formats(), grid_export::grid_formats().front().name))
         ->required();
+    add_volume_option(app, options);
     add_spec_options(app, options);
     app.add_option("--time", options.time,
                    "Time of the grid in UTC (ISO 8601). With one FILE, the grid uses the sweeps "
@@ -373,6 +379,13 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
                    "age (s), height_offset (m above the nearest beam), distance (m to the nearest "
                    "gate) and weight (the share that was seen). For several FILEs: counts (how "
                    "many sites see a cell) and weights (the sum of their weights)");
+}
+
+void add_volume_option(CLI::App& app, GridOptions& options) {
+    app.add_option("--volume", options.volume,
+                   "Number of the volume, from 1, if FILE holds several or is a directory with "
+                   "chunks of several. Default: the first with the moment; of chunks, the newest")
+        ->check(CLI::Range(1, 1000));
 }
 
 void add_place_options(CLI::App& app, GridOptions& options) {

@@ -37,6 +37,7 @@ struct GridOptions {
     bool takes_moments = false;  // --moment may name several, or all
     std::string time, fields;
     SiteOptions site;
+    int volume = 0;   // its number, from 1; 0: see add_volume_option()
     int threads = 0;  // 0: as many as the machine has
     bool json = false;
 };
@@ -46,6 +47,8 @@ struct GridOptions {
 void add_grid_options(CLI::App& app, GridOptions& options);
 // Adds the options for the place of the grid, and its cells and levels.
 void add_place_options(CLI::App& app, GridOptions& options);
+// Adds --volume, which chooses one of the volumes of a file, or of a directory of chunks.
+void add_volume_option(CLI::App& app, GridOptions& options);
 // Adds the options for the grid, the moment and the number of threads.
 void add_spec_options(CLI::App& app, GridOptions& options);
 
@@ -70,6 +73,7 @@ struct GridRequest {
     bool site_counts = false;           // of several files
     bool site_weights = false;
     SiteRequest site;  // for every file
+    int volume = 0;    // of the one file, from 1; 0: the first, or of chunks the newest
     // The files that the names refer to; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;
     int threads = 1;

@@ -33,9 +33,8 @@ Result<ReadVolume> read_and_decode(InputFiles& inputs, const InputFile& file,
                                    const grid::SourceWish& wish) {
     Stopwatch watch;
     const level2::DecodeOptions options = grid::decode_options_of(wish, file.file_name());
-    std::error_code ignored;
-    if (file.member.empty() && std::filesystem::is_directory(file.path, ignored)) {
-        auto joined = level2::decode_path(file.path, options);
+    if (!file.chunks.empty()) {
+        auto joined = level2::decode_chunks(file.chunks, options);
         if (!joined) return pass_on(joined);
         return ReadVolume{std::move(*joined), 0, watch.lap_s()};
     }
@@ -53,7 +52,7 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
                                  const ChooseCuts& choose_cuts) {
     std::shared_ptr<InputFiles> inputs = request.inputs;
     if (!inputs) {
-        auto found = InputFiles::find({file});
+        auto found = InputFiles::find({file}, request.volume);
         if (!found) return pass_on(found);
         inputs = std::make_shared<InputFiles>(std::move(*found));
     }
@@ -62,7 +61,11 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
     if (named == files.end()) {
         return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
     }
-    const grid::SourceWish wish = wish_of(request, choose_cuts);
+    grid::SourceWish wish = wish_of(request, choose_cuts);
+    // Of a directory with chunks, the volume was chosen when its files were found.
+    if (named->chunks.empty()) wish.volume = request.volume;
+    // Without some cuts, a volume may have no sweep, and would not be counted.
+    if (wish.volume > 0) wish.choose_cuts = {};
     auto read = read_and_decode(*inputs, *named, wish);
     if (!read) return pass_on(read);
     auto source = grid::take_source(std::move(read->decoded), file, wish);

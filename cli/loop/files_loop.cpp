@@ -39,41 +39,30 @@ struct NamedFiles {
     std::vector<fs::path> all;  // with the chunks of these, sorted
 };
 
-Status add_chunks(const fs::path& directory, std::vector<fs::path>& all) {
-    std::error_code error;
-    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
-         entry.increment(error)) {
-        std::error_code ignored;
-        if (entry->is_regular_file(ignored)) all.push_back(entry->path());
-    }
-    if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
-    return {};
-}
-
 Result<NamedFiles> find_files(const std::vector<std::string>& names) {
     if (std::ranges::find(names, "-") != names.end()) {
         return fail(ErrorCode::bad_argument,
                     "a loop reads its files twice, so it cannot take them from standard input");
     }
-    const auto inputs = InputFiles::find(names);
+    const auto inputs = InputFiles::find(names, InputFiles::all);
     if (!inputs) return pass_on(inputs);
     for (const std::string& one : inputs->left_out())
         print_note(fmt::format("left out: {}", one));
     NamedFiles files;
+    std::set<fs::path> all;
     for (const InputFile& file : inputs->files()) {
         std::error_code error;
         const fs::path path = fs::canonical(file.path, error);
         if (error) {
             return fail(ErrorCode::not_found, "{}: {}", file.path.native(), error.message());
         }
-        if (!files.named.insert(path).second) continue;
-        if (!fs::is_directory(path, error)) {
-            files.all.push_back(path);
-        } else if (auto added = add_chunks(path, files.all); !added) {
-            return pass_on(added);
-        }
+        files.named.insert(path);
+        if (file.chunks.empty()) all.insert(path);
+        // They lie in the directory that is the path.
+        for (const fs::path& chunk : file.chunks)
+            all.insert(path / chunk.filename());
     }
-    std::ranges::sort(files.all);
+    files.all.assign(all.begin(), all.end());
     return files;
 }
 

@@ -32,6 +32,7 @@ struct PictureGrid::Swept {
 
 void add_picture_grid_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
+    add_volume_option(app, options);
     add_site_options(app, options.site);
 }
 
@@ -40,7 +41,7 @@ bool has_picture_grid_options(const GridOptions& options) {
     return !options.center.empty() || options.projection != usual.projection ||
            !options.parallels.empty() || !options.extent_km.empty() ||
            !options.extent_deg.empty() || options.spacing_km || options.spacing_deg ||
-           !options.levels_km.empty() || !options.site.station.empty() ||
+           !options.levels_km.empty() || options.volume > 0 || !options.site.station.empty() ||
            !options.site.position.empty();
 }
 

@@ -15,19 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A directory is one whose files are the chunks of a volume.
-Status add_file_or_chunks(const fs::path& path, std::set<fs::path>& files) {
+Status add_file(const fs::path& file, std::set<fs::path>& files) {
     std::error_code error;
-    if (!fs::is_directory(path, error)) {
-        files.insert(path);
-        return {};
-    }
-    for (fs::directory_iterator entry(path, error), end; !error && entry != end;
-         entry.increment(error)) {
-        std::error_code ignored;
-        if (entry->is_regular_file(ignored)) files.insert(entry->path());
-    }
-    if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
+    const fs::path path = fs::canonical(file, error);
+    if (error) return fail(ErrorCode::not_found, "{}: {}", file.native(), error.message());
+    files.insert(path);
     return {};
 }
 
@@ -47,16 +39,17 @@ Result<std::vector<fs::path>> files_to_serve(const std::vector<std::string>& nam
         return fail(ErrorCode::bad_argument,
                     "raw files are served from where they are, so standard input cannot be served");
     }
-    const auto inputs = InputFiles::find(names);
+    const auto inputs = InputFiles::find(names, InputFiles::all);
     if (!inputs) return pass_on(inputs);
     for (const std::string& one : inputs->left_out())
         print_note(fmt::format("left out: {}", one));
     std::set<fs::path> files;
     for (const InputFile& file : inputs->files()) {
-        std::error_code error;
-        const fs::path path = fs::canonical(file.path, error);
-        if (error) return fail(ErrorCode::not_found, "{}: {}", file.path.native(), error.message());
-        if (Status added = add_file_or_chunks(path, files); !added) return pass_on(added);
+        std::vector<fs::path> paths = file.chunks;
+        if (paths.empty()) paths.push_back(file.path);
+        for (const fs::path& path : paths) {
+            if (Status added = add_file(path, files); !added) return pass_on(added);
+        }
     }
     return std::vector<fs::path>(files.begin(), files.end());
 }

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "cli/shared/commands.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/file_system.h"
@@ -75,13 +76,15 @@ bool is_hidden(const fs::path& path) {
     return path.filename().native().starts_with('.');
 }
 
-bool holds_chunks(const fs::path& directory) {
+// Returns the directory and the part of the name that the chunks of one volume have in common;
+// empty for any other file.
+fs::path volume_of_chunk(const std::string& name) {
+    const fs::path path{name};
+    const std::string file = path.filename().native();
+    const auto placed = level2::place_chunk_name(file);
     std::error_code error;
-    for (fs::directory_iterator entry{directory, error}, end; !error && entry != end;
-         entry.increment(error)) {
-        if (level2::parse_chunk_name(entry->path().filename().native())) return true;
-    }
-    return false;
+    if (!placed || !fs::is_regular_file(path, error)) return {};
+    return path.parent_path() / file.substr(0, placed->number_at);
 }
 
 }  // namespace
@@ -100,9 +103,13 @@ struct InputFiles::Impl {
     std::unique_ptr<OpenArchive> open;
     fs::path open_path;
 
+    int volume = InputFiles::newest;
+
     Status add(const std::string& name);
     Status add_piped(const std::string& label, const fs::path& path, int descriptor);
     Status add_directory(const fs::path& directory);
+    Status add_chunks(const fs::path& directory, const std::vector<level2::ChunkSet>& sets);
+    void add_named_chunks(std::vector<std::string>& names);
     // Returns false if the file is no archive.
     bool add_archive(const std::string& label, const fs::path& path);
     Result<std::vector<std::byte>> read_member(const InputFile& file);
@@ -139,11 +146,53 @@ Status InputFiles::Impl::add_piped(const std::string& label, const fs::path& pat
     return {};
 }
 
-Status InputFiles::Impl::add_directory(const fs::path& directory) {
-    if (holds_chunks(directory)) {
-        files.push_back({directory.native(), directory, {}, false});
-        return {};
+Status InputFiles::Impl::add_chunks(const fs::path& directory,
+                                    const std::vector<level2::ChunkSet>& sets) {
+    InputFile file{directory.native(), directory, {}, false};
+    const auto count = static_cast<int>(sets.size());
+    if (volume > count) {
+        return fail(ErrorCode::bad_argument, "--volume {}: {} holds chunks of only {} {}", volume,
+                    directory.native(), count, plural(sets.size(), "volume"));
     }
+    const int number = volume > 0 ? volume : count;
+    if (volume == InputFiles::newest && count > 1) {
+        left_out.push_back(
+            fmt::format("{}: holds chunks of {} volumes, and number {} is the "
+                        "newest; --volume 1 to {} chooses",
+                        directory.native(), count, number, count));
+    }
+    for (int i = 1; i <= count; ++i) {
+        if (volume != InputFiles::all && i != number) continue;
+        const auto& chunks = sets[static_cast<std::size_t>(i - 1)].chunks;
+        file.chunks.insert(file.chunks.end(), chunks.begin(), chunks.end());
+    }
+    files.push_back(std::move(file));
+    return {};
+}
+
+// Adds each volume of which several chunks are named, and removes these from the names.
+void InputFiles::Impl::add_named_chunks(std::vector<std::string>& names) {
+    std::map<fs::path, std::map<int, fs::path>> volumes;
+    for (const std::string& name : names) {
+        const fs::path common = volume_of_chunk(name), path{name};
+        if (common.empty()) continue;
+        const auto chunk = level2::parse_chunk_name(path.filename().native());
+        volumes[common].emplace(chunk->number, path);
+    }
+    std::erase_if(volumes, [](const auto& volume) { return volume.second.size() < 2; });
+    std::erase_if(names, [&](const auto& name) { return volumes.contains(volume_of_chunk(name)); });
+    for (auto& [common, chunks] : volumes) {
+        const bool is_here = !common.has_parent_path();
+        InputFile file{common.native() + "*", is_here ? "." : common.parent_path(), {}, false};
+        for (auto& [number, path] : chunks)
+            file.chunks.push_back(std::move(path));
+        files.push_back(std::move(file));
+    }
+}
+
+Status InputFiles::Impl::add_directory(const fs::path& directory) {
+    const auto sets = level2::chunk_sets(directory);
+    if (sets) return add_chunks(directory, *sets);
     std::vector<fs::path> found;
     std::error_code error;
     for (fs::recursive_directory_iterator walk{directory, error}, end; !error && walk != end;
@@ -206,8 +255,10 @@ InputFiles::InputFiles(InputFiles&&) noexcept = default;
 InputFiles& InputFiles::operator=(InputFiles&&) noexcept = default;
 InputFiles::~InputFiles() = default;
 
-Result<InputFiles> InputFiles::find(const std::vector<std::string>& names) {
+Result<InputFiles> InputFiles::find(std::vector<std::string> names, int volume) {
     auto impl = std::make_unique<Impl>();
+    impl->volume = volume;
+    impl->add_named_chunks(names);
     for (const std::string& name : names) {
         const std::size_t before = impl->files.size();
         const std::size_t left_out_before = impl->left_out.size();
@@ -249,10 +300,7 @@ Result<std::vector<std::byte>> InputFiles::read(const InputFile& file) {
 
 Result<level2::Decoded> InputFiles::decode(const InputFile& file, level2::DecodeOptions options,
                                            std::uint64_t* bytes) {
-    std::error_code ignored;
-    if (file.member.empty() && fs::is_directory(file.path, ignored)) {
-        return level2::decode_path(file.path, options);
-    }
+    if (!file.chunks.empty()) return level2::decode_chunks(file.chunks, options);
     const auto read_bytes = read(file);
     if (!read_bytes) return pass_on(read_bytes);
     if (bytes != nullptr) *bytes = read_bytes->size();

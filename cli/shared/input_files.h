@@ -1,8 +1,9 @@
 // cli/shared/input_files.h -- the raw files that a command line names.
 //
 // A name may be that of one file, of a tar or zip archive (its members), of a directory (the files
-// in it and below it, or one volume if it holds the chunks of that volume) or "-" for standard
-// input. Members are written ARCHIVE!MEMBER. Entries of a directory or an archive that are not
+// in it and below it, or one volume if it holds chunks) or "-" for standard input. Chunks of one
+// volume that are named one by one, as by the shell's pattern, are one volume. Members are written
+// ARCHIVE!MEMBER. Entries of a directory or an archive that are not
 // Level II are left out and reported; a file that is named itself must be Level II.
 //
 // Threads   One thread at a time.
@@ -24,6 +25,8 @@ struct InputFile {
     std::filesystem::path path;  // of the file, or of its archive; empty: standard input
     std::string member;          // of the archive; empty: the file itself
     bool was_found = false;      // found in a directory or an archive, and not named itself
+    // The files of a volume that came as one file for each chunk, in order; else empty.
+    std::vector<std::filesystem::path> chunks = {};
 
     // Returns the last part of its name, which shows the station and appears in results.
     [[nodiscard]] std::string file_name() const;
@@ -31,10 +34,15 @@ struct InputFile {
 
 class InputFiles {
   public:
-    // Files are in the order of the names; those of a directory are sorted by path. Errors:
-    // not_found, permission and io of the names; bad_argument if "-" is named twice; not_found if
-    // nothing is left.
-    [[nodiscard]] static Result<InputFiles> find(const std::vector<std::string>& names);
+    // Which of the volumes is meant of which a directory has chunks: a number from 1 by time, or
+    // one of these.
+    enum OfChunks : int { newest = 0, all = -1 };
+    // Files are in the order of the names, behind volumes whose chunks were named one by one; those
+    // of a directory are sorted by path. Errors:
+    // not_found, permission and io of the names; bad_argument if "-" is named twice, or a directory
+    // has not so many volumes; not_found if nothing is left.
+    [[nodiscard]] static Result<InputFiles> find(std::vector<std::string> names,
+                                                 int volume = newest);
     InputFiles(InputFiles&&) noexcept;
     InputFiles& operator=(InputFiles&&) noexcept;
     ~InputFiles();

@@ -36,14 +36,19 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
 }
 
 // If the file has several volumes, a note says so.
-level2::Volume take_volume(level2::Decoded decoded, const std::vector<level2::Moment>& moments,
-                           SourceVolume& source) {
+Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wish,
+                                   SourceVolume& source) {
     const bool damaged = decoded.report.damaged;
     std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
-    const auto found = std::find_if(volumes.begin(), volumes.end(),
-                                    [&](const auto& volume) { return holds_any(volume, moments); });
-    const std::size_t index =
+    const auto found = std::ranges::find_if(
+        volumes, [&](const auto& volume) { return holds_any(volume, wish.moments); });
+    std::size_t index =
         found == volumes.end() ? 0 : static_cast<std::size_t>(found - volumes.begin());
+    if (wish.volume > 0) index = static_cast<std::size_t>(wish.volume) - 1;
+    if (index >= volumes.size()) {
+        return fail(ErrorCode::bad_argument, "holds only {} {}; --volume {} asks for another",
+                    volumes.size(), volumes.size() == 1 ? "volume" : "volumes", wish.volume);
+    }
     if (volumes.size() > 1) {
         source.partial = damaged || !level2::is_complete(volumes[index]);
         source.notes.push_back(
@@ -81,7 +86,9 @@ Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& fil
     std::vector<std::string> troubles;
     if (decoded.report.rda_status) troubles = level2::rda_troubles(*decoded.report.rda_status);
     source.notes = level2::notes_of(decoded.report);
-    source.volume = take_volume(std::move(decoded), wish.moments, source);
+    auto volume = take_volume(std::move(decoded), wish, source);
+    if (!volume) return fail(volume.error().code, "{}: {}", file, volume.error().message);
+    source.volume = std::move(*volume);
     if (wish.place) {
         if (Status placed = wish.place(source.volume); !placed)
             return fail(placed.error().code, "{}: {}", file, placed.error().message);

@@ -41,6 +41,7 @@ struct SourceWish {
     // Ends the message about a radar whose position is not known.
     std::string_view how_to_place = {};
     int threads = 1;
+    int volume = 0;  // its number in the file, from 1; 0: the first that holds one of the moments
 };
 
 // Returns what to decode for the wish. The station in the name counts where the file names none.
@@ -54,8 +55,9 @@ struct SourceWish {
                                                     const level2::DecodeOptions& options,
                                                     const ChooseCuts& choose_cuts);
 
-// Takes the first volume that holds one of the moments. Errors name the file: those of `place`;
-// not_found if the position of the radar is not known.
+// Takes the volume of the number that is wanted, or the first that holds one of the moments. Errors
+// name the file: bad_argument if it has not so many volumes; those of `place`; not_found if the
+// position of the radar is not known.
 [[nodiscard]] Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
                                                const SourceWish& wish);
 

@@ -12,6 +12,11 @@
 namespace stormcellar::level2 {
 namespace {
 
+// A file that was made to take time must not succeed: no more rows are moved, and no more sweeps
+// are looked at for one radial, than the worst order of a real volume needs.
+constexpr std::uint64_t most_late_bytes = std::uint64_t{4} << 30;
+constexpr std::size_t most_candidates = 8;
+
 // Returns what the arrays of the sweep take at most with these rows in it.
 std::uint64_t bytes_with(const Sweep& sweep, const Sweep& rows_of) {
     const std::uint64_t radials = sweep.radials.size() + rows_of.radials.size();
@@ -83,12 +88,15 @@ Result<bool> VolumeBuilder::find_late_place(const Sweep& from, std::size_t radia
     ++late_searches_;
     const auto& starts = report_.further_volume_starts;
     const std::size_t first = starts.empty() ? 0 : starts.back();
-    for (std::size_t index = volume_.sweeps.size(); index-- > first;) {
+    std::size_t candidates = 0;
+    for (std::size_t index = volume_.sweeps.size();
+         index-- > first && candidates < most_candidates;) {
         const Sweep& sweep = volume_.sweeps[index];
         if (sweep.elevation_number != from.elevation_number ||
             sweep.message_type != from.message_type) {
             continue;
         }
+        ++candidates;
         if (Status here = fetch_back(index); !here) return pass_on(here);
         const auto at = place_of_late(sweep, from.radials[radial]);
         if (!at) continue;
@@ -103,7 +111,7 @@ Result<bool> VolumeBuilder::find_late_place(const Sweep& from, std::size_t radia
 Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     const std::size_t count = from.radials.size();
     std::size_t at = first;
-    while (at < count) {
+    while (at < count && late_bytes_ <= most_late_bytes) {
         LateFit fit = LateFit::none;
         if (may_follow_late(from, at)) {
             if (Status here = fetch_back(late_place_->sweep); !here) return pass_on(here);
@@ -149,6 +157,7 @@ Status VolumeBuilder::insert_late(Sweep& from, std::size_t first, std::size_t en
         return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
                     array_limit_bytes_);
     }
+    late_bytes_ += bytes;
     append_rows(sweep, part);
     rows::move_last_rows(sweep, end - first, late_place_->at);
     if (!is_open) rows::make_whole(sweep);

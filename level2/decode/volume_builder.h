@@ -181,6 +181,7 @@ class VolumeBuilder {
     bool header_is_late_ = false;
     std::optional<LatePlace> late_place_;
     std::size_t late_searches_ = 0;
+    std::uint64_t late_bytes_ = 0;  // moved to make room for late radials
     std::uint64_t late_radials_ = 0, repeated_radials_ = 0;
     bool is_disordered_ = false;  // a sweep is older than the one before it
     Status late_failure_;

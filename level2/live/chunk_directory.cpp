@@ -1,12 +1,12 @@
 #include "stormcellar/level2/chunk_directory.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
-#include <set>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/station_table.h"
@@ -17,12 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Found {
-    // By number. If a number comes twice, LiveVolume takes the better chunk.
-    std::multimap<int, std::pair<ChunkName, fs::path>> chunks;
-    std::set<std::string> volumes;
-};
-
 // Returns true for a file that its sender has not finished.
 bool is_temporary(const fs::path& path) {
     const std::string name = path.filename().string();
@@ -30,38 +24,18 @@ bool is_temporary(const fs::path& path) {
            name.ends_with('~');
 }
 
-Result<Found> find_chunks(const fs::path& directory) {
-    std::error_code error;
-    fs::directory_iterator entry{directory, error};
-    if (error) {
-        return fail(
-            error == std::errc::permission_denied ? ErrorCode::permission : ErrorCode::not_found,
-            "{}: {}", directory.string(), error.message());
-    }
-    Found found;
-    for (; entry != fs::directory_iterator{}; entry.increment(error)) {
-        std::error_code ignored;
-        const auto name = parse_chunk_name(entry->path().filename().string());
-        if (!name || is_temporary(entry->path()) || !entry->is_regular_file(ignored)) continue;
-        found.volumes.insert(name->volume);
-        found.chunks.emplace(name->number, std::pair{*name, entry->path()});
-    }
-    // The loop also ends at an error.
-    if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
-    if (found.chunks.empty()) {
-        return fail(ErrorCode::not_found,
-                    "{}: holds no chunks (files named like 20220317-000842-001-S)",
-                    directory.string());
-    }
-    if (found.volumes.size() > 1) {
-        return fail(ErrorCode::bad_argument, "{}: holds chunks of {} volumes ({})",
-                    directory.string(), found.volumes.size(), fmt::join(found.volumes, ", "));
-    }
-    return found;
+// Names of both forms begin with the time, with a separator or without.
+std::string digits_of(const std::string& text) {
+    std::string digits;
+    std::ranges::copy_if(text, std::back_inserter(digits),
+                         [](char letter) { return letter >= '0' && letter <= '9'; });
+    return digits;
 }
 
 std::string station_of(const fs::path& directory) {
-    const fs::path path = directory.lexically_normal();
+    std::error_code error;
+    fs::path path = fs::absolute(directory.empty() ? "." : directory, error).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
     for (const fs::path& part : {path.filename(), path.parent_path().filename()}) {
         std::string name = station_in_name(part.string());
         if (!name.empty()) return name;
@@ -71,21 +45,54 @@ std::string station_of(const fs::path& directory) {
 
 }  // namespace
 
-Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOptions& options) {
-    const auto found = find_chunks(directory);
-    if (!found) return pass_on(found);
+Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
+    std::error_code error;
+    fs::directory_iterator entry{directory, error};
+    if (error) {
+        return fail(
+            error == std::errc::permission_denied ? ErrorCode::permission : ErrorCode::not_found,
+            "{}: {}", directory.string(), error.message());
+    }
+    // By time and by number. If a number comes twice, LiveVolume takes the better chunk.
+    std::map<std::pair<std::string, std::string>, std::multimap<int, fs::path>> found;
+    for (; entry != fs::directory_iterator{}; entry.increment(error)) {
+        std::error_code ignored;
+        const auto name = parse_chunk_name(entry->path().filename().string());
+        if (!name || is_temporary(entry->path()) || !entry->is_regular_file(ignored)) continue;
+        found[{digits_of(name->volume), name->volume}].emplace(name->number, entry->path());
+    }
+    // The loop also ends at an error.
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
+    if (found.empty()) {
+        return fail(ErrorCode::not_found,
+                    "{}: holds no chunks (files named like 20220317-000842-001-S)",
+                    directory.string());
+    }
+    std::vector<ChunkSet> sets;
+    for (auto& [volume, chunks] : found) {
+        ChunkSet& set = sets.emplace_back(ChunkSet{volume.second, {}});
+        for (auto& [number, path] : chunks)
+            set.chunks.push_back(std::move(path));
+    }
+    return sets;
+}
+
+Result<Decoded> decode_chunks(const std::vector<fs::path>& chunks, const DecodeOptions& options) {
+    if (chunks.empty()) return fail(ErrorCode::empty, "no chunk is named");
+    const fs::path directory = chunks.front().parent_path();
     LiveOptions live;
     live.decode = options;
     if (live.decode.fallback_station.empty()) live.decode.fallback_station = station_of(directory);
     LiveVolume volume{live};
-    for (const auto& [number, chunk] : found->chunks) {
-        const auto& [name, path] = chunk;
+    for (const fs::path& path : chunks) {
+        const auto name = parse_chunk_name(path.filename().string());
+        if (!name) return fail(ErrorCode::bad_argument, "{}: is no chunk", path.string());
         const auto bytes = read_file(path);
         if (!bytes) return pass_on(bytes);
-        const auto added = volume.add(number, name.kind, *bytes, {});
+        const auto added = volume.add(name->number, name->kind, *bytes, {});
         if (added == LiveVolume::Added::another_volume) {
             return fail(ErrorCode::bad_argument, "{}: chunk {} belongs to another volume",
-                        directory.string(), to_string(name));
+                        directory.string(), to_string(*name));
         }
         if (!added && added.error().code == ErrorCode::exhausted) {
             return fail(ErrorCode::exhausted, "{}: {}", path.string(), added.error().message);
@@ -97,6 +104,12 @@ Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOp
         return fail(decoded.error().code, "{}: {}", directory.string(), decoded.error().message);
     }
     return decoded;
+}
+
+Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOptions& options) {
+    const auto sets = chunk_sets(directory);
+    if (!sets) return pass_on(sets);
+    return decode_chunks(sets->back().chunks, options);
 }
 
 Result<Decoded> decode_path(const fs::path& path, const DecodeOptions& options) {
