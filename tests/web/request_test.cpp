@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "web/http/client_address.h"
 #include "web/http/read_request.h"
 
 namespace stormcellar::web {
@@ -149,6 +150,50 @@ TEST(ReadRequest, BelievesForwardedFieldsOfTrustedProxiesAlone) {
     reading = read_request(raw_get("/", forwarded), identity_of(options));
     EXPECT_EQ(reading.request.client, "5.6.7.8");
     EXPECT_EQ(reading.request.base, "https://localhost") << "a name that is not ours is not taken";
+}
+
+Reading read_through_proxy(Fields headers) {
+    ServerOptions options;
+    options.names = {"radar.example.org"};
+    options.trusted_proxies = {"127.0.0.1"};
+    headers.emplace_back("Host", "radar.example.org");
+    return read_request(raw_get("/", headers), identity_of(options));
+}
+
+// 2026-11-28: behind nginx, which adds X-Forwarded-For and passes Forwarded on, a client took all
+// streams of events as as many clients, and gave the links of answers another host.
+TEST(ReadRequest, DoesNotBelieveAClientThatAddsTheOtherKindOfForwardedField) {
+    Reading reading = read_through_proxy(
+        {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "for=198.51.100.77;host=127.0.0.1"}});
+    EXPECT_EQ(reading.request.client, "127.0.0.1") << "the proxy's";
+    EXPECT_EQ(reading.request.base, "http://radar.example.org");
+    reading = read_through_proxy(
+        {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "proto=https;host=127.0.0.1"}});
+    EXPECT_EQ(reading.request.client, "127.0.0.1");
+    EXPECT_EQ(reading.request.base, "http://radar.example.org");
+    reading = read_through_proxy({{"X-Forwarded-For", "2001:db8::7"},
+                                  {"X-Forwarded-Proto", "https"},
+                                  {"Forwarded", "for=\"[2001:DB8:0::7]:4711\";host=localhost"}});
+    EXPECT_EQ(reading.request.client, "2001:db8::7") << "a proxy that writes both";
+    EXPECT_EQ(reading.request.base, "https://radar.example.org");
+}
+
+TEST(ReadRequest, AForwardedClientIsAnAddress) {
+    for (const char* name : {"unknown", "_hidden", "192.0.2", "[2001:db8::7", "a\x1b[2J", ""}) {
+        EXPECT_EQ(read_through_proxy({{"X-Forwarded-For", name}}).request.client, "127.0.0.1")
+            << name;
+    }
+    EXPECT_EQ(read_through_proxy({{"X-Forwarded-For", "192.0.2.7:80"}}).request.client,
+              "192.0.2.7");
+    EXPECT_EQ(read_through_proxy({{"Forwarded", "for=\"[::ffff:192.0.2.7]:80\""}}).request.client,
+              "192.0.2.7");
+}
+
+TEST(ClientNetwork, IsTheNetworkOf64BitsInIpv6) {
+    EXPECT_EQ(client_network("192.0.2.7"), "192.0.2.7");
+    EXPECT_EQ(client_network("2001:db8:1:2::7"), "2001:db8:1:2::/64");
+    EXPECT_EQ(client_network("2001:db8:1:2:ffff:ffff:ffff:ffff"), "2001:db8:1:2::/64");
+    EXPECT_EQ(client_network("2001:db8:1:3::7"), "2001:db8:1:3::/64");
 }
 
 TEST(ReadRequest, TakesThePrefixOff) {

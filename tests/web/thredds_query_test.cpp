@@ -28,6 +28,13 @@ TEST(ThreddsQuery, StationsMayBeRepeatedOrListed) {
     EXPECT_FALSE(query->from || query->to || query->near || query->box || query->all_stations);
 }
 
+// 2026-11-28: var=N0Q/0,N0Q/1,... was a hundred variables, each of which was looked for.
+TEST(ThreddsQuery, AVariableCountsOnceWhateverIsBehindItsSlash) {
+    const auto query = query_of("stn=FTG&temporal=all&var=N0Q/0,N0Q/1,N0C&var=N0Q");
+    ASSERT_TRUE(query) << query.error().message;
+    EXPECT_EQ(query->variables, (std::vector<std::string>{"N0Q", "N0C"}));
+}
+
 TEST(ThreddsQuery, TwoOfStartEndAndDurationMakeARange) {
     for (const char* text : {"time_start=2015-06-15T12:00:00Z&time_end=2015-06-16T12:00:00Z",
                              "time_start=2015-06-15T12:00:00Z&time_duration=P1D",

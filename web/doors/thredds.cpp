@@ -178,8 +178,9 @@ Result<std::vector<ThreddsFile>> ThreddsDoor::files_of(ThreddsCollection& collec
                     "The query has more than {} datasets: ask for fewer stations or times.",
                     options_.most_results);
     };
-    if (stations->size() * variables.size() * query.times.size() > options_.most_results)
-        return too_many();
+    const std::size_t looks =
+        stations->size() * variables.size() * std::max<std::size_t>(1, query.times.size());
+    if (looks > options_.most_results) return too_many();
     std::vector<ThreddsFile> files;
     for (const std::string& station : *stations) {
         for (const std::string& variable : variables) {

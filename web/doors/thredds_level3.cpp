@@ -1,7 +1,9 @@
 // A data set of Level III: files of products in a directory, named as the LDM configurations of
 // Unidata name them, Level3_FTG_N0Q_20150615_1201.nids. Their contents are not looked at.
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <mutex>
 
 #include <fcntl.h>
@@ -76,7 +78,10 @@ class Level3Collection final : public ThreddsCollection {
     using Times = std::map<UtcTime, std::string>;  // names
     using Index = std::map<std::pair<std::string, std::string>, Times>;
     [[nodiscard]] Result<std::shared_ptr<const Index>> index();
-    [[nodiscard]] Result<Times> times_of(std::string_view station, std::string_view variable);
+    // The times hold as long as their index, which is shared and not copied: a query may ask 10,000
+    // times.
+    [[nodiscard]] Result<std::shared_ptr<const Times>> times_of(std::string_view station,
+                                                                std::string_view variable);
 
     std::mutex mutex_;  // guards what follows
     std::shared_ptr<const Index> index_;
@@ -120,14 +125,15 @@ Result<std::vector<std::string>> Level3Collection::station_ids() {
     return ids;
 }
 
-Result<Level3Collection::Times> Level3Collection::times_of(std::string_view station,
-                                                           std::string_view variable) {
+Result<std::shared_ptr<const Level3Collection::Times>> Level3Collection::times_of(
+    std::string_view station, std::string_view variable) {
     const auto known = index();
     if (!known) return pass_on(known);
     const std::vector<std::string>& named = configured().stations;
     const auto found = (*known)->find({std::string{station}, std::string{variable}});
     const bool is_named = named.empty() || std::ranges::count(named, station) > 0;
-    return found == (*known)->end() || !is_named ? Times{} : found->second;
+    if (found == (*known)->end() || !is_named) return std::make_shared<const Times>();
+    return std::shared_ptr<const Times>(*known, &found->second);
 }
 
 Result<std::optional<UtcTime>> Level3Collection::oldest() {
@@ -154,15 +160,17 @@ Result<std::optional<ThreddsFile>> Level3Collection::nearest(std::string_view st
                                                              std::chrono::milliseconds within) {
     const auto times = times_of(station, variable);
     if (!times) return pass_on(times);
-    std::optional<ThreddsFile> found;
-    std::chrono::milliseconds least = within;
-    for (auto at = times->lower_bound(time - within); at != times->end(); ++at) {
-        const auto distance = at->first > time ? at->first - time : time - at->first;
-        if (distance > least || (found && distance == least)) continue;
-        least = distance;
-        found = product_file(station, variable, at->first, at->second);
+    // One of the two beside the time is the nearest; of two that are as near, the earlier one.
+    const auto behind = (*times)->lower_bound(time);
+    auto nearest = behind;
+    if (behind != (*times)->begin()) {
+        const auto before = std::prev(behind);
+        if (behind == (*times)->end() || time - before->first <= behind->first - time)
+            nearest = before;
     }
-    return found;
+    if (nearest == (*times)->end() || std::chrono::abs(nearest->first - time) > within)
+        return std::nullopt;
+    return product_file(station, variable, nearest->first, nearest->second);
 }
 
 Result<std::vector<ThreddsFile>> Level3Collection::list(std::string_view station,
@@ -171,10 +179,10 @@ Result<std::vector<ThreddsFile>> Level3Collection::list(std::string_view station
     const auto times = times_of(station, variable);
     if (!times) return pass_on(times);
     std::vector<ThreddsFile> files;
-    for (const auto& [start, name] : *times) {
-        if ((range.from && start < *range.from) || (range.to && start > *range.to)) continue;
-        if (files.size() == range.most) break;
-        files.push_back(product_file(station, variable, start, name));
+    auto at = range.from ? (*times)->lower_bound(*range.from) : (*times)->begin();
+    for (; at != (*times)->end() && files.size() < range.most; ++at) {
+        if (range.to && at->first > *range.to) break;
+        files.push_back(product_file(station, variable, at->first, at->second));
     }
     return files;
 }
@@ -187,8 +195,8 @@ Answer Level3Collection::file(const Request& request, std::span<const std::strin
     }
     const auto times = times_of(product->station, product->variable);
     if (!times) return sentence(status_of(times.error()), "The files cannot be listed now.");
-    const auto known = times->find(product->start);
-    if (known == times->end() || known->second != path[3]) {
+    const auto known = (*times)->find(product->start);
+    if (known == (*times)->end() || known->second != path[3]) {
         return sentence(404, "There is no such file.");
     }
     const fs::path directory = configured().files;

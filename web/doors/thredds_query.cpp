@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <unordered_set>
 
 #include "base/printable.h"
 #include "web/doors/w3c_times.h"
@@ -10,16 +11,17 @@
 namespace stormcellar::web {
 namespace {
 
-// The values of a parameter that may be repeated, and of which each may be a list.
+// The values of a parameter that may be repeated, and of which each may be a list: each once, of a
+// value with a slash what is before it.
 std::vector<std::string> values_of(const Request& request, std::string_view name) {
     std::vector<std::string> values;
+    std::unordered_set<std::string> seen;
     for (std::string_view list : request.parameters(name)) {
         while (!list.empty()) {
             const std::size_t end = std::min(list.find(','), list.size());
-            std::string value{list.substr(0, end)};
+            std::string value{list.substr(0, std::min(end, list.find('/')))};
             list.remove_prefix(std::min(end + 1, list.size()));
-            if (!value.empty() && std::ranges::count(values, value) == 0)
-                values.push_back(std::move(value));
+            if (!value.empty() && seen.insert(value).second) values.push_back(std::move(value));
         }
     }
     return values;
@@ -138,8 +140,6 @@ Result<ThreddsQuery> read_thredds_query(const Request& request, UtcTime now) {
     if (Status read = read_places(request, query); !read) return pass_on(read);
     if (Status read = read_times(request, now, query); !read) return pass_on(read);
     query.variables = values_of(request, "var");
-    for (std::string& variable : query.variables)
-        variable.resize(std::min(variable.find('/'), variable.size()));
     return query;
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "web/http/client_address.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -67,21 +69,28 @@ std::string last_of(std::string_view list) {
 struct ForwardedFacts {
     std::string client, scheme, host;
 };
-ForwardedFacts forwarded_facts(const Request& request) {
-    ForwardedFacts facts;
-    if (const auto field = request.header("Forwarded")) {
-        facts.client = forwarded_value(*field, "for");
-        facts.scheme = forwarded_value(*field, "proto");
-        facts.host = forwarded_value(*field, "host");
-    }
-    const auto take = [&](std::string& fact, std::string_view name) {
+ForwardedFacts facts_of_forwarded(std::string_view field) {
+    return {forwarded_value(field, "for"), forwarded_value(field, "proto"),
+            forwarded_value(field, "host")};
+}
+ForwardedFacts facts_of_x_forwarded(const Request& request) {
+    const auto last_in = [&](std::string_view name) {
         const auto field = request.header(name);
-        if (fact.empty() && field) fact = last_of(*field);
+        return field ? last_of(*field) : std::string{};
     };
-    take(facts.client, "X-Forwarded-For");
-    take(facts.scheme, "X-Forwarded-Proto");
-    take(facts.host, "X-Forwarded-Host");
-    return facts;
+    return {last_in("X-Forwarded-For"), last_in("X-Forwarded-Proto"), last_in("X-Forwarded-Host")};
+}
+
+// A proxy writes one kind of fields, and passes on the other kind as its client sent it unless it
+// was told not to. So if there are both and they name different clients, neither is believed: the
+// client is then the proxy.
+ForwardedFacts forwarded_facts(const Request& request) {
+    const auto field = request.header("Forwarded");
+    ForwardedFacts facts = facts_of_x_forwarded(request);
+    if (!field) return facts;
+    ForwardedFacts standard = facts_of_forwarded(*field);
+    if (facts.client.empty()) return standard;
+    return read_address(facts.client) == read_address(standard.client) ? facts : ForwardedFacts{};
 }
 
 bool is_safe_host(std::string_view host) {
@@ -177,9 +186,10 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
         return reading;
     }
     const bool is_proxied = identity.proxies.contains(raw.client);
+    // What is no address, such as "unknown", names nobody.
     if (is_proxied) {
-        if (std::string client = forwarded_facts(request).client; !client.empty())
-            request.client = std::move(client);
+        if (auto client = read_address(forwarded_facts(request).client))
+            request.client = *std::move(client);
     }
     if (raw.method == "HEAD") {
         request.verb = Verb::head;

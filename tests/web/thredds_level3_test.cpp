@@ -1,0 +1,90 @@
+// Files of Level III: which one is the nearest, and how long that takes.
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/testing/temporary_directory.h"
+#include "web/doors/thredds_collection.h"
+
+namespace stormcellar::web {
+namespace {
+
+using namespace std::chrono_literals;
+
+class ThreddsLevel3 : public ::testing::Test {
+  protected:
+    // A file every five minutes but for one hour of each day.
+    void make_files(int count) {
+        for (UtcTime time = first_; static_cast<int>(starts_.size()) < count; time += 5min) {
+            if (time.time_since_epoch() % 24h < 1h) continue;
+            const std::string name =
+                "Level3_FTG_N0Q_" + format_compact(time).substr(0, 13) + ".nids";
+            std::ofstream file(directory_ / name);
+            starts_.push_back(time);
+        }
+        ConfiguredCollection configured;
+        configured.path = "nexrad/level3/IDD";
+        configured.variables = {"N0Q"};
+        configured.files = directory_.path();
+        collection_ = make_level3_collection(configured, {});
+    }
+    // The nearest start, found by looking at each.
+    [[nodiscard]] std::optional<UtcTime> nearest_of_all(UtcTime time,
+                                                        std::chrono::milliseconds within) const {
+        std::optional<UtcTime> best;
+        for (const UtcTime start : starts_) {
+            const auto distance = std::chrono::abs(start - time);
+            if (distance <= within && (!best || distance < std::chrono::abs(*best - time)))
+                best = start;
+        }
+        return best;
+    }
+
+    testing::TemporaryDirectory directory_;
+    const UtcTime first_ = *parse_compact("20150615_120000");
+    std::vector<UtcTime> starts_;
+    std::shared_ptr<ThreddsCollection> collection_;
+};
+
+TEST_F(ThreddsLevel3, TheNearestFileIsThatOfASearchOfAll) {
+    make_files(600);
+    std::mt19937 random(44);
+    for (int i = 0; i < 2000; ++i) {
+        const UtcTime time = first_ - 3h + std::chrono::seconds{random() % 260'000};
+        const auto within = std::chrono::seconds{random() % 4000};
+        const auto found = collection_->nearest("FTG", "N0Q", time, within);
+        ASSERT_TRUE(found);
+        const auto expected = nearest_of_all(time, within);
+        ASSERT_EQ(found->has_value(), expected.has_value()) << format_utc(time);
+        if (expected) EXPECT_EQ((*found)->start, *expected) << format_utc(time);
+    }
+}
+
+// 2026-11-28: each look copied the times of all files and walked to their end. One query makes
+// 10,000 looks, and four queries stopped the server for minutes.
+TEST_F(ThreddsLevel3, ALookDoesNotWalkThroughAllFiles) {
+    make_files(5000);
+    ASSERT_TRUE(collection_->nearest("FTG", "N0Q", first_, 1h));
+    const auto began = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10'000; ++i)
+        ASSERT_TRUE(collection_->nearest("FTG", "N0Q", first_ + std::chrono::minutes{i}, 1h));
+    EXPECT_LT(std::chrono::steady_clock::now() - began, 2s);
+}
+
+TEST_F(ThreddsLevel3, AListHasTheFilesOfItsRange) {
+    make_files(100);
+    RawRange range;
+    range.from = first_ + 1h;
+    range.to = first_ + 2h;
+    range.most = 1000;
+    EXPECT_EQ(collection_->list("FTG", "N0Q", range)->size(), 13u);
+    range.most = 5;
+    EXPECT_EQ(collection_->list("FTG", "N0Q", range)->size(), 5u);
+    EXPECT_TRUE(collection_->list("FTG", "N0C", range)->empty());
+}
+
+}  // namespace
+}  // namespace stormcellar::web
