@@ -67,7 +67,7 @@ std::string reloading_state() {
 }
 
 // Feeds the watchdog four times in its period. The thread that calls it must be able to ask the
-// server for its facts, so a server that is stuck is started again.
+// server for its facts, so a server that is stuck is started again. So is one that listens nowhere.
 class Watchdog {
   public:
     Watchdog() {
@@ -77,7 +77,7 @@ class Watchdog {
     }
     void feed(const WebService& service) {
         const SteadyTime now = steady_now();
-        if (!period_ || now < next_) return;
+        if (!period_ || now < next_ || !service.is_listening()) return;
         next_ = now + *period_;
         (void)service.facts();
         notify("WATCHDOG=1");

@@ -44,6 +44,20 @@ TEST_F(Api, ListsDomainsAndGrids) {
     EXPECT_EQ(of("?domain=KOKX"), Times{});
 }
 
+// 2026-11-28: while a grid was computed for one client, all others were told to come back.
+TEST_F(Api, WhatIsComputedWaitsForItsTurnAndWhatIsKeptDoesNot) {
+    const Request netcdf = request_for(std::string(ServedGrids::noon_path) + "/netcdf", {});
+    EXPECT_FALSE(served_.door().answer_soon(netcdf));
+    EXPECT_EQ(served_.door().answer(netcdf).status, 200u);
+    const auto kept = served_.door().answer_soon(netcdf);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->status, 200u);
+    const Request halved =
+        request_for(std::string(ServedGrids::noon_path) + "/packed?half=1&by=mean", {});
+    EXPECT_FALSE(served_.door().answer_soon(halved));
+    EXPECT_TRUE(served_.door().answer_soon(request_for("/api/v1/domains", {})));
+}
+
 TEST_F(Api, DescribesAGridWithAllOfItsProvenance) {
     const auto grid = json_of(served_.get(ServedGrids::small_path));
     const std::string all = grid.dump();

@@ -71,15 +71,39 @@ TEST(MemoryFile, HoldsManyBytesAndNoFewOnes) {
     std::string bytes(least_in_memory_file + 12'345, '\0');
     for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<char>(i * 2'654'435'761U >> 24);
-    const Piece piece = piece_of(bytes);
+    const Piece piece = in_file(text_of(bytes));
     ASSERT_TRUE(std::holds_alternative<FileSlice>(piece));
     EXPECT_EQ(size_of(piece), bytes.size());
     Answer answer;
     answer.body = part_of({piece}, 1000, 300'000 - 1000);
     EXPECT_EQ(body_of(answer), bytes.substr(1000, 300'000 - 1000));
-    const Piece small = piece_of(bytes.substr(0, 1000));
+    const Piece small = in_file(text_of(bytes.substr(0, 1000)));
     ASSERT_TRUE(std::holds_alternative<Text>(small));
     EXPECT_EQ(*std::get<Text>(small), bytes.substr(0, 1000));
+}
+
+// 2026-11-28: ranges of a kept netCDF file were copies of it, one for each client.
+TEST(KeptAnswers, KeepWhatIsLargeInAFileThatRangesShare) {
+    KeptAnswers kept(8'000'000);
+    const auto large = kept.find_or_make("a", [] { return Result<Kept>(kept_bytes(1'000'000)); });
+    ASSERT_TRUE(large);
+    const auto* whole = std::get_if<FileSlice>(&large->bytes);
+    ASSERT_NE(whole, nullptr);
+    const Pieces part = part_of({large->bytes}, 1, 999'999);
+    ASSERT_EQ(part.size(), 1u);
+    const auto* slice = std::get_if<FileSlice>(&part.front());
+    ASSERT_NE(slice, nullptr);
+    EXPECT_EQ(slice->file, whole->file);
+    EXPECT_EQ(slice->memory_bytes, 1'000'000u);
+}
+
+// 2026-11-28: who waited for a value whose making threw waited for good.
+TEST(KeptAnswers, AnExceptionIsAnErrorAndTheNextOneMakesIt) {
+    KeptAnswers kept(1'000'000);
+    const auto thrown = kept.find_or_make("a", []() -> Result<Kept> { throw std::bad_alloc(); });
+    ASSERT_FALSE(thrown);
+    EXPECT_EQ(thrown.error().code, ErrorCode::exhausted);
+    EXPECT_TRUE(kept.find_or_make("a", [] { return Result<Kept>(kept_bytes(10)); }));
 }
 
 TEST(KeptAnswers, ForgetByTheBeginningOfTheKey) {

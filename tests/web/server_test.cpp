@@ -6,7 +6,9 @@
 #include <fstream>
 #include <future>
 #include <mutex>
+#include <new>
 #include <set>
+#include <stdexcept>
 #include <thread>
 
 #include <fcntl.h>
@@ -296,6 +298,74 @@ TEST_F(WebServer, WorkersDoNotHoldUpOthersAndBeyondTheQueueClientsComeBack) {
     EXPECT_EQ(status_in(second.get()), 200);
 }
 
+// 2026-11-28: a worker that threw, or had no memory left, ended the server.
+TEST_F(WebServer, AnAnswerThatThrowsIsA503AndTheServerGoesOn) {
+    class ThrowingDoor : public Door {
+      public:
+        std::optional<Answer> answer_at_once(const Request& request) override {
+            if (request.path == "/throws/at-once") throw std::bad_alloc();
+            return std::nullopt;
+        }
+        Answer answer(const Request& request) override {
+            if (request.path == "/throws/memory") throw std::bad_alloc();
+            throw std::runtime_error("/var/lib/secret: trouble");
+        }
+    };
+    doors_->add("/throws", std::make_shared<ThrowingDoor>());
+    std::mutex mutex;
+    std::string trouble;
+    options_.on_answer = [&](const Served& served) {
+        const std::scoped_lock lock(mutex);
+        if (!served.trouble.empty()) trouble = served.trouble;
+    };
+    start();
+    for (const char* target : {"/throws/at-once", "/throws/memory", "/throws/other"}) {
+        const std::string answer = get(target);
+        EXPECT_EQ(status_in(answer), 503) << target;
+        EXPECT_NE(answer.find("Retry-After: "), std::string::npos) << target;
+        EXPECT_EQ(answer.find("/var/lib"), std::string::npos) << target;
+    }
+    EXPECT_EQ(status_in(get("/")), 200);
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(trouble, "/var/lib/secret: trouble") << "for the log";
+}
+
+// 2026-11-28: who asked while a grid was computed for another client was told to come back.
+TEST_F(WebServer, WhatTakesLongWaitsForWorkersOfItsOwn) {
+    class LongDoor : public Door {
+      public:
+        explicit LongDoor(std::shared_future<void> release) : release_(std::move(release)) {}
+        std::optional<Answer> answer_soon(const Request& request) override {
+            if (request.path == "/long/kept") return sentence(200, "kept");
+            return std::nullopt;
+        }
+        Answer answer(const Request&) override {
+            release_.wait();
+            return sentence(200, "computed");
+        }
+
+      private:
+        std::shared_future<void> release_;
+    };
+    options_.limits.workers = 1;
+    std::promise<void> released;
+    const auto door = std::make_shared<LongDoor>(released.get_future().share());
+    door->set_long_workers(std::make_shared<WorkQueue>(1, 8));
+    doors_->add("/long", door);
+    start();
+    std::vector<std::future<std::string>> computed;
+    for (int i = 0; i < 3; ++i)
+        computed.push_back(std::async(std::launch::async, [&] { return get("/long/grid"); }));
+    ASSERT_TRUE(wait_for([&] {
+        const ServerFacts facts = server_->facts();
+        return facts.working == 1 && facts.waiting == 2;
+    }));
+    EXPECT_EQ(body_in(get("/long/kept")), "kept\n") << "the worker of the server is free";
+    released.set_value();
+    for (auto& one : computed)
+        EXPECT_EQ(body_in(one.get()), "computed\n");
+}
+
 TEST_F(WebServer, StreamsSendWhatComesAndEnd) {
     const auto stream = std::make_shared<TestStream>();
     add("/events", [&](const Request&) {
@@ -394,6 +464,81 @@ TEST_F(WebServer, AClientThatTakesNothingIsCutOff) {
     client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
     ASSERT_TRUE(wait_for([&] { return server_->facts().connections == 1; }));
     EXPECT_TRUE(wait_for([&] { return server_->facts().connections == 0; }));
+}
+
+// 2026-11-28: 120 clients that took ranges of a kept answer slowly held 120 copies of it, and the
+// server was killed for its memory.
+TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
+    constexpr std::size_t large = 8 << 20;
+    options_.limits.answer_bytes = 20 << 20;
+    const auto answer_with_text = [](const Text& text) {
+        Answer answer;
+        answer.body = Pieces{text};
+        return answer;
+    };
+    const Text shared = text_of(std::string(large, 's'));
+    add("/shared", [&, shared](const Request&) { return answer_with_text(shared); });
+    add("/own", [&](const Request&) { return answer_with_text(text_of(std::string(large, 'o'))); });
+    start();
+    std::vector<std::unique_ptr<RawClient>> slow;
+    const auto take_slowly = [&](std::string_view path, const std::string& from) {
+        slow.push_back(std::make_unique<RawClient>(port_, 4096, from));
+        slow.back()->send("GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        return status_in(slow.back()->read_until("\r\n\r\n"));
+    };
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(take_slowly("/shared", "127.0.0." + std::to_string(10 + i)), 200);
+    EXPECT_EQ(server_->facts().answer_bytes, large) << "all of them share it";
+    EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 200);
+    EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 503) << "more than half of it for one client";
+    EXPECT_EQ(take_slowly("/own", "127.0.0.3"), 503) << "no room";
+    EXPECT_EQ(status_in(get("/")), 200) << "small answers pass";
+    slow.clear();
+    EXPECT_TRUE(wait_for([&] { return server_->facts().answer_bytes == 0; }));
+    EXPECT_EQ(body_in(get("/own")).size(), large);
+}
+
+// 2026-11-28: a client that took 1,000 bytes a second held a connection for ten hours.
+TEST_F(WebServer, AnAnswerHasATotalTime) {
+    options_.limits.answer_time = 3s;
+    options_.limits.rate_time = 60s;
+    options_.limits.least_bytes_per_s = 10'000'000;
+    const Text large = text_of(std::string(64 << 20, 'x'));
+    add("/large", [&](const Request&) {
+        Answer answer;
+        answer.body = Pieces{large};
+        return answer;
+    });
+    start();
+    EXPECT_EQ(body_in(get("/large")).size(), large->size());
+    RawClient client(port_, 4096);
+    client.send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_TRUE(wait_for([&] { return server_->facts().connections == 1; }));
+    EXPECT_TRUE(wait_for([&] {
+        (void)client.read_until("never", 1ms);
+        return server_->facts().connections == 0;
+    }));
+}
+
+// 2026-11-28: 1,024 slow readers of five addresses kept all connections, and an honest client was
+// refused ten times of ten.
+TEST_F(WebServer, TheSlowestBodiesGiveWay) {
+    options_.limits.most_connections = 8;
+    options_.limits.most_connections_of_address = 8;
+    const Text large = text_of(std::string(64 << 20, 'x'));
+    add("/large", [&](const Request&) {
+        Answer answer;
+        answer.body = Pieces{large};
+        return answer;
+    });
+    start();
+    std::vector<std::unique_ptr<RawClient>> slow;
+    for (int i = 0; i < 8; ++i) {
+        slow.push_back(std::make_unique<RawClient>(port_, 4096, "127.0.0.2"));
+        slow.back()->send("GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        EXPECT_EQ(status_in(slow.back()->read_until("\r\n\r\n")), 200);
+    }
+    EXPECT_TRUE(wait_for([&] { return status_in(get("/")) == 200; }));
 }
 
 TEST_F(WebServer, AFileThatIsCutWhileItIsSentEndsTheConnectionEarly) {

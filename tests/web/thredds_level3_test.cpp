@@ -59,7 +59,8 @@ TEST_F(ThreddsLevel3, TheNearestFileIsThatOfASearchOfAll) {
         ASSERT_TRUE(found);
         const auto expected = nearest_of_all(time, within);
         ASSERT_EQ(found->has_value(), expected.has_value()) << format_utc(time);
-        if (expected) EXPECT_EQ((*found)->start, *expected) << format_utc(time);
+        if (!expected) continue;
+        EXPECT_EQ((*found)->start, *expected) << format_utc(time);
     }
 }
 

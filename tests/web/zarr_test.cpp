@@ -228,7 +228,11 @@ TEST_F(ZarrTest, DamagedNumbersAreAnErrorAndNotNewNumbers) {
     }
     sources_.numbers = std::make_shared<TimeNumbers>(state_.path());
     ZarrDoor again(sources_, ZarrVersion::two);
-    EXPECT_EQ(asked(again, "/zarr/KBGM/REF/time/0").status, 500u);
+    const Answer answer = asked(again, "/zarr/KBGM/REF/time/0");
+    EXPECT_EQ(answer.status, 500u);
+    EXPECT_EQ(body_of(answer).find(state_.path().native()), std::string::npos)
+        << "paths of the server are nobody's business";
+    EXPECT_NE(answer.trouble.find(path.native()), std::string::npos) << "but the log's";
 }
 
 // Numbers that the next start would not know must not be given.
@@ -236,8 +240,33 @@ TEST_F(ZarrTest, NumbersThatCannotBeKeptAreNotGiven) {
     std::ofstream(state_ / "file") << "not a directory";
     sources_.numbers = std::make_shared<TimeNumbers>(state_ / "file");
     ZarrDoor door(sources_, ZarrVersion::two);
-    EXPECT_GE(asked(door, "/zarr/KBGM/REF/time/0").status, 500u);
+    const Answer answer = asked(door, "/zarr/KBGM/REF/time/0");
+    EXPECT_EQ(answer.status, 503u);
+    EXPECT_EQ(body_of(answer).find(state_.path().native()), std::string::npos);
+    EXPECT_TRUE(sources_.numbers->problem());
     EXPECT_FALSE(sources_.numbers->time_of("KBGM", level2::Moment::ref, 0));
+}
+
+// 2026-11-28: on a disk that is full or cannot be written, times that had their numbers were not
+// answered either.
+TEST_F(ZarrTest, NumbersThatWereGivenAreAnsweredWhileNewOnesCannotBeKept) {
+    TimeNumbers numbers(state_.path());
+    const std::vector<UtcTime> two = {UtcTime{std::chrono::seconds{1}},
+                                      UtcTime{std::chrono::seconds{2}}};
+    std::vector<UtcTime> three = two;
+    three.push_back(UtcTime{std::chrono::seconds{3}});
+    ASSERT_TRUE(numbers.update("KBGM", level2::Moment::ref, two));
+    std::filesystem::remove_all(state_ / "KBGM");
+    std::ofstream(state_ / "KBGM") << "not a directory";
+    auto times = numbers.update("KBGM", level2::Moment::ref, three);
+    ASSERT_TRUE(times);
+    EXPECT_EQ(**times, two);
+    EXPECT_TRUE(numbers.problem());
+    std::filesystem::remove(state_ / "KBGM");
+    times = numbers.update("KBGM", level2::Moment::ref, three);
+    ASSERT_TRUE(times);
+    EXPECT_EQ(**times, three);
+    EXPECT_FALSE(numbers.problem());
 }
 
 TEST_F(ZarrTest, KeysThatAreNoneAreRefused) {

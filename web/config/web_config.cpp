@@ -280,6 +280,7 @@ void read_limits(TomlTable table, WebLimits& limits) {
     read_size(table, "kept_bytes", {1e6, 1e12}, limits.kept_bytes);
     read_size(table, "kept_picture_bytes", {1e6, 1e12}, limits.kept_picture_bytes);
     read_count(table, "open_grids", {1, 4096}, limits.open_grids);
+    read_size(table, "answer_bytes", {1e6, 1e12}, limits.answer_bytes);
 }
 
 }  // namespace

@@ -110,6 +110,7 @@ struct WebLimits {
     std::uint64_t kept_bytes = 256'000'000;        // packed grids and lists kept in memory
     std::uint64_t kept_picture_bytes = 64'000'000;
     int open_grids = 64;
+    std::uint64_t answer_bytes = 256'000'000;  // of answers on their way, in memory
     bool operator==(const WebLimits&) const = default;
 };
 

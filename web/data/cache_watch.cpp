@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <mutex>
@@ -24,6 +25,8 @@ using WatchClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds look_for_missing_every{1};
 constexpr std::chrono::seconds look_when_blind_every{2};
 constexpr std::chrono::seconds look_at_times_every{60};
+// Without a descriptor left nothing wakes the thread, so it looks itself whether it must end.
+constexpr int look_for_the_end_every_ms = 100;
 
 }  // namespace
 
@@ -64,14 +67,16 @@ struct CacheWatch::Impl {
                 timeout_ms =
                     static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(left).count());
             }
+            if (!stop.is_open()) timeout_ms = std::min(timeout_ms, look_for_the_end_every_ms);
             ::poll(waiting.data(), waiting.size(), std::max(timeout_ms, 1));
-            if ((waiting[0].revents & POLLIN) != 0) return;
+            if (is_stopping) return;
         }
     }
 
     Descriptor notify;
     int notify_error = 0;
-    Descriptor stop;
+    Descriptor stop;  // wakes the thread
+    std::atomic<bool> is_stopping = false;
     mutable std::mutex mutex;
     CacheTree tree;                    // guarded by mutex
     WatchClock::time_point scanned{};  // guarded by mutex
@@ -91,6 +96,7 @@ std::unique_ptr<CacheWatch> CacheWatch::open(std::filesystem::path cache, Listen
 }
 
 CacheWatch::~CacheWatch() {
+    impl_->is_stopping = true;
     const std::uint64_t one = 1;
     // Writing to a counter that nobody has filled cannot fail.
     [[maybe_unused]] const ssize_t written = ::write(impl_->stop.number(), &one, sizeof one);

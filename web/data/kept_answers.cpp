@@ -1,6 +1,10 @@
 #include "web/data/kept_answers.h"
 
+#include <exception>
+#include <new>
 #include <utility>
+
+#include "web/data/memory_file.h"
 
 namespace stormcellar::web {
 namespace {
@@ -10,6 +14,20 @@ constexpr std::uint64_t overhead_bytes = 256;
 std::uint64_t size_in_budget(const std::string& key, const Kept& value) {
     return key.size() + size_of(value.bytes) + value.etag.size() + value.notes.size() +
            overhead_bytes;
+}
+
+// Others wait for what is made, so an exception becomes an error.
+Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
+    try {
+        Result<Kept> made = make();
+        if (!made) return made;
+        if (const auto* text = std::get_if<Text>(&made->bytes)) made->bytes = in_file(*text);
+        return made;
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::exhausted, "there is no memory left for this answer");
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::exhausted, "this answer cannot be made now: {}", error.what());
+    }
 }
 
 }  // namespace
@@ -56,7 +74,7 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
     const auto ours = std::make_shared<Making>();
     making_[key] = ours;
     lock.unlock();
-    Result<Kept> made = make();
+    Result<Kept> made = made_in_file(make);
     lock.lock();
     if (made) keep(key, *made);
     making_.erase(key);

@@ -33,8 +33,9 @@ class KeptAnswers {
 
     // Returns the kept value; none if there is none. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const std::string& key);
-    // Returns the kept value, or makes it and keeps it. Errors are not kept. A value larger than a
-    // quarter of the budget is returned, but not kept.
+    // Returns the kept value, or makes it and keeps it, from 256 KiB on in a memory file. Errors
+    // are not kept; an exception is one. A value larger than a quarter of the budget is returned,
+    // but not kept.
     [[nodiscard]] Result<Kept> find_or_make(const std::string& key,
                                             const std::function<Result<Kept>()>& make);
     // Drops every value whose key begins with this text.

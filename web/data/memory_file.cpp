@@ -18,14 +18,15 @@ bool write_all(const Descriptor& file, std::span<const std::byte> bytes) {
     return true;
 }
 
-Piece piece_of(std::string bytes) {
+Piece in_file(const Text& text) {
+    const std::string& bytes = *text;
     if (bytes.size() >= least_in_memory_file) {
         auto file =
             std::make_shared<const Descriptor>(::memfd_create("stormcellar-web", MFD_CLOEXEC));
         if (file->is_open() && write_all(*file, std::as_bytes(std::span(bytes))))
-            return FileSlice{std::move(file), 0, std::uint64_t{bytes.size()}};
+            return FileSlice{std::move(file), 0, bytes.size(), bytes.size()};
     }
-    return text_of(std::move(bytes));
+    return text;
 }
 
 }  // namespace stormcellar::web

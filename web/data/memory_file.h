@@ -21,7 +21,8 @@ inline constexpr std::size_t least_in_memory_file = std::size_t{256} << 10;
 // Writes at the file's position. Returns false where there is no room.
 [[nodiscard]] bool write_all(const Descriptor& file, std::span<const std::byte> bytes);
 
-// Returns the bytes as they are sent best: in a file if they are many and a file can be had.
-[[nodiscard]] Piece piece_of(std::string bytes);
+// Returns the bytes as they are sent best: in a file if they are many and a file can be had. Ranges
+// of a file share it, those of a text are copies.
+[[nodiscard]] Piece in_file(const Text& text);
 
 }  // namespace stormcellar::web

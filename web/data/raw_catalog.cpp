@@ -284,9 +284,10 @@ OpenedOrMissing CatalogRawFiles::open(std::string_view station, std::string_view
     volume.volume.modified = opened->modified;
     volume.volume.tag = opened->tag;
     if (opened->size_bytes > 0) {
-        volume.bytes.emplace_back(FileSlice{opened->file, 0, opened->size_bytes});
+        volume.bytes.emplace_back(FileSlice{opened->file, 0, opened->size_bytes,
+                                            opened->is_joined ? opened->size_bytes : 0});
     }
-    if (!volume.volume.grows) {
+    if (!volume.volume.grows && !opened->is_joined) {
         keep_open(fmt::format("{}/{}", station, name), volume, *opened->file);
     }
     return volume;

@@ -26,6 +26,7 @@ using catalog::FileState;
 constexpr std::size_t most_chunks = 2000;
 constexpr std::size_t most_remembered = 65'536;
 constexpr std::uint64_t most_raw_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t most_joined_bytes = std::uint64_t{256} << 20;
 constexpr std::size_t hashed_at_once = std::size_t{1} << 20;
 
 tl::unexpected<RawFailure> missing(RawMissing why, std::string reason) {
@@ -194,7 +195,9 @@ OpenedRawOrMissing RawOpener::open(const CatalogReader& catalog, const CatalogEn
 
 OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
                                    const std::vector<CatalogEntry>& chunks, bool grows) const {
-    const fs::path place = scratch_.empty() ? fs::temp_directory_path() : scratch_;
+    std::error_code failed;
+    const fs::path place = scratch_.empty() ? fs::temp_directory_path(failed) : scratch_;
+    if (failed) return missing(RawMissing::trouble, "there is no directory for joined chunks");
     const int number = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (number < 0) return missing(RawMissing::trouble, place.native() + ": no room for chunks");
     const auto file = std::make_shared<const Descriptor>(number);
@@ -216,7 +219,7 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
         joined.push_back(chunk);
     }
     const RawFacts facts = facts_of_rows(joined, grows);
-    return OpenedRaw{file, size_bytes, facts.modified, facts.tag};
+    return OpenedRaw{file, size_bytes, facts.modified, facts.tag, true};
 }
 
 OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const CatalogEntry& entry) {
@@ -256,9 +259,15 @@ std::optional<OpenedRaw> RawOpener::find_joined(const std::string& key) {
 
 void RawOpener::keep_joined(const std::string& key, const OpenedRaw& joined) {
     const std::scoped_lock lock(mutex_);
+    // Two clients may have asked at the same time.
+    std::erase_if(joined_, [&](const auto& one) { return one.first == key; });
     joined_.emplace_front(key, joined);
-    while (joined_.size() > most_joined_)
-        joined_.pop_back();
+    std::uint64_t bytes = 0;
+    std::size_t count = 0;
+    std::erase_if(joined_, [&](const auto& one) {
+        bytes += one.second.size_bytes;
+        return ++count > most_joined_ || bytes > most_joined_bytes;
+    });
 }
 
 Result<RawFacts> RawOpener::facts_of(const CatalogReader& catalog, const CatalogEntry& entry) {

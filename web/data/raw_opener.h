@@ -28,6 +28,7 @@ struct OpenedRaw {
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
     std::string tag;
+    bool is_joined = false;  // in a file without a name, which takes room while it is open
 };
 using OpenedRawOrMissing = tl::expected<OpenedRaw, RawFailure>;
 

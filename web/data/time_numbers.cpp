@@ -107,11 +107,29 @@ Result<std::shared_ptr<const std::vector<UtcTime>>> TimeNumbers::update(
     if (times->size() > most_times)
         return fail(ErrorCode::exhausted, "{}: more than {} times have numbers", domain,
                     most_times);
-    if (Status saved = save(key, *times); !saved) return pass_on(saved);
+    const Status saved = save(key, *times);
+    problem_ = saved ? std::nullopt : std::optional(saved.error().message);
+    if (!saved && (*series)->times->empty())
+        return fail(ErrorCode::busy, "the numbers of the times of {} cannot be kept now", domain);
+    if (!saved) return (*series)->times;
     for (std::size_t number = (*series)->times->size(); number < times->size(); ++number)
         (*series)->numbers.emplace((*times)[number].time_since_epoch().count(), number);
     (*series)->times = std::move(times);
     return (*series)->times;
+}
+
+std::optional<std::string> TimeNumbers::problem() const {
+    const std::scoped_lock lock(mutex_);
+    return problem_;
+}
+
+// What cannot be removed is in nobody's way: it is tried again at the next start.
+void TimeNumbers::remove_leftovers() const {
+    std::error_code failed;
+    for (std::filesystem::directory_iterator at(directory_, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        if (at->is_directory(failed)) (void)remove_temporaries(real_file_system(), at->path());
+    }
 }
 
 std::optional<UtcTime> TimeNumbers::time_of(std::string_view domain, level2::Moment moment,

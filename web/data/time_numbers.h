@@ -12,7 +12,8 @@
 // Without a directory the numbers live as long as this object.
 //
 // Threads   Many threads may use it.
-// Errors    io, no_space and permission if the numbers cannot be read or kept; corrupt for a file
+// Errors    io and permission if the numbers cannot be read; busy if they cannot be kept and none
+//           was given before; corrupt for a file
 //           that is damaged, which must be removed by hand, because clients may hold its numbers;
 //           exhausted beyond `most_times`.
 #pragma once
@@ -45,13 +46,18 @@ class TimeNumbers {
     explicit TimeNumbers(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
     // Gives numbers to those of `present` (sorted) that have none, and returns the times of all
-    // numbers, in their order. `domain` must be the name of a domain of the cache.
+    // numbers, in their order. While numbers cannot be kept, none are given, and the times that
+    // have numbers already are returned. `domain` must be the name of a domain of the cache.
     [[nodiscard]] Result<std::shared_ptr<const std::vector<UtcTime>>> update(
         std::string_view domain, level2::Moment moment, std::span<const UtcTime> present);
     // Returns the time of a number. None: it was not given, or nobody called update() yet. Takes
     // microseconds.
     [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, level2::Moment moment,
                                                  std::size_t number) const;
+    // Why numbers could not be kept last; none if they could.
+    [[nodiscard]] std::optional<std::string> problem() const;
+    // Removes what a killed server left in the directory. Nothing else may write there.
+    void remove_leftovers() const;
 
   private:
     struct Series {
@@ -67,6 +73,7 @@ class TimeNumbers {
     const std::filesystem::path directory_;
     mutable std::mutex mutex_;
     std::map<Key, Series> series_;
+    std::optional<std::string> problem_;
 };
 
 }  // namespace stormcellar::web

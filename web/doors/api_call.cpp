@@ -38,12 +38,6 @@ Result<double> bounded_number(std::string_view name, std::string_view text, doub
 
 }  // namespace
 
-std::optional<ApiState::Slot> ApiState::take_slot() {
-    if (++computations_ <= sources_.most_computations) return Slot(computations_);
-    --computations_;
-    return std::nullopt;
-}
-
 ApiState::Halved ApiState::find_halved(const std::string& key) {
     const std::scoped_lock lock(mutex_);
     for (auto entry = halved_.begin(); entry != halved_.end(); ++entry) {
@@ -202,9 +196,10 @@ Answer json_answer(const Request& request, const ApiJson& document) {
                           document.dump(-1, ' ', false, ApiJson::error_handler_t::replace) + "\n");
 }
 
-Answer come_back_later() {
-    return come_back(std::chrono::seconds{2},
-                     "as many answers are being computed as may be; ask again");
+Answer takes_long() {
+    Answer answer;
+    answer.status = 0;
+    return answer;
 }
 
 std::string grid_path(const NamedGrid& grid) {

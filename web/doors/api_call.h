@@ -4,7 +4,6 @@
 // Errors    The functions that read a parameter return bad_argument with its name.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <list>
 #include <map>
@@ -39,8 +38,6 @@ struct ApiSources {
     // The same, if it is open already.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
-    // How many answers that take long may be in the making: more are asked to come back.
-    int most_computations = 2;
 };
 
 class ApiState {
@@ -48,26 +45,6 @@ class ApiState {
     explicit ApiState(ApiSources sources)
         : sources_(std::move(sources)), catalog_(sources_.catalog, sources_.reader) {}
     [[nodiscard]] const ApiSources& sources() const { return sources_; }
-
-    // Held while an answer is computed. None: as many are being computed as may be.
-    class Slot {
-      public:
-        explicit Slot(std::atomic<int>& used) : used_(&used) {}
-        Slot(Slot&& other) noexcept : used_(std::exchange(other.used_, nullptr)) {}
-        Slot& operator=(Slot&& other) noexcept {
-            std::swap(used_, other.used_);
-            return *this;
-        }
-        Slot(const Slot&) = delete;
-        Slot& operator=(const Slot&) = delete;
-        ~Slot() {
-            if (used_ != nullptr) --*used_;
-        }
-
-      private:
-        std::atomic<int>* used_;
-    };
-    [[nodiscard]] std::optional<Slot> take_slot();
 
     // Returns the catalog. It is opened when it is first asked for, since it may come later.
     // Errors: not_found if none is served; those of CatalogReader::open().
@@ -86,7 +63,6 @@ class ApiState {
   private:
     const ApiSources sources_;
     ServedCatalog catalog_;
-    std::atomic<int> computations_{0};
     std::mutex mutex_;                                  // guards what follows
     std::list<std::pair<std::string, Halved>> halved_;  // the most recently used first
     std::string volume_key_;
@@ -97,6 +73,9 @@ struct ApiCall {
     const Request& request;
     ApiState& state;
     std::vector<std::pair<std::string, std::string>> path_values;
+    // If set, an operation that would compute for long returns takes_long(). It is called again,
+    // without this, when its turn has come.
+    bool must_be_quick = false;
 
     [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
     [[nodiscard]] std::string path_value(std::string_view name) const;
@@ -148,7 +127,8 @@ struct AskedRegion {
 
 // Answers with JSON, which clients ask for again each time unless it has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
-[[nodiscard]] Answer come_back_later();
+// What an operation returns that must be quick and cannot; not to be sent.
+[[nodiscard]] Answer takes_long();
 // A path below the API's own, for links.
 [[nodiscard]] std::string grid_path(const NamedGrid& grid);
 

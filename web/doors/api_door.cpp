@@ -63,10 +63,20 @@ std::optional<Answer> ApiDoor::answer_at_once(const Request& request) {
     auto routed = route(request);
     if (!routed || routed->operation->answer != api_packed) return std::nullopt;
     if (!check_parameters(*routed->operation, request)) return std::nullopt;
-    return packed_at_once({request, state_, std::move(routed->values)});
+    return packed_at_once({request, state_, std::move(routed->values), true});
+}
+
+std::optional<Answer> ApiDoor::answer_soon(const Request& request) {
+    Answer answer = answer_of(request, true);
+    if (answer.status == takes_long().status) return std::nullopt;
+    return answer;
 }
 
 Answer ApiDoor::answer(const Request& request) {
+    return answer_of(request, false);
+}
+
+Answer ApiDoor::answer_of(const Request& request, bool must_be_quick) {
     auto routed = route(request);
     if (!routed) {
         return json_error(404, "the API has no such path: /api/v1 lists those that there are");
@@ -74,7 +84,7 @@ Answer ApiDoor::answer(const Request& request) {
     if (Status good = check_parameters(*routed->operation, request); !good) {
         return json_error(good.error());
     }
-    return routed->operation->answer({request, state_, std::move(routed->values)});
+    return routed->operation->answer({request, state_, std::move(routed->values), must_be_quick});
 }
 
 }  // namespace stormcellar::web

@@ -17,9 +17,12 @@ class ApiDoor final : public Door {
     explicit ApiDoor(ApiSources sources) : state_(std::move(sources)) {}
     // Packed grids that are kept, while their grid is open.
     std::optional<Answer> answer_at_once(const Request& request) override;
+    // What need not be computed for long.
+    std::optional<Answer> answer_soon(const Request& request) override;
     Answer answer(const Request& request) override;
 
   private:
+    [[nodiscard]] Answer answer_of(const Request& request, bool must_be_quick);
     ApiState state_;
 };
 

@@ -60,8 +60,7 @@ Answer api_netcdf(const ApiCall& call) {
     KeptAnswers& answers = *call.state.sources().kept;
     auto kept = answers.find(key);
     if (!kept) {
-        const auto slot = call.state.take_slot();
-        if (!slot) return come_back_later();
+        if (call.must_be_quick) return takes_long();
         auto made = answers.find_or_make(
             key, [&] { return make_netcdf(**grid, static_cast<int>(*deflate)); });
         if (!made) return json_error(made.error());

@@ -5,7 +5,6 @@
 #include "pipeline/mosaic/between_grids.h"
 #include "web/data/compressed.h"
 #include "web/data/halved_grid.h"
-#include "web/data/memory_file.h"
 #include "web/data/packed_grid.h"
 #include "web/data/region.h"
 #include "web/doors/api_door.h"
@@ -148,7 +147,7 @@ Result<Kept> compress_packed(const Result<std::string>& bytes, Coding coding, st
     if (!bytes) return pass_on(bytes);
     auto sent = compressed(*bytes, coding);
     if (!sent) return pass_on(sent);
-    return Kept{piece_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
+    return Kept{text_of(std::move(*sent)), std::move(etag), std::string(coding_name(coding))};
 }
 
 std::string halved_key(const OpenGrid& grid, int half, HalvedBy by) {
@@ -293,10 +292,9 @@ Answer api_packed(const ApiCall& call) {
     const std::string key = key_of(**grid, *wanted);
     auto kept = answers.find(key);
     if (!kept) {
-        std::optional<ApiState::Slot> slot;
         const bool halves = wanted->half > 0 &&
                             !call.state.find_halved(halved_key(**grid, wanted->half, *wanted->by));
-        if (halves && !(slot = call.state.take_slot())) return come_back_later();
+        if (halves && call.must_be_quick) return takes_long();
         auto made =
             answers.find_or_make(key, [&] { return make_packed(call.state, **grid, *wanted); });
         if (!made) return json_error(made.error());
@@ -320,8 +318,7 @@ Answer api_between(const ApiCall& call) {
     KeptAnswers& answers = *call.state.sources().kept;
     auto kept = answers.find(key);
     if (!kept) {
-        const auto slot = call.state.take_slot();
-        if (!slot) return come_back_later();
+        if (call.must_be_quick) return takes_long();
         auto made = answers.find_or_make(key, [&] { return make_between(call, *named, coding); });
         if (!made) return json_error(made.error());
         kept = std::move(*made);
@@ -344,8 +341,7 @@ Answer api_region_packed(const ApiCall& call) {
     KeptAnswers& answers = *call.state.sources().kept;
     auto kept = answers.find(key);
     if (!kept) {
-        const auto slot = call.state.take_slot();
-        if (!slot) return come_back_later();
+        if (call.must_be_quick) return takes_long();
         auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
             const auto frame = make_region(call.grids(), asked->plan, *time);
             if (!frame) return pass_on(frame);

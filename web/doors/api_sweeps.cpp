@@ -11,7 +11,6 @@
 #include "stormcellar/grid/sweep_choice.h"
 #include "stormcellar/level2/decode.h"
 #include "web/data/compressed.h"
-#include "web/data/memory_file.h"
 #include "web/data/packed_sweep.h"
 #include "web/doors/api_operations.h"
 
@@ -74,14 +73,13 @@ Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     return fail(ErrorCode::not_found, "the file no longer holds the volume");
 }
 
-// Decoding takes a slot, unless the volume is the one that was decoded last.
+// Decoding takes long, unless the volume is the one that was decoded last.
 Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolume& found) {
     const std::string key = fmt::format(
         "{}/{}", found.key,
         found.entry.volume.start_time ? format_utc(*found.entry.volume.start_time) : "");
     if (auto kept = call.state.find_volume(key)) return kept;
-    const auto slot = call.state.take_slot();
-    if (!slot) return refuse(come_back_later());
+    if (call.must_be_quick) return refuse(takes_long());
     auto decoded = decode_found(found);
     if (!decoded) return refuse(decoded.error());
     call.state.keep_volume(key, *decoded);
@@ -172,7 +170,7 @@ Answer api_gates(const ApiCall& call) {
             if (!sent) return pass_on(sent);
             std::string etag = fmt::format(
                 "\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(*bytes))), coding_name(coding));
-            return Kept{piece_of(std::move(*sent)), std::move(etag),
+            return Kept{text_of(std::move(*sent)), std::move(etag),
                         std::string(coding_name(coding))};
         });
         if (!made) return json_error(made.error());

@@ -8,6 +8,7 @@
 
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
+#include "web/http/client_address.h"
 
 namespace stormcellar::web {
 namespace {
@@ -155,7 +156,8 @@ Answer EventsDoor::answer(const Request& request) {
         answer.body = std::make_shared<NoEvents>();
         return answer;
     }
-    if (!places_->take(request.client, options_)) {
+    const std::string client = client_network(request.client);
+    if (!places_->take(client, options_)) {
         ++refused_;
         return come_back(std::chrono::seconds{10},
                          "There are as many streams of events as this server has; ask again.");
@@ -167,7 +169,7 @@ Answer EventsDoor::answer(const Request& request) {
         if (const auto given = request.parameter("last_event_id")) id = std::string(*given);
     }
     answer.body = std::make_shared<Places::Taken>(
-        places_, request.client, options_.hub->listen(std::move(*filter), std::move(id)));
+        places_, client, options_.hub->listen(std::move(*filter), std::move(id)));
     return answer;
 }
 

@@ -23,8 +23,9 @@ Answer no_such_grid(Grids& grids, std::string_view domain, level2::Moment moment
 
 Answer picture_error(const Error& error) {
     const unsigned status = status_of(error);
-    if (status == 503) return come_back(drawing_again_in, error.message);
-    return sentence(status, error.message);
+    const std::string text = without_paths(error.message);
+    return with_trouble(status == 503 ? come_back(drawing_again_in, text) : sentence(status, text),
+                        error);
 }
 
 Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids, std::string_view domain,

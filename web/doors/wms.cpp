@@ -40,7 +40,7 @@ Answer fault_answer(const Request& request, const WmsFault& fault) {
 }
 
 WmsFault fault_of(const Error& error) {
-    return {"", error.message + ".", status_of(error)};
+    return {"", without_paths(error.message) + ".", status_of(error)};
 }
 
 // The instant of a layer's grid, and what the header Warning says of it; empty: it is the one that

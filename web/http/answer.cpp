@@ -35,7 +35,8 @@ Pieces part_of(const Pieces& pieces, std::uint64_t offset, std::uint64_t size) {
         } else if (const auto* text = std::get_if<Text>(&piece)) {
             part.emplace_back(text_of((*text)->substr(skipped, taken)));
         } else if (const auto* slice = std::get_if<FileSlice>(&piece)) {
-            part.emplace_back(FileSlice{slice->file, slice->offset + skipped, taken});
+            part.emplace_back(
+                FileSlice{slice->file, slice->offset + skipped, taken, slice->memory_bytes});
         }
     }
     return part;
@@ -84,10 +85,33 @@ unsigned status_of(const Error& error) {
     return 500;
 }
 
-Answer json_error(const Error& error) {
-    Answer answer = json_error(status_of(error), error.message);
-    if (answer.status == 503) answer.with("Retry-After", "5");
+// A path begins with a slash at the beginning of a word, and goes on to what is said of it: names
+// of files may hold blanks.
+std::string without_paths(std::string_view message) {
+    std::string out;
+    while (!message.empty()) {
+        const bool begins_word =
+            out.empty() || std::string_view{" '\"("}.find(out.back()) != std::string_view::npos;
+        if (message.front() != '/' || !begins_word) {
+            out += message.front();
+            message.remove_prefix(1);
+            continue;
+        }
+        out += "a file";
+        message.remove_prefix(std::min(message.find(": "), message.size()));
+    }
+    return out;
+}
+
+Answer with_trouble(Answer answer, const Error& error) {
+    if (answer.status >= 500) answer.trouble = error.message;
     return answer;
+}
+
+Answer json_error(const Error& error) {
+    Answer answer = json_error(status_of(error), without_paths(error.message));
+    if (answer.status == 503) answer.with("Retry-After", "5");
+    return with_trouble(std::move(answer), error);
 }
 
 Answer moved_to(const Request& request, std::string_view path) {

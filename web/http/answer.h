@@ -30,6 +30,9 @@ using Text = std::shared_ptr<const std::string>;  // bytes in memory
 struct FileSlice {
     std::shared_ptr<const Descriptor> file;
     std::uint64_t offset = 0, size = 0;
+    // The size of the whole file if it has no name and so takes room only as long as it is open;
+    // else 0.
+    std::uint64_t memory_bytes = 0;
 };
 
 // The bytes of a body, one piece after another.
@@ -56,6 +59,8 @@ struct Answer {
     Fields headers;  // without Content-Length, Date and Connection, which the server writes
     std::variant<Pieces, std::shared_ptr<Stream>> body = Pieces{};
     bool closes = false;  // the connection ends with this answer
+    // What went wrong, for the log: the client is not told paths of the server.
+    std::string trouble = {};
 
     Answer& with(std::string name, std::string value) {
         headers.emplace_back(std::move(name), std::move(value));
@@ -69,10 +74,14 @@ struct Answer {
 [[nodiscard]] Answer sentence(unsigned status, std::string_view text);
 // {"error": "..."}, for programs; and an error of a room, with the status that fits its code:
 // not_found 404, bad_argument 400, busy, exhausted, over_budget and unmet 503 with Retry-After,
-// others 500.
+// others 500. Paths of the server in its message are left out.
 [[nodiscard]] Answer json_error(unsigned status, std::string_view text);
 [[nodiscard]] Answer json_error(const Error& error);
 [[nodiscard]] unsigned status_of(const Error& error);
+// Returns the message with "a file" for each path of the server.
+[[nodiscard]] std::string without_paths(std::string_view message);
+// Notes for the log what a client is not told: an error that is the server's.
+[[nodiscard]] Answer with_trouble(Answer answer, const Error& error);
 // A redirection to another path of this server.
 [[nodiscard]] Answer moved_to(const Request& request, std::string_view path);
 // 503 with Retry-After.

@@ -10,10 +10,18 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include "web/http/client_address.h"
+
 namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::milliseconds look_every{500};
+// A body has so much time before its rate says anything.
+constexpr std::chrono::seconds rate_is_known_after{5};
+// A client that takes a whole body at this many times the least rate is never cut off.
+constexpr std::uint64_t times_least_rate = 20;
+// Each takes a look at all bodies, while others wait for the lock.
+constexpr int most_cut_at_once = 16;
 
 // The bytes that the other side has acknowledged since the connection was opened.
 std::uint64_t acknowledged_bytes(int descriptor) {
@@ -54,7 +62,7 @@ ConnectionWatch::~ConnectionWatch() {
 bool ConnectionWatch::may_open(const std::string& client) const {
     const std::scoped_lock lock(mutex_);
     if (open_.size() - streams_ >= limits_.most_connections) return false;
-    const auto theirs = by_client_.find(client);
+    const auto theirs = by_client_.find(name_of(client));
     return theirs == by_client_.end() || exempt_.contains(client) ||
            theirs->second < limits_.most_connections_of_address;
 }
@@ -62,9 +70,10 @@ bool ConnectionWatch::may_open(const std::string& client) const {
 void ConnectionWatch::opened(MHD_Connection* connection, int descriptor, std::string client) {
     const std::scoped_lock lock(mutex_);
     make_room();
-    count_client(client);
+    std::string name = name_of(client);
+    count_client(name);
     open_[connection] = {.descriptor = descriptor,
-                         .client = std::move(client),
+                         .client = std::move(name),
                          .since = std::chrono::steady_clock::now()};
 }
 
@@ -80,6 +89,10 @@ void ConnectionWatch::closed(MHD_Connection* connection) {
     open_.erase(found);
 }
 
+std::string ConnectionWatch::name_of(const std::string& client) const {
+    return exempt_.contains(client) ? client : client_network(client);
+}
+
 void ConnectionWatch::count_client(const std::string& client) {
     ++by_client_[client];
 }
@@ -89,7 +102,7 @@ void ConnectionWatch::forget_client(const std::string& client) {
     if (--theirs->second == 0) by_client_.erase(theirs);
 }
 
-void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
+void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes) {
     const std::scoped_lock lock(mutex_);
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
@@ -102,17 +115,18 @@ void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase) {
         count_client(open.client);
     }
     open.phase = phase;
-    open.since = std::chrono::steady_clock::now();
+    open.since = open.began = std::chrono::steady_clock::now();
+    open.body_bytes = body_bytes;
     if (phase == Phase::body || phase == Phase::stream)
-        open.taken_bytes = acknowledged_bytes(open.descriptor);
+        open.taken_bytes = open.acknowledged_before = acknowledged_bytes(open.descriptor);
 }
 
 void ConnectionWatch::request_arrived(MHD_Connection* connection) {
     set_phase(connection, Phase::thinking);
 }
 
-void ConnectionWatch::sending_body(MHD_Connection* connection) {
-    set_phase(connection, Phase::body);
+void ConnectionWatch::sending_body(MHD_Connection* connection, std::uint64_t bytes) {
+    set_phase(connection, Phase::body, bytes);
 }
 
 void ConnectionWatch::sending_stream(MHD_Connection* connection,
@@ -145,17 +159,65 @@ void ConnectionWatch::cut(Open& open) {
 
 void ConnectionWatch::make_room() {
     if (4 * (open_.size() - streams_) < 3 * std::size_t{limits_.most_connections}) return;
+    if (Open* oldest = longest_without_request()) cut(*oldest);
+}
+
+void ConnectionWatch::cut_slowest_bodies(SteadyTime now) {
+    const std::size_t most = limits_.most_connections;
+    if (8 * (open_.size() - streams_) < 7 * most) return;
+    auto held = static_cast<std::size_t>(std::ranges::count_if(open_, [](const auto& one) {
+        return !one.second.is_cut && one.second.phase != Phase::stream;
+    }));
+    for (int cuts = 0; cuts < most_cut_at_once && 8 * held >= 7 * most; ++cuts, --held) {
+        Open* slowest = slowest_body(now);
+        if (slowest == nullptr) return;
+        cut(*slowest);
+    }
+}
+
+ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
     Open* oldest = nullptr;
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.phase != Phase::request) continue;
         if (oldest == nullptr || open.since < oldest->since) oldest = &open;
     }
-    if (oldest != nullptr) cut(*oldest);
+    return oldest;
+}
+
+// A proxy stands for many clients, so the number of its connections says nothing.
+ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
+    Open* slowest = nullptr;
+    unsigned most = 0;
+    double least_rate = 0;
+    for (auto& [connection, open] : open_) {
+        if (open.is_cut || open.phase != Phase::body || now - open.began < rate_is_known_after)
+            continue;
+        const unsigned theirs = exempt_.contains(open.client) ? 1 : by_client_[open.client];
+        if (theirs < most) continue;
+        const double rate =
+            static_cast<double>(acknowledged_bytes(open.descriptor) - open.acknowledged_before) /
+            std::chrono::duration<double>(now - open.began).count();
+        if (theirs == most && slowest != nullptr && rate >= least_rate) continue;
+        slowest = &open;
+        most = theirs;
+        least_rate = rate;
+    }
+    return slowest;
+}
+
+bool ConnectionWatch::takes_too_long(const Open& open, SteadyTime now) const {
+    if (open.phase != Phase::body || limits_.least_bytes_per_s == 0) return false;
+    const auto rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
+    const std::chrono::duration<double> total =
+        limits_.answer_time +
+        std::chrono::duration<double>(static_cast<double>(open.body_bytes) / rate);
+    return now - open.began > total && has_unsent(open.descriptor);
 }
 
 bool ConnectionWatch::is_too_slow(Open& open, SteadyTime now) const {
     if (open.phase == Phase::thinking) return false;
     if (open.phase == Phase::request) return now - open.since > limits_.request_time;
+    if (takes_too_long(open, now)) return true;
     if (now - open.since < limits_.rate_time) return false;
     const std::uint64_t taken = acknowledged_bytes(open.descriptor);
     const std::uint64_t wanted =
@@ -182,6 +244,7 @@ void ConnectionWatch::cut_those_gone() {
 ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
+    cut_slowest_bodies(now);
     cut_those_gone();
     Streams over;
     for (auto& [connection, open] : open_) {

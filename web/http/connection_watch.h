@@ -1,10 +1,10 @@
 // web/http/connection_watch.h -- cuts off connections that wait too long, and counts them.
 //
 // libmicrohttpd's own timeout is for inactivity: a client that sends one byte every few seconds
-// would hold a connection forever. This watch sets a total for the arrival of a request, and a
-// least rate for a body that a client takes. It ends a connection by shutdown(2); libmicrohttpd
-// then sees its end and closes it. While a stream has nothing to send, libmicrohttpd does not look
-// at its connection; the watch does, and ends the stream if the client is gone.
+// would hold a connection forever. This watch sets a total for the arrival of a request, and for a
+// body that a client takes a least rate and a total. It ends a connection by shutdown(2);
+// libmicrohttpd then sees its end and closes it. While a stream has nothing to send, libmicrohttpd
+// does not look at its connection; the watch does, and ends the stream if the client is gone.
 //
 // Threads   Many threads may use it; a thread of its own looks twice a second.
 #pragma once
@@ -39,13 +39,14 @@ class ConnectionWatch {
     // that carries a stream does not count: who makes streams limits them.
     [[nodiscard]] bool may_open(const std::string& client) const;
     // If three quarters of the connections are open, the one that has waited longest for a request
-    // is ended. Streams do not count.
+    // is ended. While seven eighths are open, the slowest bodies of the client that has most
+    // connections are ended, too. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
     // The answer goes out from now on: a body, or a stream, which may have nothing to send for
     // long.
-    void sending_body(MHD_Connection* connection);
+    void sending_body(MHD_Connection* connection, std::uint64_t bytes);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
     [[nodiscard]] std::size_t count() const;  // with streams
@@ -56,10 +57,13 @@ class ConnectionWatch {
     enum class Phase { request, thinking, body, stream };
     struct Open {
         int descriptor = -1;
-        std::string client;
+        std::string client;  // as it is counted
         Phase phase = Phase::request;
-        SteadyTime since;               // of the phase, or of the last look at the rate
-        std::uint64_t taken_bytes = 0;  // what the client had acknowledged then
+        SteadyTime since;                       // of the phase, or of the last look at the rate
+        std::uint64_t taken_bytes = 0;          // what the client had acknowledged then
+        SteadyTime began = {};                  // of the phase
+        std::uint64_t acknowledged_before = 0;  // what the client had acknowledged then
+        std::uint64_t body_bytes = 0;
         bool is_cut = false;
         std::weak_ptr<StreamFeed> stream = {};
     };
@@ -68,8 +72,14 @@ class ConnectionWatch {
     [[nodiscard]] Streams look(SteadyTime now);
     void cut_those_gone();
     bool is_too_slow(Open& open, SteadyTime now) const;
-    void set_phase(MHD_Connection* connection, Phase phase);
+    void set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes = 0);
     void make_room();
+    void cut_slowest_bodies(SteadyTime now);
+    [[nodiscard]] Open* longest_without_request();
+    [[nodiscard]] Open* slowest_body(SteadyTime now);
+    [[nodiscard]] bool takes_too_long(const Open& open, SteadyTime now) const;
+    // The name under which a client's connections are counted: a proxy that may have all is itself.
+    [[nodiscard]] std::string name_of(const std::string& client) const;
     void count_client(const std::string& client);
     void forget_client(const std::string& client);
     static void cut(Open& open);

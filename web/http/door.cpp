@@ -31,9 +31,9 @@ std::vector<std::string> Doors::prefixes() const {
 std::vector<std::shared_ptr<WorkQueue>> Doors::workers() const {
     std::vector<std::shared_ptr<WorkQueue>> all;
     for (const auto& [prefix, door] : doors_) {
-        const auto& own = door->workers();
-        if (own != nullptr && std::find(all.begin(), all.end(), own) == all.end())
-            all.push_back(own);
+        for (const auto& own : {door->workers(), door->long_workers()})
+            if (own != nullptr && std::find(all.begin(), all.end(), own) == all.end())
+                all.push_back(own);
     }
     return all;
 }

@@ -23,17 +23,25 @@ class Door {
     virtual std::optional<Answer> answer_at_once(const Request& /*request*/) {
         return std::nullopt;
     }
-    // Makes the answer, however long that takes. Must not throw.
+    // Makes the answer, however long that takes. If it throws, the client gets 503.
     virtual Answer answer(const Request& request) = 0;
+    // Returns the answer unless it must be computed for long. None: answer() makes it, called by
+    // the workers for long answers. Only a door that has such workers needs it.
+    virtual std::optional<Answer> answer_soon(const Request& request) { return answer(request); }
 
     // A door whose answers take long has workers of its own, which several doors may share: then
     // the other doors need not wait for them, and what they cannot take is answered with 503. Null:
     // the workers of the server. To be set before the server opens.
     void set_workers(std::shared_ptr<WorkQueue> workers) { workers_ = std::move(workers); }
     [[nodiscard]] const std::shared_ptr<WorkQueue>& workers() const { return workers_; }
+    // The same for answers that answer_soon() leaves.
+    void set_long_workers(std::shared_ptr<WorkQueue> workers) {
+        long_workers_ = std::move(workers);
+    }
+    [[nodiscard]] const std::shared_ptr<WorkQueue>& long_workers() const { return long_workers_; }
 
   private:
-    std::shared_ptr<WorkQueue> workers_;
+    std::shared_ptr<WorkQueue> workers_, long_workers_;
 };
 
 // A door finds itself by the longest prefix of whole segments: "/s3" answers "/s3", "/s3/" and

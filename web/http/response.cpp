@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
 #include <utility>
 
 #include <fcntl.h>
@@ -36,7 +37,7 @@ Response response_of_file(const FileSlice& slice) {
 }
 
 // Reads pieces one after another. A file that became shorter ends the connection.
-ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::size_t most) {
+ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::size_t most) try {
     const Pieces part = part_of(*static_cast<const Pieces*>(pieces), position, most);
     std::size_t filled = 0;
     for (const Piece& piece : part) {
@@ -53,6 +54,8 @@ ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::siz
         if (static_cast<std::uint64_t>(count) < slice.size) break;
     }
     return filled > 0 ? static_cast<ssize_t>(filled) : MHD_CONTENT_READER_END_WITH_ERROR;
+} catch (const std::exception&) {
+    return MHD_CONTENT_READER_END_WITH_ERROR;  // libmicrohttpd knows no exceptions
 }
 
 void let_pieces_go(void* pieces) {
@@ -75,8 +78,10 @@ Response response_of_pieces(const Pieces& pieces) {
 
 using HeldFeed = std::shared_ptr<StreamFeed>;
 
-ssize_t read_feed(void* feed, std::uint64_t /*position*/, char* buffer, std::size_t most) {
+ssize_t read_feed(void* feed, std::uint64_t /*position*/, char* buffer, std::size_t most) try {
     return (*static_cast<HeldFeed*>(feed))->read(buffer, most);
+} catch (const std::exception&) {
+    return MHD_CONTENT_READER_END_WITH_ERROR;
 }
 
 void let_feed_go(void* feed) {

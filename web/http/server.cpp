@@ -3,23 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <exception>
 #include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
 
-#include <arpa/inet.h>
-#include <fmt/format.h>
-#include <linux/tcp.h>
+#include <fcntl.h>
 #include <microhttpd.h>
-#include <netinet/in.h>
 #include <pthread.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/system_error.h"
 #include "stormcellar/base/descriptor.h"
+#include "web/http/answer_budget.h"
+#include "web/http/client_address.h"
 #include "web/http/connection_watch.h"
 #include "web/http/read_request.h"
 #include "web/http/response.h"
@@ -29,23 +31,6 @@ namespace stormcellar::web {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-// The address and port of a socket's other or own end.
-struct EndPoint {
-    std::string address;
-    int port = 0;
-};
-EndPoint end_point_of(const sockaddr* raw) {
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    if (raw->sa_family == AF_INET6) {
-        const auto* v6 = reinterpret_cast<const sockaddr_in6*>(raw);
-        ::inet_ntop(AF_INET6, &v6->sin6_addr, text.data(), text.size());
-        return {text.data(), ntohs(v6->sin6_port)};
-    }
-    const auto* v4 = reinterpret_cast<const sockaddr_in*>(raw);
-    ::inet_ntop(AF_INET, &v4->sin_addr, text.data(), text.size());
-    return {text.data(), ntohs(v4->sin_port)};
-}
 
 // Whether a browser shows it as data: no page and no script. Anything unknown is none.
 bool is_data(const Answer& answer) {
@@ -73,10 +58,41 @@ const Fields& headers_of_pages() {
     return headers;
 }
 
+// Exceptions must not cross libmicrohttpd. Without memory, what was read before ends up as no
+// request: all headers go.
 MHD_Result take_header(void* headers, MHD_ValueKind, const char* name, const char* value) {
-    static_cast<Fields*>(headers)->emplace_back(name == nullptr ? "" : name,
-                                                value == nullptr ? "" : value);
-    return MHD_YES;
+    auto& fields = *static_cast<Fields*>(headers);
+    try {
+        fields.emplace_back(name == nullptr ? "" : name, value == nullptr ? "" : value);
+        return MHD_YES;
+    } catch (const std::exception&) {
+        fields.clear();
+        return MHD_NO;
+    }
+}
+
+Answer answer_of_exception(std::string_view what) {
+    Answer answer;
+    answer.status = 503;
+    try {
+        answer = come_back(std::chrono::seconds{5}, "This answer cannot be made now.");
+        answer.trouble = what;
+    } catch (const std::exception&) {
+        // There is no memory for more than the status.
+    }
+    return answer;
+}
+
+// Calls `make`. What stops one answer must not stop the server: memory may be short.
+template <class Make>
+std::optional<Answer> made_or_503(const Make& make) {
+    try {
+        return make();
+    } catch (const std::exception& error) {
+        return answer_of_exception(error.what());
+    } catch (...) {
+        return answer_of_exception("an exception without a text");
+    }
 }
 
 // SIGPIPE is blocked while libmicrohttpd starts its thread, which inherits that: sendfile(2) to a
@@ -97,42 +113,11 @@ class WithoutBrokenPipes {
     sigset_t before_{};
 };
 
-Result<Descriptor> listen_at(const ListenAddress& where) {
-    const bool is_v6 = where.address.find(':') != std::string::npos;
-    sockaddr_storage storage{};
-    socklen_t size = 0;
-    bool is_address = false;
-    if (is_v6) {
-        auto* v6 = reinterpret_cast<sockaddr_in6*>(&storage);
-        v6->sin6_family = AF_INET6;
-        v6->sin6_port = htons(static_cast<std::uint16_t>(where.port));
-        is_address = ::inet_pton(AF_INET6, where.address.c_str(), &v6->sin6_addr) == 1;
-        size = sizeof(sockaddr_in6);
-    } else {
-        auto* v4 = reinterpret_cast<sockaddr_in*>(&storage);
-        v4->sin_family = AF_INET;
-        v4->sin_port = htons(static_cast<std::uint16_t>(where.port));
-        is_address = ::inet_pton(AF_INET, where.address.c_str(), &v4->sin_addr) == 1;
-        size = sizeof(sockaddr_in);
-    }
-    if (!is_address || where.port < 0 || where.port > 65535) {
-        return fail(ErrorCode::bad_argument, "{}:{} is not an address of a network interface",
-                    where.address, where.port);
-    }
-    Descriptor socket(
-        ::socket(is_v6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    const int on = 1;
-    ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
-    if (!socket.is_open() ||
-        ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
-        ::listen(socket.number(), 1024) != 0) {
-        const int reason = errno;
-        const std::string what = fmt::format("cannot listen on {}:{}", where.address, where.port);
-        if (reason == EADDRINUSE) return fail(ErrorCode::busy, "{}: another program does", what);
-        return system_failure(what, reason);
-    }
-    return socket;
+bool is_same_file(const Descriptor& a, const Descriptor& b) {
+    struct stat of_a {
+    }, of_b{};
+    return ::fstat(a.number(), &of_a) == 0 && ::fstat(b.number(), &of_b) == 0 &&
+           of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
 // One request, from its first line to the end of its answer.
@@ -142,6 +127,8 @@ struct Exchange {
     std::shared_ptr<Door> door;
     std::optional<Answer> answer;
     std::shared_ptr<StreamFeed> feed;
+    std::string counts_as;      // the client's name where clients are counted
+    bool holds_budget = false;  // the answer's bytes are counted
     SteadyClock::time_point began = SteadyClock::now();
     enum class Stage { first_line, headers, answer };  // what was seen of it
     Stage stage = Stage::first_line;
@@ -155,6 +142,7 @@ struct Server::Impl {
           doors(std::move(opened)),
           identity(identity_of(options)),
           watch(options.limits, identity.proxies),
+          budget(options.limits.answer_bytes),
           queue(options.limits.workers, options.limits.most_waiting) {}
 
     struct Listener {
@@ -162,7 +150,7 @@ struct Server::Impl {
         std::string url;
     };
 
-    Status listen(const ListenAddress& where);
+    Status listen(const ListenSocket& socket);
     MHD_Result handle(MHD_Connection* connection, const char* method, const char* version,
                       Exchange& exchange);
     bool is_refused(MHD_Connection* connection, const char* method, const char* version,
@@ -170,6 +158,11 @@ struct Server::Impl {
     // Returns false if a worker makes the answer; libmicrohttpd then asks again.
     bool begin(MHD_Connection* connection, Exchange& exchange);
     bool let_work(MHD_Connection* connection, Exchange& exchange);
+    void hand_over(WorkQueue& workers, MHD_Connection* connection, Exchange& exchange,
+                   bool may_take_long);
+    void work(WorkQueue::Turn turn, MHD_Connection* connection, Exchange& exchange,
+              bool may_take_long);
+    void take_budget(Exchange& exchange);
     MHD_Result send(MHD_Connection* connection, Exchange& exchange);
     void finish(Answer& answer, const Request& request) const;
     void stop();
@@ -188,6 +181,7 @@ struct Server::Impl {
     const std::shared_ptr<const Doors> doors;
     const Identity identity;
     ConnectionWatch watch;
+    AnswerBudget budget;
     std::mutex feeds_mutex;
     std::set<std::shared_ptr<StreamFeed>> feeds;
     std::atomic<bool> is_stopping = false;
@@ -197,9 +191,13 @@ struct Server::Impl {
 
 // libmicrohttpd gives what this returns to the functions below as the request's own.
 void* Server::Impl::first_line(void* /*self*/, const char* uri, MHD_Connection* /*connection*/) {
-    auto exchange = std::make_unique<Exchange>();
-    exchange->raw.target = uri;
-    return exchange.release();
+    try {
+        auto exchange = std::make_unique<Exchange>();
+        exchange->raw.target = uri;
+        return exchange.release();
+    } catch (const std::exception&) {
+        return nullptr;  // request() then closes the connection
+    }
 }
 
 MHD_Result Server::Impl::request(void* self, MHD_Connection* connection, const char* /*url*/,
@@ -207,8 +205,12 @@ MHD_Result Server::Impl::request(void* self, MHD_Connection* connection, const c
                                  std::size_t* data_size, void** exchange) {
     if (*exchange == nullptr) return MHD_NO;
     *data_size = 0;
-    return static_cast<Impl*>(self)->handle(connection, method, version,
-                                            *static_cast<Exchange*>(*exchange));
+    try {
+        return static_cast<Impl*>(self)->handle(connection, method, version,
+                                                *static_cast<Exchange*>(*exchange));
+    } catch (const std::exception&) {
+        return MHD_NO;
+    }
 }
 
 void Server::Impl::completed(void* self, MHD_Connection* connection, void** exchange,
@@ -217,14 +219,21 @@ void Server::Impl::completed(void* self, MHD_Connection* connection, void** exch
     const std::unique_ptr<Exchange> ended(static_cast<Exchange*>(*exchange));
     *exchange = nullptr;
     impl->watch.answered(connection);
-    if (ended == nullptr || ended->feed == nullptr) return;
+    if (ended == nullptr) return;
+    if (ended->holds_budget)
+        impl->budget.give_back(ended->counts_as, std::get<Pieces>(ended->answer->body));
+    if (ended->feed == nullptr) return;
     const std::scoped_lock lock(impl->feeds_mutex);
     impl->feeds.erase(ended->feed);
 }
 
 MHD_Result Server::Impl::accepts(void* self, const sockaddr* address, socklen_t /*size*/) {
-    return static_cast<Impl*>(self)->watch.may_open(end_point_of(address).address) ? MHD_YES
-                                                                                   : MHD_NO;
+    try {
+        const auto& watch = static_cast<Impl*>(self)->watch;
+        return watch.may_open(end_point_of(address).address) ? MHD_YES : MHD_NO;
+    } catch (const std::exception&) {
+        return MHD_NO;
+    }
 }
 
 void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*of_connection*/,
@@ -237,7 +246,12 @@ void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*o
     const auto* socket = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
     const auto* client = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
     if (socket == nullptr || client == nullptr) return;
-    impl->watch.opened(connection, socket->connect_fd, end_point_of(client->client_addr).address);
+    try {
+        impl->watch.opened(connection, socket->connect_fd,
+                           end_point_of(client->client_addr).address);
+    } catch (const std::exception&) {
+        ::shutdown(socket->connect_fd, SHUT_RDWR);
+    }
 }
 
 // libmicrohttpd calls this when the headers are there, again when the request has ended, and again
@@ -270,6 +284,7 @@ bool Server::Impl::is_refused(MHD_Connection* connection, const char* method, co
     if (client != nullptr) raw.client = end_point_of(client->client_addr).address;
     Reading reading = read_request(raw, identity);
     exchange.request = std::move(reading.request);
+    exchange.counts_as = client_network(exchange.request.client);
     if (!reading.refusal) return false;
     exchange.answer = sentence(reading.refusal->status, reading.refusal->reason);
     if (reading.refusal->status == 405) exchange.answer->with("Allow", "GET, HEAD, OPTIONS");
@@ -285,26 +300,60 @@ bool Server::Impl::begin(MHD_Connection* connection, Exchange& exchange) {
         return true;
     }
     exchange.door = doors->find(exchange.request.path);
-    exchange.answer = exchange.door == nullptr ? sentence(404, "There is nothing at this address.")
-                                               : exchange.door->answer_at_once(exchange.request);
+    exchange.answer =
+        exchange.door == nullptr
+            ? sentence(404, "There is nothing at this address.")
+            : made_or_503([&] { return exchange.door->answer_at_once(exchange.request); });
     return exchange.answer || let_work(connection, exchange);
 }
 
-// Holds the connection still until a worker has made the answer. From the moment at which the work
-// is added, the exchange is the worker's, until it resumes the connection.
+// Holds the connection still until a worker has made the answer.
 bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
     MHD_suspend_connection(connection);
-    WorkQueue& workers = exchange.door->workers() ? *exchange.door->workers() : queue;
-    const bool is_added = workers.add([connection, &exchange](bool is_ending) {
-        exchange.answer = is_ending ? come_back(std::chrono::seconds{5}, "The server is stopping.")
-                                    : exchange.door->answer(exchange.request);
-        MHD_resume_connection(connection);
-    });
-    if (is_added) return false;
-    exchange.answer = come_back(std::chrono::seconds{2},
-                                "More is asked than this server can make at a time; ask again.");
-    MHD_resume_connection(connection);
+    hand_over(exchange.door->workers() ? *exchange.door->workers() : queue, connection, exchange,
+              exchange.door->long_workers() == nullptr);
     return false;
+}
+
+// From the moment at which the work is added, the exchange is the worker's, until it resumes the
+// connection.
+void Server::Impl::hand_over(WorkQueue& workers, MHD_Connection* connection, Exchange& exchange,
+                             bool may_take_long) {
+    const auto added = made_or_503([&]() -> std::optional<Answer> {
+        const bool is_added = workers.add(
+            exchange.counts_as, [this, connection, &exchange, may_take_long](WorkQueue::Turn turn) {
+                work(turn, connection, exchange, may_take_long);
+            });
+        if (is_added) return std::nullopt;
+        return come_back(std::chrono::seconds{2},
+                         "More is asked than this server can make at a time; ask again.");
+    });
+    if (!added) return;
+    exchange.answer = added;
+    MHD_resume_connection(connection);
+}
+
+void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchange& exchange,
+                        bool may_take_long) {
+    Door& door = *exchange.door;
+    exchange.answer = made_or_503([&]() -> std::optional<Answer> {
+        switch (turn) {
+            case WorkQueue::Turn::came:
+                return may_take_long ? door.answer(exchange.request)
+                                     : door.answer_soon(exchange.request);
+            case WorkQueue::Turn::stopping:
+                return come_back(std::chrono::seconds{5}, "The server is stopping.");
+            case WorkQueue::Turn::lost:
+                return come_back(std::chrono::seconds{2},
+                                 "Other clients ask for less and go first; ask again.");
+        }
+        return std::nullopt;
+    });
+    if (exchange.answer) {
+        MHD_resume_connection(connection);
+    } else {
+        hand_over(*door.long_workers(), connection, exchange, true);
+    }
 }
 
 // What every answer has.
@@ -330,7 +379,19 @@ void Server::Impl::finish(Answer& answer, const Request& request) const {
     if (is_stopping) answer.closes = true;
 }
 
+// An answer without a body that is sent, such as that to HEAD, takes nothing.
+void Server::Impl::take_budget(Exchange& exchange) {
+    const auto* pieces = std::get_if<Pieces>(&exchange.answer->body);
+    if (pieces == nullptr || exchange.request.verb == Verb::head) return;
+    exchange.holds_budget = budget.take(exchange.counts_as, *pieces);
+    if (exchange.holds_budget) return;
+    exchange.answer = come_back(std::chrono::seconds{10},
+                                "As many bytes are on their way as this server holds; ask again.");
+}
+
 MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
+    if (!exchange.answer) return MHD_NO;
+    take_budget(exchange);
     Answer& answer = *exchange.answer;
     finish(answer, exchange.request);
     const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
@@ -342,45 +403,43 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
         feeds.insert(exchange.feed);
         if (is_stopping) exchange.feed->end();
     }
+    const std::uint64_t bytes = is_stream ? 0 : size_of(std::get<Pieces>(answer.body));
     if (options.on_answer) {
-        const std::uint64_t bytes = is_stream ? 0 : size_of(std::get<Pieces>(answer.body));
-        options.on_answer(
-            {&exchange.request, answer.status, bytes, SteadyClock::now() - exchange.began});
+        options.on_answer({&exchange.request, answer.status, bytes,
+                           SteadyClock::now() - exchange.began, answer.trouble});
     }
     if (exchange.feed != nullptr) {
         watch.sending_stream(connection, exchange.feed);
     } else {
-        watch.sending_body(connection);
+        watch.sending_body(connection, exchange.request.verb == Verb::head ? 0 : bytes);
     }
     return MHD_queue_response(connection, answer.status, response.get());
 }
 
-Status Server::Impl::listen(const ListenAddress& where) {
-    Result<Descriptor> socket = listen_at(where);
-    if (!socket) return tl::unexpected(socket.error());
-    sockaddr_storage bound{};
-    socklen_t size = sizeof bound;
-    ::getsockname(socket->number(), reinterpret_cast<sockaddr*>(&bound), &size);
-    const EndPoint end = end_point_of(reinterpret_cast<const sockaddr*>(&bound));
+Status Server::Impl::listen(const ListenSocket& socket) {
+    // libmicrohttpd closes what it is given.
+    Descriptor own{::fcntl(socket.socket->number(), F_DUPFD_CLOEXEC, 3)};
+    if (!own.is_open()) return system_failure("cannot listen on " + socket.url, errno);
     const WithoutBrokenPipes blocked;
     // Paths and queries are decoded by read_request(), which refuses what libmicrohttpd would take.
     const auto undecoded =
         +[](void*, MHD_Connection*, char* text) { return std::char_traits<char>::length(text); };
     MHD_Daemon* daemon = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, &Impl::accepts, this,
-        &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, socket->number(),
-        MHD_OPTION_CONNECTION_LIMIT,
+        &Impl::request, this, MHD_OPTION_LISTEN_SOCKET, own.number(), MHD_OPTION_CONNECTION_LIMIT,
         options.limits.most_connections + options.limits.most_streams + 1,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, options.limits.header_bytes,
         MHD_OPTION_URI_LOG_CALLBACK, &Impl::first_line, this, MHD_OPTION_UNESCAPE_CALLBACK,
         undecoded, nullptr, MHD_OPTION_NOTIFY_COMPLETED, &Impl::completed, this,
         MHD_OPTION_NOTIFY_CONNECTION, &Impl::connection, this, MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1,
         MHD_OPTION_END);
-    if (daemon == nullptr) return fail(ErrorCode::io, "libmicrohttpd cannot begin");
-    (void)socket->release();
-    const bool is_v6 = end.address.find(':') != std::string::npos;
-    listeners.push_back({daemon, is_v6 ? fmt::format("http://[{}]:{}/", end.address, end.port)
-                                       : fmt::format("http://{}:{}/", end.address, end.port)});
+    if (daemon == nullptr) {
+        // Some of its failures close the socket.
+        if (!is_same_file(own, *socket.socket)) (void)own.release();
+        return fail(ErrorCode::io, "libmicrohttpd cannot begin");
+    }
+    (void)own.release();
+    listeners.push_back({daemon, socket.url});
     return {};
 }
 
@@ -417,11 +476,17 @@ Server::~Server() {
 }
 
 Result<std::unique_ptr<Server>> Server::open(ServerOptions options,
-                                             std::shared_ptr<const Doors> doors) {
+                                             std::shared_ptr<const Doors> doors,
+                                             ListenSockets sockets) {
+    if (sockets.empty()) {
+        auto opened = open_listen_sockets(options.listen);
+        if (!opened) return pass_on(opened);
+        sockets = std::move(*opened);
+    }
     auto impl = std::make_unique<Impl>(std::move(options), std::move(doors));
     std::unique_ptr<Server> server(new Server(std::move(impl)));
-    for (const ListenAddress& where : server->impl_->options.listen) {
-        if (const Status listening = server->impl_->listen(where); !listening)
+    for (const ListenSocket& socket : sockets) {
+        if (const Status listening = server->impl_->listen(socket); !listening)
             return tl::unexpected(listening.error());
     }
     return server;
@@ -437,7 +502,8 @@ std::vector<std::string> Server::addresses() const {
 ServerFacts Server::facts() const {
     ServerFacts facts{.connections = impl_->watch.count(),
                       .waiting = impl_->queue.waiting(),
-                      .working = impl_->queue.working()};
+                      .working = impl_->queue.working(),
+                      .answer_bytes = impl_->budget.bytes()};
     for (const auto& workers : impl_->doors->workers()) {
         facts.waiting += workers->waiting();
         facts.working += workers->working();

@@ -10,12 +10,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "stormcellar/base/result.h"
 #include "web/http/door.h"
+#include "web/http/listen_sockets.h"
 #include "web/http/server_options.h"
 
 namespace stormcellar::web {
@@ -23,12 +25,16 @@ namespace stormcellar::web {
 // What the server holds at the moment.
 struct ServerFacts {
     std::size_t connections = 0, streams = 0, waiting = 0, working = 0;
+    std::uint64_t answer_bytes = 0;  // of answers on their way, in memory
 };
 
 class Server {
   public:
+    // Listens on `sockets`, which stay open when the server ends; without any, on those that it
+    // opens for the addresses of the options.
     static Result<std::unique_ptr<Server>> open(ServerOptions options,
-                                                std::shared_ptr<const Doors> doors);
+                                                std::shared_ptr<const Doors> doors,
+                                                ListenSockets sockets = {});
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
     // Stops: streams end, requests that wait for a worker get 503, answers under way are finished

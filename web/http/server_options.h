@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "web/http/request.h"
@@ -17,20 +18,27 @@ namespace stormcellar::web {
 struct ListenAddress {
     std::string address = "127.0.0.1";  // of IPv4 or IPv6, without brackets
     int port = 0;                       // 0: any that is free
+    bool operator==(const ListenAddress&) const = default;
 };
 
 struct ServerLimits {
     unsigned most_connections = 1024;  // but for those that carry a stream
     unsigned most_streams = 2048;      // that doors make: the server has room for them
-    // Of one client's address. Trusted proxies may have all.
+    // Of one client: an IPv4 address or an IPv6 network of 64 bits. Trusted proxies may have all.
     unsigned most_connections_of_address = 256;
     std::size_t header_bytes = 32 * 1024;  // request line and headers together
     // From the opening of a connection, or the end of the previous answer, to the end of a
     // request's headers.
     std::chrono::seconds request_time{20};
     // A client that takes less than this of a waiting body, on the mean of such a time, is cut off.
+    // 0: never.
     std::uint64_t least_bytes_per_s = 1000;
     std::chrono::seconds rate_time{30};
+    // So is one that has not taken a whole body after this time and what the body takes at twenty
+    // times that rate.
+    std::chrono::seconds answer_time{60};
+    // Of answers on their way, in memory (web/http/answer_budget.h); beyond: 503.
+    std::uint64_t answer_bytes = 256'000'000;
     unsigned workers = 4;           // threads that make answers
     std::size_t most_waiting = 64;  // requests that wait for a worker; beyond: 503
 };
@@ -41,6 +49,7 @@ struct Served {
     unsigned status = 0;
     std::uint64_t bytes = 0;                   // of the body; 0 for streams
     std::chrono::duration<double> seconds{0};  // until the answer was made
+    std::string_view trouble = {};             // what went wrong that the client is not told
 };
 
 struct ServerOptions {

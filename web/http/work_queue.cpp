@@ -1,6 +1,7 @@
 #include "web/http/work_queue.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace stormcellar::web {
@@ -24,19 +25,58 @@ void WorkQueue::stop() {
         if (thread.joinable()) thread.join();
 }
 
-bool WorkQueue::add(Work work) {
+bool WorkQueue::add(const std::string& client, Work work) {
+    std::optional<Work> lost;
     {
         const std::scoped_lock lock(mutex_);
-        if (is_stopping_ || waiting_.size() >= most_waiting_) return false;
-        waiting_.push_back(std::move(work));
+        if (is_stopping_) return false;
+        const auto known = clients_.find(client);
+        // A thread that has nothing to do takes work that need not wait.
+        if (waiting_ >= most_waiting_ + (threads_.size() - working_)) {
+            lost = take_place_of_other(known == clients_.end() ? 0 : known->second.requests());
+            if (!lost) return false;
+        }
+        clients_[client].waiting.push_back(std::move(work));
+        ++waiting_;
     }
     more_.notify_one();
+    if (lost) (*lost)(Turn::lost);
     return true;
+}
+
+std::optional<WorkQueue::Work> WorkQueue::take_place_of_other(std::size_t requests) {
+    auto most = clients_.end();
+    for (auto client = clients_.begin(); client != clients_.end(); ++client) {
+        if (client->second.waiting.empty()) continue;
+        if (most == clients_.end() || client->second.requests() > most->second.requests())
+            most = client;
+    }
+    if (most == clients_.end() || most->second.requests() <= requests + 1) return std::nullopt;
+    Work work = std::move(most->second.waiting.back());
+    most->second.waiting.pop_back();
+    --waiting_;
+    return work;
+}
+
+WorkQueue::Clients::iterator WorkQueue::next() {
+    auto best = clients_.end();
+    const auto rank = [](const Client& client) {
+        return std::tuple(client.working, client.last_turn);
+    };
+    for (auto client = clients_.begin(); client != clients_.end(); ++client) {
+        if (client->second.waiting.empty()) continue;
+        if (best == clients_.end() || rank(client->second) < rank(best->second)) best = client;
+    }
+    return best;
+}
+
+void WorkQueue::forget_if_idle(Clients::iterator client) {
+    if (client->second.requests() == 0) clients_.erase(client);
 }
 
 std::size_t WorkQueue::waiting() const {
     const std::scoped_lock lock(mutex_);
-    return waiting_.size();
+    return waiting_;
 }
 
 std::size_t WorkQueue::working() const {
@@ -47,16 +87,22 @@ std::size_t WorkQueue::working() const {
 void WorkQueue::run() {
     std::unique_lock lock(mutex_);
     while (true) {
-        more_.wait(lock, [&] { return is_stopping_ || !waiting_.empty(); });
-        if (waiting_.empty()) return;
-        const Work work = std::move(waiting_.front());
-        waiting_.pop_front();
+        more_.wait(lock, [&] { return is_stopping_ || waiting_ > 0; });
+        if (waiting_ == 0) return;
+        const auto client = next();
+        const Work work = std::move(client->second.waiting.front());
+        client->second.waiting.pop_front();
+        client->second.last_turn = ++turns_;
+        ++client->second.working;
+        --waiting_;
         ++working_;
-        const bool is_stopping = is_stopping_;
+        const Turn turn = is_stopping_ ? Turn::stopping : Turn::came;
         lock.unlock();
-        work(is_stopping);
+        work(turn);
         lock.lock();
         --working_;
+        --client->second.working;
+        forget_if_idle(client);
     }
 }
 

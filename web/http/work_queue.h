@@ -1,14 +1,22 @@
 // web/http/work_queue.h -- a bounded number of threads that make answers, and of requests that
 // wait.
 //
+// Clients share the threads: the next to be served is the client that has the fewest requests under
+// way, and among those the one whose turn was longest ago. If all places are taken, a client that
+// has fewer requests than another gets the place of that one's newest.
+//
 // Threads   Many threads may add work.
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -19,24 +27,40 @@ class WorkQueue {
     WorkQueue(unsigned workers, std::size_t most_waiting);
     WorkQueue(const WorkQueue&) = delete;
     WorkQueue& operator=(const WorkQueue&) = delete;
-    // Work that waits is run with `is_stopping`, so that it answers at once.
+    // Work that waits is run with `stopping`, so that it answers at once.
     ~WorkQueue();
 
-    using Work = std::function<void(bool is_stopping)>;
-    // Returns false if too much waits already.
-    [[nodiscard]] bool add(Work work);
+    // Why work is run: its turn has come, the queue stops, or another client has its place. Work
+    // must not throw.
+    enum class Turn { came, stopping, lost };
+    using Work = std::function<void(Turn turn)>;
+    // Returns false if too much waits already. Work that loses its place to this one is run by the
+    // caller's thread.
+    [[nodiscard]] bool add(const std::string& client, Work work);
     void stop();
     [[nodiscard]] std::size_t waiting() const;
     [[nodiscard]] std::size_t working() const;
 
   private:
+    struct Client {
+        std::deque<Work> waiting;
+        std::size_t working = 0;
+        std::uint64_t last_turn = 0;
+        [[nodiscard]] std::size_t requests() const { return waiting.size() + working; }
+    };
+    using Clients = std::map<std::string, Client>;
     void run();
+    [[nodiscard]] Clients::iterator next();
+    // Takes the newest work of the client that has most, if that has more than `requests`.
+    [[nodiscard]] std::optional<Work> take_place_of_other(std::size_t requests);
+    void forget_if_idle(Clients::iterator client);
 
     const std::size_t most_waiting_;
     mutable std::mutex mutex_;
     std::condition_variable more_;
-    std::deque<Work> waiting_;
-    std::size_t working_ = 0;
+    Clients clients_;  // those that have requests
+    std::size_t waiting_ = 0, working_ = 0;
+    std::uint64_t turns_ = 0;
     bool is_stopping_ = false;
     std::vector<std::thread> threads_;
 };

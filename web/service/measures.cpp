@@ -52,7 +52,10 @@ Measures::Measures() {
           Gauge{"stormcellar_web_waiting_requests", "Requests that wait for a worker.",
                 &ServerFacts::waiting},
           Gauge{"stormcellar_web_working_requests", "Requests that workers answer now.",
-                &ServerFacts::working}}) {
+                &ServerFacts::working},
+          Gauge{"stormcellar_web_answer_memory_bytes",
+                "Memory of answers that are on their way to clients.",
+                &ServerFacts::answer_bytes}}) {
         add.add_gauge(gauge.name, gauge.help, [server = server_, value = gauge.value] {
             const Server* running = *server;
             return running == nullptr ? 0.0 : static_cast<double>(running->facts().*value);

@@ -132,12 +132,13 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const auto kept = std::make_shared<KeptAnswers>(limits.kept_bytes);
     if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {
-        doors->add("/api/v1",
-                   std::make_shared<ApiDoor>(ApiSources{.grids = sources.grids,
-                                                        .catalog = setup.catalog,
-                                                        .reader = sources.catalog,
-                                                        .kept = kept,
-                                                        .most_computations = limits.renders}));
+        const auto api = std::make_shared<ApiDoor>(ApiSources{.grids = sources.grids,
+                                                              .catalog = setup.catalog,
+                                                              .reader = sources.catalog,
+                                                              .kept = kept});
+        api->set_long_workers(std::make_shared<WorkQueue>(
+            static_cast<unsigned>(limits.renders), static_cast<std::size_t>(limits.waiting)));
+        doors->add("/api/v1", api);
     }
     const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);

@@ -1,14 +1,18 @@
 #include "web/service/web_service.h"
 
 #include <algorithm>
-#include <cerrno>
+#include <functional>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
+#include <fmt/ranges.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include "base/service_log.h"
+#include "base/steady_time.h"
 #include "stormcellar/base/descriptor.h"
 
 namespace stormcellar::web {
@@ -34,6 +38,40 @@ void note_answer(const Served& served) {
     if (!is_logged(LogLevel::debug) || served.request == nullptr) return;
     say(LogLevel::debug, "{} {} {} bytes in {:.1f} ms for {}", served.status, served.request->path,
         served.bytes, served.seconds.count() * 1000, served.request->client);
+}
+
+// Logs what went wrong with answers: each thing once a minute, and few things. Clients can repeat
+// a request as often as they like.
+class TroubleLog {
+  public:
+    void note(const Served& served) {
+        const std::scoped_lock lock(mutex_);
+        const SteadyTime now = steady_now();
+        if (now - began_ > std::chrono::minutes{1}) {
+            began_ = now;
+            noted_.clear();
+        }
+        if (noted_.size() >= most_noted || !noted_.emplace(served.trouble).second) return;
+        say(LogLevel::error, "{}: {}",
+            served.request == nullptr ? "an answer" : std::string_view{served.request->path},
+            served.trouble);
+    }
+
+  private:
+    static constexpr std::size_t most_noted = 20;
+    std::mutex mutex_;  // guards what follows
+    SteadyTime began_{};
+    std::set<std::string, std::less<>> noted_;
+};
+
+// Returns whether a held socket has the port of an address for which there is none: 127.0.0.1:80 is
+// in the way of 0.0.0.0:80.
+bool holds_a_port_of(const std::vector<ListenAddress>& wanted, const ListenSockets& held) {
+    return std::ranges::any_of(held, [&](const ListenSocket& socket) {
+        return std::ranges::any_of(wanted, [&](const ListenAddress& where) {
+            return where.port == socket.port && where.address != socket.where.address;
+        });
+    });
 }
 
 }  // namespace
@@ -62,6 +100,7 @@ ServerOptions server_options_of(const WebConfig& config) {
     options.limits.header_bytes = limits.header_bytes;
     options.limits.request_time = limits.request;
     options.limits.least_bytes_per_s = limits.least_bytes_per_second;
+    options.limits.answer_bytes = limits.answer_bytes;
     options.limits.workers = workers_of(limits);
     // A connection has one request at a time, so its limit bounds the queue too. What takes long
     // has limits of its own.
@@ -72,6 +111,7 @@ ServerOptions server_options_of(const WebConfig& config) {
 Result<std::unique_ptr<WebService>> WebService::open(WebSetup setup) {
     auto sources = open_sources(std::move(setup));
     if (!sources) return pass_on(sources);
+    sources->numbers->remove_leftovers();
     std::unique_ptr<WebService> service(new WebService(std::move(*sources)));
     if (const Status served = service->serve(); !served) return pass_on(served);
     return service;
@@ -80,12 +120,17 @@ Result<std::unique_ptr<WebService>> WebService::open(WebSetup setup) {
 Status WebService::serve() {
     const auto measures = std::make_shared<Measures>();
     ServerOptions options = server_options_of(sources_.setup.web);
-    options.on_answer = [measures](const Served& served) {
+    auto sockets = open_listen_sockets(options.listen, sockets_);
+    if (!sockets) return pass_on(sockets);
+    options.on_answer = [measures,
+                         troubles = std::make_shared<TroubleLog>()](const Served& served) {
         measures->counters()->count(served);
         note_answer(served);
+        if (!served.trouble.empty()) troubles->note(served);
     };
-    auto server = Server::open(std::move(options), doors_to(sources_, *measures));
+    auto server = Server::open(std::move(options), doors_to(sources_, *measures), *sockets);
     if (!server) return pass_on(server);
+    sockets_ = std::move(*sockets);
     server_ = std::move(*server);
     measures->set_server(server_.get());
     return {};
@@ -96,12 +141,35 @@ std::vector<std::string> WebService::addresses() const {
 }
 
 void WebService::look_again() {
+    if (!is_listening()) listen_again();
+    look_for_catalog();
+    note_numbers();
+}
+
+void WebService::listen_again() {
+    if (const Status served = serve(); !served) return;
+    say(LogLevel::info, "listening again on {}", fmt::join(addresses(), " "));
+}
+
+void WebService::look_for_catalog() {
     if (has_catalog() || sources_.setup.catalog.empty()) return;
     auto catalog = catalog::CatalogReader::open(sources_.setup.catalog);
     if (!catalog) return;
     say(LogLevel::info, "the catalog {} is there now", sources_.setup.catalog.native());
     if (const Status taken = reload(sources_.setup); !taken)
         say(LogLevel::error, "{}", taken.error().message);
+}
+
+void WebService::note_numbers() {
+    const std::string problem = sources_.numbers->problem().value_or("");
+    if (problem == problem_) return;
+    problem_ = problem;
+    if (problem.empty()) {
+        say(LogLevel::info, "the numbers of times in Zarr arrays are kept again");
+    } else {
+        say(LogLevel::error, "Zarr arrays get no new times, since their numbers cannot be kept: {}",
+            problem);
+    }
 }
 
 Status WebService::reload(WebSetup fresh) {
@@ -112,17 +180,26 @@ Status WebService::reload(WebSetup fresh) {
     fresh.cache = before.cache;
     fresh.numbers = before.numbers;
     fresh.added_stations = before.added_stations;
-    // All that can fail without the ports fails first.
+    // All that can fail while the server goes on fails first.
     auto sources = open_sources(std::move(fresh));
     if (!sources) return pass_on(sources);
     sources->numbers = sources_.numbers;
+    const auto wanted = server_options_of(sources->setup.web).listen;
+    auto sockets = open_listen_sockets(wanted, sockets_);
+    const bool is_in_own_way = !sockets && holds_a_port_of(wanted, sockets_);
+    if (!sockets && !is_in_own_way) return pass_on(sockets);
     server_.reset();
     std::swap(sources_, *sources);
+    ListenSockets held = std::exchange(sockets_, sockets ? *sockets : ListenSockets{});
+    if (is_in_own_way) held.clear();
     const Status served = serve();
     if (served) return {};
     std::swap(sources_, *sources);
-    if (const Status again = serve(); !again)
-        say(LogLevel::error, "cannot listen as before: {}", again.error().message);
+    sockets_ = std::move(held);
+    if (const Status again = serve(); !again) {
+        say(LogLevel::error, "this server listens nowhere, and tries again each second: {}",
+            again.error().message);
+    }
     return served;
 }
 

@@ -27,18 +27,27 @@ class WebService {
     [[nodiscard]] const WebSetup& setup() const { return sources_.setup; }
     // Returns false as long as there is no catalog; look_again() then opens it once it is there.
     [[nodiscard]] bool has_catalog() const { return sources_.catalog != nullptr; }
+    // Returns false if the server could not be opened again after a reload. look_again() tries to.
+    [[nodiscard]] bool is_listening() const { return server_ != nullptr; }
+    // Call once a second.
     void look_again();
 
     // Takes over a configuration, but for what needs_restart() names: connections are closed, and
-    // the server listens again. If it cannot, it goes on as before. Errors: those of open().
+    // another server listens on the same sockets, which stay open. If it cannot, it goes on as
+    // before. Errors: those of open().
     Status reload(WebSetup fresh);
     [[nodiscard]] ServerFacts facts() const;
 
   private:
     explicit WebService(Sources sources) : sources_(std::move(sources)) {}
     Status serve();
+    void look_for_catalog();
+    void listen_again();
+    void note_numbers();
 
     Sources sources_;
+    ListenSockets sockets_;
+    std::string problem_;             // that was logged last, of the numbers of times
     std::unique_ptr<Server> server_;  // null only if it could not be opened again
 };
 

@@ -1,0 +1,162 @@
+// The whole data server while it takes over another configuration.
+#include <atomic>
+#include <fstream>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+
+#include "stormcellar/base/file_system.h"
+#include "tests/testing/temporary_directory.h"
+#include "tests/web/raw_client.h"
+#include "tests/web/setup_below.h"
+#include "web/service/web_service.h"
+
+namespace stormcellar::web {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Another program that wants the port; the result is closed again.
+bool takes_port(int port) {
+    const Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    const int on = 1;
+    ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) ==
+               0 &&
+           ::listen(socket.number(), 1) == 0;
+}
+
+class Reload : public ::testing::Test {
+  protected:
+    void start() {
+        fs::create_directories(directory_ / "cache");
+        auto opened = WebService::open(setup_);
+        ASSERT_TRUE(opened) << opened.error().message;
+        service_ = std::move(*opened);
+        const std::string url = service_->addresses().at(0);
+        port_ = std::stoi(url.substr(url.rfind(':', url.size() - 2) + 1));
+    }
+    [[nodiscard]] int status() const { return status_in(RawClient::get(port_, "/api/v1")); }
+
+    testing::TemporaryDirectory directory_;
+    WebSetup setup_ = setup_below(directory_.path());
+    std::unique_ptr<WebService> service_;
+    int port_ = 0;
+};
+
+// 2026-11-28: while an answer was under way the port was free for two seconds of a reload, and
+// another program took it at the first try.
+TEST_F(Reload, NoOtherProgramCanTakeThePort) {
+    start();
+    // An answer that is under way holds the old server up.
+    RawClient half(port_, 2048);
+    half.send(
+        "GET /api/v1/map?west=-170&south=-60&east=170&north=75&detail=0 HTTP/1.1\r\nHost: "
+        "localhost\r\n\r\n");
+    ASSERT_EQ(status_in(half.read_until("\r\n\r\n")), 200);
+    std::atomic<bool> is_over = false;
+    std::atomic<int> taken = 0;
+    std::thread rival([&] {
+        while (!is_over)
+            taken += takes_port(port_) ? 1 : 0;
+    });
+    WebSetup fresh = setup_;
+    fresh.web.silent += std::chrono::seconds{1};
+    EXPECT_TRUE(service_->reload(fresh));
+    is_over = true;
+    rival.join();
+    EXPECT_EQ(taken, 0);
+    EXPECT_EQ(status(), 200);
+}
+
+TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
+    start();
+    const Descriptor other{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(::bind(other.number(), reinterpret_cast<sockaddr*>(&address), size), 0);
+    ASSERT_EQ(::listen(other.number(), 1), 0);
+    ::getsockname(other.number(), reinterpret_cast<sockaddr*>(&address), &size);
+    WebSetup fresh = setup_;
+    fresh.web.listen = {{"127.0.0.1", ntohs(address.sin_port)}};
+    EXPECT_FALSE(service_->reload(fresh));
+    EXPECT_EQ(status(), 200);
+}
+
+TEST_F(Reload, AServerMayBeOpenedToAllOnTheSamePort) {
+    start();
+    setup_.web.listen = {{"127.0.0.1", port_}};
+    ASSERT_TRUE(service_->reload(setup_));
+    setup_.web.listen = {{"0.0.0.0", port_}};
+    const Status taken = service_->reload(setup_);
+    EXPECT_TRUE(taken) << taken.error().message;
+    EXPECT_EQ(status(), 200);
+}
+
+// 2026-11-28: a server that could not listen again after a reload stayed deaf for good, with its
+// watchdog fed.
+TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
+    start();
+    rlimit before{};
+    ::getrlimit(RLIMIT_NOFILE, &before);
+    bool was_deaf = false;
+    for (int i = 0; i < 200 && !was_deaf; ++i) {
+        // Somebody else takes each descriptor that becomes free.
+        const rlimit few{512, before.rlim_max};
+        ::setrlimit(RLIMIT_NOFILE, &few);
+        std::atomic<bool> is_over = false, has_all = false;
+        std::vector<Descriptor> taken;
+        std::thread greedy([&] {
+            while (!is_over) {
+                Descriptor one{::open("/dev/null", O_RDONLY | O_CLOEXEC)};
+                if (one.is_open()) {
+                    taken.push_back(std::move(one));
+                } else {
+                    has_all = true;
+                }
+            }
+        });
+        while (!has_all)
+            std::this_thread::yield();
+        (void)service_->reload(setup_);
+        was_deaf = !service_->is_listening();
+        if (was_deaf) {
+            service_->look_again();
+            EXPECT_FALSE(service_->is_listening()) << "there is no descriptor yet";
+        }
+        is_over = true;
+        greedy.join();
+        taken.clear();
+        ::setrlimit(RLIMIT_NOFILE, &before);
+        service_->look_again();
+        ASSERT_TRUE(service_->is_listening());
+        ASSERT_EQ(status(), 200);
+    }
+    EXPECT_TRUE(was_deaf);
+}
+
+// 2026-11-28: a server that was killed left temporary files, which no later start removed.
+TEST_F(Reload, WhatAKilledServerLeftIsRemovedAtTheStart) {
+    setup_.numbers = directory_ / "times";
+    fs::create_directories(setup_.numbers / "KTLX");
+    const fs::path left = setup_.numbers / "KTLX" / (std::string(temporary_prefix) + "1-1");
+    std::ofstream(left) << "half";
+    std::ofstream(setup_.numbers / "KTLX" / "REF.times") << "kept";
+    start();
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(setup_.numbers / "KTLX" / "REF.times"));
+}
+
+}  // namespace
+}  // namespace stormcellar::web

@@ -1,0 +1,74 @@
+// How clients share the threads that make answers.
+#include "web/http/work_queue.h"
+
+#include <future>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::web {
+namespace {
+
+// A queue with one thread, which a client holds until go_on() is called.
+class SharedQueue : public ::testing::Test {
+  protected:
+    using Turn = WorkQueue::Turn;
+    SharedQueue() {
+        std::promise<void> began;
+        EXPECT_TRUE(queue_.add("greedy", [&, this](Turn) {
+            began.set_value();
+            released_.get_future().wait();
+        }));
+        began.get_future().wait();
+    }
+    bool ask(const std::string& client, const std::string& name) {
+        return queue_.add(client, [this, name](Turn turn) {
+            const std::scoped_lock lock(mutex_);
+            (turn == Turn::came ? served_ : refused_).push_back(name);
+        });
+    }
+    void go_on() {
+        released_.set_value();
+        while (queue_.waiting() + queue_.working() > 0)
+            std::this_thread::yield();
+    }
+
+    std::promise<void> released_;
+    std::mutex mutex_;
+    std::vector<std::string> served_, refused_;
+    WorkQueue queue_{1, 4};
+};
+
+// 2026-11-28: 40 connections of one client that asked for large pictures got all places; a client
+// that asked for a small one was told twelve times of twelve to come back.
+TEST_F(SharedQueue, AClientThatAsksForLessGetsAPlaceAndTheNextTurn) {
+    for (const char* name : {"1", "2", "3", "4"})
+        ASSERT_TRUE(ask("greedy", name));
+    EXPECT_FALSE(ask("greedy", "5"));
+    EXPECT_TRUE(ask("modest", "a"));
+    EXPECT_EQ(refused_, (std::vector<std::string>{"4"})) << "the newest of the other client";
+    go_on();
+    EXPECT_EQ(served_, (std::vector<std::string>{"a", "1", "2", "3"}));
+}
+
+TEST_F(SharedQueue, ClientsTakeTurns) {
+    for (const char* name : {"a1", "a2"})
+        ASSERT_TRUE(ask("a", name));
+    for (const char* name : {"b1", "b2"})
+        ASSERT_TRUE(ask("b", name));
+    go_on();
+    EXPECT_EQ(served_, (std::vector<std::string>{"a1", "b1", "a2", "b2"}));
+    EXPECT_TRUE(refused_.empty());
+}
+
+TEST_F(SharedQueue, ClientsWithOneRequestEachTakeNoPlaceOfEachOther) {
+    for (const char* name : {"a", "b", "c", "d"})
+        ASSERT_TRUE(ask(name, name));
+    EXPECT_FALSE(ask("e", "e"));
+    go_on();
+    EXPECT_EQ(served_.size(), 4u);
+}
+
+}  // namespace
+}  // namespace stormcellar::web

@@ -1,0 +1,49 @@
+// web/http/answer_budget.h -- bounds the memory of answers that are on their way to clients.
+//
+// Counted are bytes in memory and files without a name, each once however many answers share it;
+// pieces below 64 KiB are not counted, so that small answers pass when the budget is spent. One
+// client holds half of the budget at most. An answer that is larger passes if it is the only one.
+//
+// Threads   Many threads may use it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "web/http/answer.h"
+
+namespace stormcellar::web {
+
+inline constexpr std::uint64_t least_counted_bytes = std::uint64_t{64} << 10;
+
+class AnswerBudget {
+  public:
+    explicit AnswerBudget(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+    // Returns false if the budget, or the client's share of it, has no room; then nothing is taken.
+    [[nodiscard]] bool take(const std::string& client, const Pieces& pieces);
+    // To be called once for each take() that succeeded, with the same pieces.
+    void give_back(const std::string& client, const Pieces& pieces);
+    [[nodiscard]] std::uint64_t bytes() const;
+
+  private:
+    // What somebody holds: how many answers use each object.
+    struct Holder {
+        std::map<const void*, std::uint64_t> uses;
+        std::uint64_t bytes = 0;
+
+        [[nodiscard]] std::uint64_t bytes_with(const Pieces& pieces) const;
+        [[nodiscard]] bool has_room(const Pieces& pieces, std::uint64_t most) const;
+        void add(const Pieces& pieces);
+        void remove(const Pieces& pieces);
+    };
+
+    const std::uint64_t most_bytes_;
+    mutable std::mutex mutex_;  // guards what follows
+    Holder all_;
+    std::map<std::string, Holder> by_client_;
+};
+
+}  // namespace stormcellar::web
