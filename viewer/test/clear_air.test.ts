@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { isClearAir } from '../src/fields/clear_air';
-import { usualLayers, layersAddress, layersOf, veilsFolded } from '../src/scene/layers';
+import { usualLayers, layersAddress, layersOf, toggledFolded, veilsFolded } from '../src/scene/layers';
 import { readPackedGrid } from '../src/wire/packed_grid';
 import { makeGrid } from './made_grid';
 
@@ -20,4 +20,6 @@ test('range folded air veils velocities unless it is told not to (2026-11-28: it
         assert.equal(layers.hasFolded, hasFolded);
     }
     assert.equal(veilsFolded({ ...usualLayers, hasFolded: false }, 'VEL'), false);
+    assert.deepEqual([toggledFolded(usualLayers, 'REF'), toggledFolded({ ...usualLayers, hasFolded: true }, 'REF')], [true, null]);
+    assert.deepEqual([toggledFolded(usualLayers, 'VEL'), toggledFolded({ ...usualLayers, hasFolded: false }, 'VEL')], [false, null]);
 });

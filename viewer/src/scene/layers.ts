@@ -37,6 +37,12 @@ export const isBelow = (moment: string, value: number): boolean => moment === 'V
 // Air that is range folded is not clear: a volume of velocities or their widths shows it unless it is told not to.
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean => hasFolded ?? (hasVolume && (moment === 'VEL' || moment === 'SW'));
 
+// The other choice. What the moment has by itself is not said, so that an address stays short.
+export function toggledFolded(layers: Layers, moment: string): boolean | null {
+    const wanted = !veilsFolded(layers, moment);
+    return wanted === veilsFolded({ ...layers, hasFolded: null }, moment) ? null : wanted;
+}
+
 export const usualLayers: Layers = {
     hasVolume: true,
     planeM: null,

@@ -1,7 +1,7 @@
 // The panel of layers: what is drawn beside the map, and its keys.
 
 import { cutsOf, isChosen } from '../../fields/sweep_choice';
-import { Crop, Layers, isBelow, sectionOf, sectionText, veilsFolded } from '../../scene/layers';
+import { Crop, Layers, isBelow, sectionOf, sectionText, toggledFolded, veilsFolded } from '../../scene/layers';
 import { planeOf } from '../../scene/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
@@ -89,7 +89,7 @@ export class LayersPanel {
         this.addToggle('crop', words.crop, () => this.toggleCrop(), this.cropParts());
         this.addToggle('light', words.light, () => this.set({ isLit: !this.layers.isLit }));
         this.addToggle('haze', words.haze, () => this.set({ hasHaze: !this.layers.hasHaze }));
-        this.addToggle('folded', words.folded, () => this.set({ hasFolded: !this.hasFolded }));
+        this.addToggle('folded', words.folded, () => this.toggleFolded());
     }
 
     private addToggle(name: string, text: string, act: () => void, parts?: HTMLElement[]): void {
@@ -175,7 +175,7 @@ export class LayersPanel {
         keys.add('b', () => this.toggleCrop());
         keys.add('g', () => this.set({ isLit: !this.layers.isLit }));
         keys.add('n', () => this.set({ hasHaze: !this.layers.hasHaze }));
-        keys.add('u', () => this.set({ hasFolded: !this.hasFolded }));
+        keys.add('u', () => this.toggleFolded());
         keys.add('Escape', () => this.open(false));
     }
 
@@ -183,6 +183,9 @@ export class LayersPanel {
 
     private get hasFolded(): boolean {
         return veilsFolded(this.layers, this.app.state.moment);
+    }
+    private toggleFolded(): void {
+        this.set({ hasFolded: toggledFolded(this.layers, this.app.state.moment) });
     }
     private get layers(): Layers {
         return this.app.state.layers;
