@@ -26,8 +26,8 @@ constexpr std::size_t tar_block_bytes = 512;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // the most that are named
-// What libarchive may read for one header, a block of its own in addition. A long name has a header
-// of a few kilobytes.
+// libarchive may read this much for one header, and one block more. The header of a long name has a
+// few kilobytes.
 constexpr std::uint64_t most_header_bytes = std::uint64_t{1} << 20;
 // A zip's directory is read with its first header: a member takes some 100 bytes.
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;

@@ -11,7 +11,7 @@ namespace stormcellar::archive {
 namespace {
 
 constexpr std::size_t unpacked_block_bytes = std::size_t{256} << 10;
-// Of the source, until something comes out. 256 KiB of what a codec cannot pack take as much.
+// A codec may read this much of the source before anything comes out.
 constexpr std::uint64_t most_source_bytes = std::uint64_t{4} << 20;
 constexpr int one_filter = 2;  // libarchive counts the source itself as one
 

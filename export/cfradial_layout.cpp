@@ -61,7 +61,7 @@ std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
     return moments;
 }
 
-// Whether the moment's gates can stand on an axis with the gates of `finest`.
+// Returns true if the moment's gates can stand on an axis with the gates of `finest`.
 bool fits(const SweepMoment& moment, const SweepMoment& finest) {
     const std::int32_t spacing_m = finest.gate_spacing_m;
     if (spacing_m <= 0 || moment.gate_spacing_m % spacing_m != 0) return false;

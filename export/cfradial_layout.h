@@ -31,7 +31,7 @@ struct RangeAxis {
     std::size_t gates = 0;  // the largest number of any radial
 };
 
-// Where the gates of one sweep's moment are on the axis of their field: gate i fills the elements
+// Places the gates of one sweep's moment on the axis of their field: gate i fills the elements
 // first + i * repeats to first + (i + 1) * repeats - 1.
 struct GatePlacement {
     std::size_t first = 0;

@@ -62,7 +62,7 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
         return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
     }
     grid::SourceWish wish = wish_of(request, choose_cuts);
-    // Of a directory with chunks, the volume was chosen when its files were found.
+    // If the directory has chunks, InputFiles has chosen the volume already.
     if (named->chunks.empty()) wish.volume = request.volume;
     // Without some cuts, a volume may have no sweep, and would not be counted.
     if (wish.volume > 0) wish.choose_cuts = {};

@@ -34,8 +34,8 @@ struct InputFile {
 
 class InputFiles {
   public:
-    // Which of the volumes is meant of which a directory has chunks: a number from 1 by time, or
-    // one of these.
+    // Chooses among the volumes of a directory of chunks: a number from 1 in order of time, or one
+    // of these.
     enum OfChunks : int { newest = 0, all = -1 };
     // Files are in the order of the names, behind volumes whose chunks were named one by one; those
     // of a directory are sorted by path. Errors:

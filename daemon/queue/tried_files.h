@@ -6,8 +6,8 @@
 // others, longer after each time in a row: 2 s, 8 s, 32 s and so on to 512 s. After `most_ends`
 // times the file is not opened again until it is another one (its size or its time has changed).
 //
-// What the file holds need not survive a power cut, so nothing waits for the disk: two writes of
-// some hundred bytes for each file that is ingested. Nothing depends on its being there.
+// The list need not survive a power cut, so no write waits for the disk. Each ingested file costs
+// two writes of some hundred bytes. If the list is missing, no file is held back.
 //
 // Threads   Any thread may call every function.
 #pragma once
@@ -31,8 +31,8 @@ class TriedFiles {
     // Reads what the last process left. A file that cannot be written is as good as none.
     explicit TriedFiles(const std::filesystem::path& file);
 
-    // How long a file has to wait after the start; without an entry it need not, as one that is
-    // given up.
+    // Returns how long each file must wait after the start. A file without an entry need not wait,
+    // and neither need one that is given up.
     [[nodiscard]] std::map<std::filesystem::path, std::chrono::seconds> waits() const;
     // Returns true if the process ended so often while it had this very file.
     [[nodiscard]] bool is_given_up(const std::filesystem::path& path, const FileStamp& stamp) const;

@@ -222,7 +222,7 @@ Sweep part_of(Sweep& sweep, std::size_t first, std::size_t end) {
                 codes = rows_of(moment->codes16, first, end, stride);
             }
         });
-        // As long as the longest row of the part, as if it had come by itself.
+        // Shorten the rows to the longest one of the part, as if the part had come by itself.
         const auto longest = *std::max_element(own.gate_counts.begin(), own.gate_counts.end());
         if (longest < own.gate_stride) set_stride(own, longest);
     }

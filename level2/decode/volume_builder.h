@@ -126,7 +126,7 @@ class VolumeBuilder {
         UtcTime time;
         std::uint16_t azimuth_number = 0;
     };
-    // Where late radials belong: the next one of them comes before the radial `at` of the sweep.
+    // The place of late radials: the next one goes before the radial `at` of the sweep.
     struct LatePlace {
         std::size_t sweep = 0;
         std::size_t at = 0;

@@ -11,7 +11,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// Of one station, without a look at which of them count.
+// A station keeps this many partials open before anyone looks which of them count.
 constexpr std::size_t most_open = 24;
 
 UtcTime middle_of_file(const OpenPartial& partial) {
@@ -115,7 +115,7 @@ bool MappedPartials::drop_damaged(std::vector<std::string>& problems) {
         bad_.insert(path);
     }
     if (bad_.size() == known) return false;
-    // What stands behind a damaged one may count now.
+    // A partial that the damaged one hid may count now.
     if (!load(problems)) files_.clear();
     return true;
 }
