@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "stormcellar/base/file_system.h"
+#include "tests/level2/grow_dropping.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
@@ -31,30 +31,6 @@ Result<Decoded> grow(std::span<const std::byte> bytes, std::size_t most, unsigne
         for (LiveSweep& sweep : volume.take_sweeps())
             sweeps->push_back(std::move(sweep));
     }
-    return volume.finish();
-}
-
-// The same, but moves sweeps out of the volume as soon as they may be dropped, until the end.
-Result<Decoded> grow_dropping(std::span<const std::byte> bytes, std::size_t most, unsigned seed) {
-    std::mt19937 random{seed};
-    GrowingVolume volume;
-    std::map<std::size_t, Sweep> outside;
-    std::size_t dropped = 0;
-    volume.set_dropped_sweeps(
-        [&](std::size_t index) -> Result<Sweep> { return outside.at(index); });
-    for (std::size_t at = 0; at < bytes.size();) {
-        const std::size_t length = std::min(bytes.size() - at, 1 + random() % most);
-        if (Status taken = volume.append(bytes.subspan(at, length)); !taken) break;
-        at += length;
-        for (LiveSweep& live : volume.take_sweeps()) {
-            outside.insert_or_assign(live.index, std::move(live.sweep));
-            if (live.index < dropped) volume.drop_sweep(live.index);
-        }
-        for (; dropped < volume.droppable_sweeps(); ++dropped)
-            volume.drop_sweep(dropped);
-    }
-    for (std::size_t index = 0; index < dropped; ++index)
-        volume.put_back(index, outside.at(index));
     return volume.finish();
 }
 

@@ -17,14 +17,14 @@ wire::Bytes many_records(unsigned count) {
     return all;
 }
 
-RecordQueue::Source parts_of(std::span<const std::byte> bytes) {
+RecordQueue::Source source_of(std::span<const std::byte> bytes) {
     return [framer = LdmFramer{bytes}]() mutable { return framer.next(); };
 }
 
 TEST(RecordQueue, OrderAndContentsDoNotDependOnTheThreads) {
     const wire::Bytes bytes = many_records(60);
     for (const int threads : {1, 2, 3, 8}) {
-        RecordQueue queue{parts_of(bytes), threads, ample, everything};
+        RecordQueue queue{source_of(bytes), threads, ample, everything};
         unsigned i = 0;
         for (; const auto fragment = queue.next(ample); ++i) {
             ASSERT_EQ(fragment->pieces.size(), 1U);
@@ -39,7 +39,7 @@ TEST(RecordQueue, OrderAndContentsDoNotDependOnTheThreads) {
 TEST(RecordQueue, CanBeLeftEarly) {
     const wire::Bytes bytes = many_records(60);
     for (int taken = 0; taken < 3; ++taken) {
-        RecordQueue queue{parts_of(bytes), 4, ample, everything};
+        RecordQueue queue{source_of(bytes), 4, ample, everything};
         for (int i = 0; i < taken; ++i)
             EXPECT_TRUE(queue.next(ample));
     }
@@ -47,7 +47,7 @@ TEST(RecordQueue, CanBeLeftEarly) {
 
 TEST(RecordQueue, ARecordBeyondTheLimitSaysSo) {
     const wire::Bytes bytes = wire::ldm_record(wire::Bytes(2'000'000));
-    RecordQueue queue{parts_of(bytes), 2, 1'000'000, everything};
+    RecordQueue queue{source_of(bytes), 2, 1'000'000, everything};
     const auto fragment = queue.next(ample);
     ASSERT_TRUE(fragment);
     EXPECT_EQ(fragment->failure, Fragment::Failure::too_much_output);
