@@ -163,6 +163,9 @@ Status VolumeBuilder::insert_late(Sweep& from, std::size_t first, std::size_t en
     if (!is_open) rows::make_whole(sweep);
     late_place_->at += end - first;
     late_radials_ += end - first;
+    for (const Radial& radial : part.radials) {
+        if (status_of(radial) == RadialStatus::start_of_volume) start_has_come_ = true;
+    }
     if (!is_open) {
         touched_.fetched.erase(late_place_->sweep);
         touched_.changed.insert(late_place_->sweep);

@@ -146,10 +146,12 @@ bool VolumeBuilder::begins_sweep_here(const Fragment::Piece& piece) const {
 bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
     if (!previous_) return false;
     const Radial& first = piece.sweep.radials.front();
+    if (pending_header_) return true;
+    // Records in the wrong order make the numbers fall too, but then time goes back. Of these, only
+    // a second start begins another volume.
     const bool marked = status_of(first) == RadialStatus::start_of_volume;
-    if (marked || pending_header_) return true;
-    // Records in the wrong order make the numbers fall too, but then time goes back.
-    if (goes_back(first, previous_->time)) return false;
+    if (goes_back(first, previous_->time)) return marked && start_has_come_;
+    if (marked) return true;
     // The cuts of a pattern only count upward, so a lower number begins another pass, even if the
     // radials that would say so are lost.
     return piece.sweep.elevation_number < previous_->elevation_number ||
@@ -172,6 +174,7 @@ bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
     }
     report_.further_volume_starts.push_back(sweep);
     late_place_.reset();
+    start_has_come_ = false;
     report_.further_patterns.push_back(std::move(pattern));
     return true;
 }
@@ -255,6 +258,7 @@ bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
         end_sweep();
         if (!room_.begin_sweep()) return false;
     }
+    if (status_of(first) == RadialStatus::start_of_volume) start_has_come_ = true;
     if (status_of(last) == RadialStatus::end_of_volume) end_of_volume = last.time;
     if (!first_time_) first_time_ = first.time;
     previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(last),

@@ -179,6 +179,7 @@ class VolumeBuilder {
     std::optional<UtcTime> first_time_;  // of the first radial
     // The first header came after radials of its volume.
     bool header_is_late_ = false;
+    bool start_has_come_ = false;  // the newest volume has a radial that is marked as its first
     std::optional<LatePlace> late_place_;
     std::size_t late_searches_ = 0;
     std::uint64_t late_bytes_ = 0;  // moved to make room for late radials

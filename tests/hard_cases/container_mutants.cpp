@@ -127,6 +127,7 @@ Mutant ContainerMutants::rearranged(Random& random) const {
         mutant.file.insert(mutant.file.end(), bytes.begin(), bytes.end());
     }
     mutant.expected = expect(order, std::nullopt);
+    put_in_order(mutant.expected);
     return mutant;
 }
 

@@ -58,7 +58,7 @@ bool Oracle::names_something(const DecodeReport& report) const {
     return false;
 }
 
-// Walks through both in the order of the file. If the next expected radial may fall, the radials
+// Walks through both in the order of the volume. If the next expected radial may fall, the radials
 // returned decide whether it did: the next expected one that equals it within the same damage.
 Oracle::Match Oracle::match(const Mutant& mutant, const std::vector<RadialIdentity>& found,
                             KindFigures& figures) const {

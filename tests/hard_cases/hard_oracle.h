@@ -1,9 +1,9 @@
-// tests/hard_cases/oracle.h -- decodes mutants and compares them with the undamaged volume.
+// tests/hard_cases/hard_oracle.h -- decodes mutants and compares them with the undamaged volume.
 //
-// For every mutant it checks: radials are returned as their fates say, in the order of the file,
-// and no others; sweeps begin only where a radial says so; whatever is lost is named by a problem
-// that the undamaged volume does not have. Or the whole file is refused, which is allowed only if
-// nothing in it had to be kept.
+// For every mutant it checks: radials are returned as their fates say, in the order in which the
+// radar sent them, and no others; sweeps begin only where a radial says so; whatever is lost is
+// named by a problem that the undamaged volume does not have. Or the whole file is refused, which
+// is allowed only if nothing in it had to be kept.
 #pragma once
 
 #include <chrono>

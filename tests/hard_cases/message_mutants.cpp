@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -108,6 +109,32 @@ MessageMutants::Draft MessageMutants::draft() const {
     return draft;
 }
 
+// Returns 0 for what is no radial.
+std::uint32_t MessageMutants::elevation_number(std::size_t number) const {
+    const StreamMessage& message = volume_.messages[number];
+    if (!message.radial) return 0;
+    const auto bytes = std::span{volume_.stream}.subspan(message.offset, message.length);
+    const Field field = message.type == 31 ? Field{"", 50, 1} : Field{"", 44, 2};
+    return read({bytes.begin(), bytes.end()}, field);
+}
+
+// Returns true if the radials between these messages are of one volume: what is further apart is
+// taken for another one (level2/decode/late_radials.h).
+bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t last_message) const {
+    constexpr std::uint32_t longest_ms = 15 * 60'000;
+    constexpr Field ms{"", 20, 4};
+    std::optional<std::uint32_t> first;
+    std::uint32_t last = 0;
+    for (std::size_t number = first_message; number <= last_message; ++number) {
+        const StreamMessage& message = volume_.messages[number];
+        if (!message.radial) continue;
+        const auto bytes = std::span{volume_.stream}.subspan(message.offset, message.length);
+        last = read({bytes.begin(), bytes.end()}, ms);
+        if (!first) first = last;
+    }
+    return !first || last - *first <= longest_ms;
+}
+
 // One in eight is no radial, if there are such messages.
 std::size_t MessageMutants::any_message(Random& random) const {
     const bool other = random() % 8 == 0;
@@ -160,11 +187,17 @@ void MessageMutants::rearranged(Draft& draft, Random& random) const {
                                                   "messages swapped"};
     const std::size_t kind = below(random, kinds.size());
     const std::size_t a = any_message(random);
-    const std::size_t b = any_message(random);
+    std::size_t b = any_message(random);
+    // What comes before its sweep begins a sweep of its own, so only neighbors change places there.
+    if (kind == 2 && elevation_number(a) != elevation_number(b))
+        b = std::min(a + 1, draft.order.size() - 1);
     std::vector<std::size_t>& order = draft.order;
     if (kind == 0) order.erase(order.begin() + static_cast<std::ptrdiff_t>(a));
     if (kind == 1) order.insert(order.begin() + static_cast<std::ptrdiff_t>(b), a);
     if (kind == 2) std::swap(order[a], order[b]);
+    // A radial right behind itself is not older than itself, and stays.
+    const bool is_beside_itself = kind == 1 && (b == a || b == a + 1);
+    draft.is_put_right = !is_beside_itself && is_of_one_volume(std::min(a, b), std::max(a, b));
     draft.mutant.kind = kinds[kind];
     draft.mutant.what += fmt::format(" messages {} and {}", a, b);
 }
@@ -262,6 +295,7 @@ Mutant MessageMutants::finish(Draft draft, std::uint64_t number) const {
         beside_damage = draft.fates[message] != Fate::kept;
         if (radial) mutant.expected.push_back({radial, fate});
     }
+    if (draft.is_put_right) put_in_order(mutant.expected);
     const bool packed = number % 16 == 15;
     const Bytes body = packed ? wire::ldm_record(stream, true, 1) : std::move(stream);
     mutant.file = volume_.header;

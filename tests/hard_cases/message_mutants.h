@@ -23,6 +23,7 @@ class MessageMutants {
         std::vector<wire::Bytes> parts;
         std::vector<std::size_t> order;  // messages, by number, in the order of the file
         std::vector<Fate> fates;         // of the messages
+        bool is_put_right = false;       // what is late or twice comes out where it belongs
     };
     void field(Draft& draft, Random& random) const;
     void block_field(Draft& draft, Random& random) const;
@@ -34,6 +35,8 @@ class MessageMutants {
     void several(Draft& draft, Random& random) const;
 
     [[nodiscard]] Draft draft() const;
+    [[nodiscard]] std::uint32_t elevation_number(std::size_t number) const;
+    [[nodiscard]] bool is_of_one_volume(std::size_t first_message, std::size_t last_message) const;
     [[nodiscard]] std::size_t any_message(Random& random) const;
     [[nodiscard]] Mutant finish(Draft draft, std::uint64_t number) const;
 

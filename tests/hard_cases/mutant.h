@@ -29,12 +29,19 @@ struct Mutant {
     std::string kind;  // figures are counted for each
     std::string what;  // for a person who has to reproduce it
     wire::Bytes file;
-    std::vector<ExpectedRadial> expected;  // in the order of the file
+    std::vector<ExpectedRadial> expected;  // in the order of the volume
     // Whether the damage changed a length or type, which the report must name even if every radial
     // is kept.
     bool always_named = false;
     bool anything_after = false;  // nothing guards the rest of the file
 };
+
+// What comes late or twice is returned once, where it belongs.
+inline void put_in_order(std::vector<ExpectedRadial>& expected) {
+    std::ranges::sort(expected, {}, &ExpectedRadial::radial);
+    const auto again = std::ranges::unique(expected, {}, &ExpectedRadial::radial);
+    expected.erase(again.begin(), again.end());
+}
 
 // Returns a whole number below `limit`; 0 if there is none.
 inline std::size_t below(std::mt19937_64& random, std::size_t limit) {
