@@ -179,11 +179,14 @@ check('a broken table of an address is none', (await table()) === null);
 
 // ---- The command
 await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } })`);
-await viewer.show(`${viewOf({ ...scene, zoom: far })}&least=30`);
+// No command draws echo without the ground.
+const strong = `${viewOf({ ...scene, zoom: far })}&least=30`;
+await viewer.show(strong.replace('&ground=0', ''));
 await evaluate("document.getElementById('command').click()");
 const command = await page.until('window.copied');
 const cut = /--colors (my-smooth-reflectivity-[0-9a-f]{8}\.toml)/.exec(command)?.[1] ?? 'none';
 check(`the command names the file that was saved: ${cut}`, existsSync(await savedAs(cut, () => undefined)));
+await viewer.show(strong);
 await compare('a threshold, by the file of the command', join(saved, cut));
 check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
 await browser.end();

@@ -18,6 +18,7 @@ const viewer = new CheckedPage(page, address);
 const began = performance.now();
 await viewer.open(`domain=${station}`);
 console.log(`first picture after ${Math.round(performance.now() - began)} ms, ${page.bytes} bytes on the wire`);
+if (station === 'KLBB') check(`the first picture takes at most 350,000 bytes: ${page.bytes}`, page.bytes <= 350_000);
 check('the first picture has many colors', shadesOf(await viewer.pixels()).size > 200);
 check('the title names the station', (await page.evaluate('document.title')).includes(station));
 check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));

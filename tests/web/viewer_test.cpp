@@ -43,7 +43,7 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
 }
 
 TEST_F(Viewer, ItsPolicyLetsItAskThisServerAlone) {
-    for (const char* target : {"/view/", "/view/viewer.js", "/view/worker.js"}) {
+    for (const char* target : {"/view/", "/view/viewer.js", "/view/editor.js", "/view/worker.js"}) {
         const Answer answer = get(target);
         const std::string policy = header_of(answer, "Content-Security-Policy");
         EXPECT_TRUE(policy.starts_with("default-src 'none'; script-src 'self'; ")) << target;
@@ -74,6 +74,14 @@ TEST_F(Viewer, FilesAreCompressedAndHaveTags) {
     const std::string etag = header_of(packed, "ETag");
     EXPECT_EQ(get("/view/viewer.js", {{"Accept-Encoding", "gzip"}, {"If-None-Match", etag}}).status,
               304u);
+}
+
+// The first picture of scripts/bench-viewer takes at most 350,000 bytes, of which this is what the
+// page itself adds most.
+TEST_F(Viewer, TheProgramOfTheFirstPictureIsSmall) {
+    const std::string bytes = body_of(get("/view/viewer.js", {{"Accept-Encoding", "gzip, zstd"}}));
+    EXPECT_LE(bytes.size(), 84'000u);
+    EXPECT_EQ(get("/view/editor.js").status, 200u) << "the editor is loaded when it is opened";
 }
 
 TEST_F(Viewer, NothingElseIsThere) {

@@ -20,12 +20,14 @@
 STORMCELLAR_VIEWER_FILE("viewer_index_html", STORMCELLAR_VIEWER_PAGE "/index.html");
 STORMCELLAR_VIEWER_FILE("viewer_viewer_css", STORMCELLAR_VIEWER_PAGE "/viewer.css");
 STORMCELLAR_VIEWER_FILE("viewer_viewer_js", STORMCELLAR_VIEWER_MADE "/viewer.js");
+STORMCELLAR_VIEWER_FILE("viewer_editor_js", STORMCELLAR_VIEWER_MADE "/editor.js");
 STORMCELLAR_VIEWER_FILE("viewer_worker_js", STORMCELLAR_VIEWER_MADE "/worker.js");
 
 extern "C" {
 extern const char stormcellar_viewer_index_html_begin[], stormcellar_viewer_index_html_end[];
 extern const char stormcellar_viewer_viewer_css_begin[], stormcellar_viewer_viewer_css_end[];
 extern const char stormcellar_viewer_viewer_js_begin[], stormcellar_viewer_viewer_js_end[];
+extern const char stormcellar_viewer_editor_js_begin[], stormcellar_viewer_editor_js_end[];
 extern const char stormcellar_viewer_worker_js_begin[], stormcellar_viewer_worker_js_end[];
 }
 
@@ -42,6 +44,9 @@ std::span<const ViewerFile> viewer_files() {
         ViewerFile{"viewer.js",
                    "text/javascript; charset=utf-8",
                    {stormcellar_viewer_viewer_js_begin, stormcellar_viewer_viewer_js_end}},
+        ViewerFile{"editor.js",
+                   "text/javascript; charset=utf-8",
+                   {stormcellar_viewer_editor_js_begin, stormcellar_viewer_editor_js_end}},
         ViewerFile{"worker.js",
                    "text/javascript; charset=utf-8",
                    {stormcellar_viewer_worker_js_begin, stormcellar_viewer_worker_js_end}},

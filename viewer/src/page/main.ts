@@ -9,7 +9,7 @@ import { hear } from './live';
 import { stateOf } from '../scene/view_state';
 import { Budget, Loader } from './loader';
 import { addChoices } from './panels/choices';
-import { Editor } from './panels/editor';
+import { addEditor } from './panels/edit_colors';
 import { Hover } from './panels/hover';
 import { LayersPanel } from './panels/layers';
 import { addLegend } from './panels/legend';
@@ -47,7 +47,7 @@ async function begin(): Promise<void> {
     new ToolsPanel(app, drawing, pointers, facts).begin(keys);
     keys.add('h', () => app.goToMap());
     new LayersPanel(app, drawing, pointers).begin(keys);
-    new Editor(app, drawing, editing).begin(keys);
+    addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
     // Panels leave room for the head, however many lines it has.
     const head = element('head');

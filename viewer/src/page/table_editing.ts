@@ -1,12 +1,9 @@
 // What the user does to the colors: presets, drafts, the threshold, files; with undo and redo.
 
-import { Draft, draftOf, fileOf, tableForPal } from '../tables/draft';
+import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
-import { readPal, writePal } from '../tables/pal_file';
-import { TableError, mostFileBytes, tableOfFile } from '../tables/table_file';
-import { readToml, writeToml } from '../tables/toml_file';
+import { writeToml } from '../tables/toml_file';
 import { App } from './app';
-import { texts } from './texts';
 
 interface Colors {
     colors: string;
@@ -94,20 +91,10 @@ export class TableEditing {
 
     // -- files
 
-    // Takes a table from a file. Returns what is to be said of it. Errors: a TableError.
-    take(text: string, fileName: string): string {
-        const { state, book } = this.app;
-        const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
-        if (!ending || !book) throw new TableError(texts.editor.otherEnding(fileName));
-        if (text.length > mostFileBytes) throw new TableError(texts.editor.tooLarge(fileName));
-        const table = ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
-        const moment = table.moment || state.moment;
-        const unit = book.preset(moment, '')?.unit ?? table.unit;
-        if (table.unit && table.unit !== unit) throw new TableError(texts.editor.otherUnit(fileName, table.unit, unit));
-        const draft = { ...draftOf({ ...table, name: table.name || fileName.replace(/\.[^.]*$/, '') }, moment, book.usual), unit };
+    // A draft from a file.
+    takeDraft(draft: Draft): void {
         this.history.note(this.now);
         this.become({ drafts: this.with(draft) });
-        return moment === state.moment ? texts.editor.taken(fileName, draft.colors.length) : texts.editor.otherMoment(fileName, moment);
     }
 
     // The table as it is shown; what is hidden is not in it.
@@ -120,10 +107,5 @@ export class TableEditing {
     tomlForCommand(): ExportedFile {
         const file = this.toml();
         return { ...file, name: file.name.replace(/\.toml$/, `-${checksum(file.text)}.toml`) };
-    }
-    pal(): ExportedFile {
-        const draft = this.draft!;
-        const { table, isWhole } = tableForPal(draft, this.app.book!.usual, this.app.state.least);
-        return { name: `${draft.name}.pal`, text: writePal(table), isWhole };
     }
 }

@@ -1,5 +1,5 @@
-// The editor of colors and opacity: presets, points, threshold, undo and redo, files. It is made when it is
-// first opened; while it is closed it costs nothing.
+// The editor of colors and opacity: presets, points, threshold, undo and redo, files. It is a program of its own, which
+// is loaded when it is first opened (edit_colors.ts); while it is closed it costs nothing.
 
 import { OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
 import { withColor, withColorAdded, withColorMoved, withColorRemoved, withOpacityAdded, withOpacityMoved, withOpacityRemoved } from '../../tables/draft_edits';
@@ -14,6 +14,7 @@ import { ExportedFile, TableEditing } from '../table_editing';
 import { tableTitle } from '../table_book';
 import { texts } from '../texts';
 import { EditorPlot, Selection } from './editor_plot';
+import { draftFrom, palOf } from './table_files';
 
 const words = texts.editor;
 const otherPanels = [
@@ -42,10 +43,6 @@ export class Editor {
     ) {}
 
     begin(keys: Keys): void {
-        const open = button('edit-colors', words.open, () => this.open());
-        open.setAttribute('aria-expanded', 'false');
-        element('colors').closest('label')!.after(open);
-        keys.add('e', () => (this.isOpen ? this.close() : this.open()));
         keys.add('Escape', () => this.close());
         for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
         // One panel is open at a time.
@@ -122,7 +119,7 @@ export class Editor {
             button('editor-import', words.import, () => file.click()),
             file,
             button('editor-toml', words.toToml, () => this.save(this.editing.toml())),
-            button('editor-pal', words.toPal, () => this.save(this.editing.pal())),
+            button('editor-pal', words.toPal, () => this.save(palOf(this.app, this.editing.draft!))),
             labeledButton('editor-close', '×', words.close, () => this.close()),
         );
         return tools;
@@ -254,7 +251,9 @@ export class Editor {
     private async take(file: File): Promise<void> {
         try {
             if (file.size > mostFileBytes) throw new TableError(words.tooLarge(file.name));
-            this.say(this.editing.take(await file.text(), file.name));
+            const { draft, said } = draftFrom(this.app, await file.text(), file.name);
+            this.editing.takeDraft(draft);
+            this.say(said);
         } catch (error) {
             this.say(error instanceof Error ? error.message : String(error), true);
         }

@@ -1,0 +1,31 @@
+// The button and the key that open the editor of colors. The first press loads it.
+
+import { address } from '../../wire/api';
+import { App } from '../app';
+import { button, element } from '../dom';
+import { Drawing } from '../drawing';
+import { Keys } from '../keys';
+import { TableEditing } from '../table_editing';
+import { texts } from '../texts';
+import type { Editor } from './editor';
+
+export function addEditor(app: App, drawing: Drawing, editing: TableEditing, keys: Keys): void {
+    let loaded: Promise<Editor> | null = null;
+    const load = async (): Promise<Editor> => {
+        const program = (await import(address('view/editor.js'))) as typeof import('./editor');
+        const editor = new program.Editor(app, drawing, editing);
+        editor.begin(keys);
+        return editor;
+    };
+    const use = (act: (editor: Editor) => void): void => {
+        loaded ??= load();
+        loaded.then(act).catch(error => {
+            loaded = null;
+            app.fail(error);
+        });
+    };
+    const open = button('edit-colors', texts.editor.open, () => use(editor => editor.open()));
+    open.setAttribute('aria-expanded', 'false');
+    element('colors').closest('label')!.after(open);
+    keys.add('e', () => use(editor => (editor.isOpen ? editor.close() : editor.open())));
+}

@@ -1,0 +1,28 @@
+// Tables of colors from files, and as .pal files: a part of the editor, which is loaded when it is opened.
+
+import { Draft, draftOf, tableForPal } from '../../tables/draft';
+import { readPal, writePal } from '../../tables/pal_file';
+import { TableError, mostFileBytes, tableOfFile } from '../../tables/table_file';
+import { readToml } from '../../tables/toml_file';
+import { App } from '../app';
+import { ExportedFile } from '../table_editing';
+import { texts } from '../texts';
+
+// The draft of a file, and what is to be said of it. Errors: a TableError.
+export function draftFrom({ state, book }: App, text: string, fileName: string): { draft: Draft; said: string } {
+    const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
+    if (!ending || !book) throw new TableError(texts.editor.otherEnding(fileName));
+    if (text.length > mostFileBytes) throw new TableError(texts.editor.tooLarge(fileName));
+    const table = ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
+    const moment = table.moment || state.moment;
+    const unit = book.preset(moment, '')?.unit ?? table.unit;
+    if (table.unit && table.unit !== unit) throw new TableError(texts.editor.otherUnit(fileName, table.unit, unit));
+    const draft = { ...draftOf({ ...table, name: table.name || fileName.replace(/\.[^.]*$/, '') }, moment, book.usual), unit };
+    return { draft, said: moment === state.moment ? texts.editor.taken(fileName, draft.colors.length) : texts.editor.otherMoment(fileName, moment) };
+}
+
+// The table as it is shown, as far as a .pal can say it; what is hidden is not in it.
+export function palOf({ state, book }: App, draft: Draft): ExportedFile {
+    const { table, isWhole } = tableForPal(draft, book!.usual, state.least);
+    return { name: `${draft.name}.pal`, text: writePal(table), isWhole };
+}
