@@ -108,6 +108,7 @@ await viewer.changes('one finger turns', 'azimuth', async () => {
   for (const on of [10, 20, 30]) await page.touch('touchMove', [[300 + on, 300]]);
   await page.touch('touchEnd', []);
 }, (before, after) => after !== before);
+await viewer.changes('the compass turns north up', 'azimuth', () => page.evaluate("document.getElementById('compass').click()"), (before, after) => before !== 180 && after === 180);
 
 // ---- The column under a click, against the server's own probe
 await viewer.show(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=1.5&field-of-view=0&least=70`);

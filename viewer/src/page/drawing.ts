@@ -248,7 +248,7 @@ export class Drawing {
             this.labels.height = geometry.height;
         }
         const scale = textScale();
-        const taken = [...document.querySelectorAll('header, footer, section, #bar, #legend')]
+        const taken = [...document.querySelectorAll('header, footer, section, #bar, #legend, #compass')]
             .map(one => one.getBoundingClientRect())
             .filter(rect => rect.width > 0)
             .map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale }));

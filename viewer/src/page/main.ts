@@ -1,6 +1,7 @@
 // Puts the page together.
 
 import { App } from './app';
+import { addCompass } from './compass';
 import { element } from './dom';
 import { Drawing } from './drawing';
 import { FactsOfShown } from './facts_of_shown';
@@ -48,6 +49,7 @@ async function begin(): Promise<void> {
     keys.add('h', () => app.goToMap());
     new LayersPanel(app, drawing, pointers).begin(keys);
     addEditor(app, drawing, editing, keys);
+    addCompass(app, drawing);
     keys.add('Escape', () => pointers.use(null));
     // Panels leave room for the head, however many lines it has.
     const head = element('head');

@@ -107,6 +107,7 @@ export const texts = {
     perspective: 'Perspective',
     views: 'View',
     top: 'Top',
+    northUp: 'North up',
     south: 'South',
     oblique: 'Oblique',
     share: 'Copy link',
