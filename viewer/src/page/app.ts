@@ -7,6 +7,7 @@ import { LoadedGrid } from '../renderer/renderer';
 import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
 import { instantsBetween } from '../time/between';
+import { outdatedBy } from '../time/outdated';
 import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../time/player';
 import { Units, namesOf } from '../tables/units';
 import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
@@ -191,6 +192,7 @@ export class App {
         await this.findDomains();
         this.tell('choices');
         const { domain, moment } = this.state;
+        this.loader.forgetAll(key => key !== this.shown?.key);
         if (this.isOnMap || !this.shown) return;
         if (isRegion(domain)) return this.takeNewsOfSite();
         await this.takeNews(domain, moment, this.stored[this.stored.length - 1]);
@@ -478,9 +480,13 @@ export class App {
             await this.findDomains();
             this.tell('choices');
         }
-        if (!this.isPartOfShown(domain) || moment !== this.state.moment) return;
+        const isOfShown = domain === this.state.domain && moment === this.state.moment;
+        if (changedTime) this.loader.forgetAll(outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.stored : [], `${this.state.domain}/${this.state.moment}`));
+        // A surface may be that of another moment.
+        const isOfSurface = moment !== undefined && moment === this.state.layers.surface?.moment;
+        if (!this.isPartOfShown(domain) || (moment !== this.state.moment && !isOfSurface)) return;
         if (domain !== this.state.domain) return this.takeNewsOfSite();
-        if (changedTime) this.loader.forget(Loader.key(domain, moment, changedTime));
+        if (moment !== this.state.moment) return changedTime === this.shown?.time ? this.showTime() : undefined;
         const before = this.player.times[this.player.at];
         const newest = (await times(domain, moment, soonTimes)).times;
         this.takeTimes([...this.stored.filter(time => newest.length === 0 || time < newest[0]!), ...newest]);

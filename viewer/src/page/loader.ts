@@ -110,6 +110,10 @@ export class Loader {
         if (old?.stream) void this.decoder.ask({ kind: 'forget', key });
     }
 
+    forgetAll(isOld: (key: string) => boolean): void {
+        for (const key of [...this.kept.keys(), ...this.loading.keys()]) if (isOld(key)) this.forget(key);
+    }
+
     load(domain: string, moment: string, time: string, isBetween = false): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
         const kept = this.find(key);
