@@ -51,5 +51,30 @@ check('its address shows the same', (await page.evaluate('document.documentEleme
 await page.evaluate(`location.hash = 'domain=region:-100,20,-50,50&moment=REF'; undefined`);
 const said = await page.until("document.getElementById('state').innerText.includes('degrees') && document.getElementById('state').innerText");
 check(`a region that is too large is refused: ${said}`, said.includes('at most'));
+
+// ---- A sweep is named after its own radar while that of another one comes (2026-11-28: the next radar was named)
+const toldLayers = "document.getElementById('layers-told').textContent";
+const [west, south, east, north] = domain.slice('region:'.length).split(',').map(Number);
+const kmAlong = 111.2 * (north - south) * 0.4;
+const lookAt = (y, x = 0) => `domain=${domain}&moment=REF&volume=0&elevation=0.5&tilt=0&field-of-view=0&look-at-km=${x},${y},0`;
+const stationAt = async (x, y) => {
+  await viewer.show(lookAt(y, x));
+  return (await page.until(`!${toldLayers}.includes('loading') && ${toldLayers}`, 30)).match(/sweep of (\w+)/)?.[1];
+};
+const kmAcross = 111.2 * Math.cos((((north + south) / 2) * Math.PI) / 180) * (east - west) * 0.4;
+const spots = [[-kmAcross, 0], [kmAcross, 0], [0, -kmAlong], [0, kmAlong]];
+const named = [];
+for (const spot of spots) named.push(await stationAt(...spot));
+const another = named.findIndex((station) => station !== named[0]);
+check(`the nearest radar's sweep is shown: ${named.join(', ')}`, another > 0);
+await page.goto('about:blank');
+await viewer.open(lookAt(spots[0][1], spots[0][0]));
+const ofFirst = await page.until(`!${toldLayers}.includes('loading') && ${toldLayers}`, 30);
+await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/sweeps*' }] });
+await page.evaluate(`location.hash = ${JSON.stringify(lookAt(spots[another][1], spots[another][0]))}; undefined`);
+await new Promise((done) => setTimeout(done, 1500));
+const meanwhile = await page.evaluate(toldLayers);
+check(`while another radar's comes: ${meanwhile}`, meanwhile === ofFirst);
+await page.send('Fetch.disable');
 check('nothing else failed', page.trouble.every((line) => line.includes('400')), page.trouble.join('\n'));
 await browser.end();

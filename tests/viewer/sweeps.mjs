@@ -39,6 +39,20 @@ try {
     check(`the command names it: ${command}`, command.includes(`--product ppi --sweep ${other.sweep} `));
   }
 
+  // ---- What is not drawn is not said to be (2026-11-28: a sweep that could not be fetched did not exist, and a surface was there)
+  await viewer.show(`${above}&surface=20&surface-moment=ZZZ`);
+  const notShown = await page.until("document.getElementById('layers-told').textContent.includes('not shown') && document.getElementById('layers-told').textContent", 20).catch(told);
+  check(`a surface of a moment that is not there: ${notShown}`, notShown.includes('not shown: no ZZZ'));
+  await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/sweeps/*' }] });
+  const cut = ({ method, params }) => void (method === 'Fetch.requestPaused' && page.send('Fetch.failRequest', { requestId: params.requestId, errorReason: 'ConnectionReset' }));
+  browser.listeners.push(cut);
+  await viewer.show(`${above}&elevation=9`);
+  const failed = await page.until("!document.getElementById('layers-told').textContent.includes('loading') && document.getElementById('layers-told').textContent", 20);
+  check(`a sweep that does not come: ${failed}`, failed.includes('could not be loaded'));
+  browser.listeners.splice(browser.listeners.indexOf(cut), 1);
+  await page.send('Fetch.disable');
+  page.trouble = page.trouble.filter((one) => !one.includes('404') && !one.includes('ERR_CONNECTION_RESET'));
+
   // ---- The whole sweep is drawn, also beyond the grid (2026-11-28: it was cut off at the grid's box)
   const echo = (more) => evaluate(`(() => {
     const picture = document.getElementById('picture');
@@ -108,6 +122,25 @@ try {
     await evaluate(looks);
     await played(`memory=4&${alone}&height-km=3`);
     await played(`memory=4&${alone}&maximum=1`);
+    // There is room for one sweep, beside the one that is shown.
+    await played(`memory=4&${alone}&elevation=0.5`);
+
+    // ---- Where the pointer rests, the gate is of the sweep that is drawn (2026-11-28: it was of the one before)
+    await page.goto('about:blank');
+    await viewer.open(`${alone}&elevation=0.5&zoom=4`);
+    await page.until("Number(document.getElementById('times').max) >= 4");
+    await page.mouse('mouseMoved', 260, 240);
+    let ofDrawn = 0;
+    for (let i = 0; i < 4; ++i) {
+      await page.until("document.getElementById('hover').textContent.includes('seen at')", 20);
+      await viewer.settled(() => press('earlier'));
+      const [line, reading] = [await told(), await evaluate("document.getElementById('hover').textContent")];
+      const secondsOf = (text, before) => Date.parse(`2000-01-01T${text.slice(text.indexOf(before) + before.length).match(/\d\d:\d\d:\d\d/)?.[0]}Z`) / 1000;
+      const afterStart = secondsOf(reading, 'seen at ') - secondsOf(line, '° ');
+      if (afterStart >= 0 && afterStart < 60) ++ofDrawn;
+      else console.log(`${line}; the pointer reads ${reading}`);
+    }
+    check(`${ofDrawn} of 4 readings of a resting pointer are of the sweep that is drawn`, ofDrawn === 4);
   }
   check('nothing of the page failed, and the server was never too busy', page.trouble.length === 0, page.trouble.join('\n'));
 } finally {

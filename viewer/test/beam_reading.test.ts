@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { beamReading } from '../src/fields/beam_reading';
+import { beamReading, beamWidthM } from '../src/fields/beam_reading';
 import { beamAt, beamTo } from '../src/fields/sweep_cone';
 import { destination } from '../src/scene/projection';
 import { GridFacts } from '../src/wire/api';
@@ -47,6 +47,7 @@ test('the nearest site, the nearest sweep, the moment of the radial and the audi
     assert.deepEqual([low.icao, low.sweepDeg, low.rms], ['KTLX', 0.5, 2]);
     assert.ok(Math.abs(low.timeMs! - Date.parse('2024-01-01T00:00:02Z')) < 1, 'forty degrees at twenty a second');
     assert.ok(Math.abs(low.widthM - 1658) < 1);
+    assert.ok(Math.abs(beamWidthM('TSTL', 100000) - 960) < 1 && Math.abs(beamWidthM('TJUA', 100000) - 1658) < 1, 'a TDWR has a narrower beam (2026-11-28)');
     const high = at(5, 80);
     assert.ok(Math.abs(high.timeMs! - Date.parse('2024-01-01T00:01:01Z')) < 1, 'a radar that turns the other way');
     const unknown = beamReading([site], null, destination(site, 1, 50000), 2000)!;

@@ -85,7 +85,7 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
                 const rangeM = 1000 + 250 * gate;
                 const { arcM, heightM } = beamAt(site, 4, rangeM);
                 const [x, y] = plane.toPlane(destination(site, ((radial + 0.5) * Math.PI) / 180, arcM))!;
-                const hit = sweepHit(geometry, { gates: sweep, radials }, plane, ...geometry.project([x, y, 2 * heightM])!);
+                const hit = sweepHit(geometry, { station: 'KTLX', gates: sweep, radials }, plane, ...geometry.project([x, y, 2 * heightM])!, () => true);
                 assert.ok(hit && Math.abs(hit.rangeM - rangeM) < 1 && Math.abs(hit.azimuthDeg - radial - 0.5) < 0.01 && Math.abs(hit.heightM - heightM) < 1, JSON.stringify(hit));
                 const code = sweep.codes[radial * gates + gate]!;
                 assert.equal(hit.state, code >= 2 ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho);
@@ -96,4 +96,29 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
         }
     }
     assert.ok(read > 8, `${read}`);
+});
+
+test('through clear gates of the near side of a sweep the far side is read, which is what is drawn (2026-11-28: the clear gate was)', () => {
+    const site = { latitudeDeg: 35.3, longitudeDeg: -97.3, altitudeM: 400 };
+    const [count, gates] = [360, 60];
+    const sweep: PackedSweep = {
+        ...site, sweep: 0, elevationDeg: 20, firstGateM: 0, gateSpacingM: 250, firstValueCode: 2, scale: 1, offset: 0, gateStride: gates,
+        azimuthsDeg: Float32Array.from({ length: count }, (_, i) => i + 0.5), elevationsDeg: new Float32Array(count).fill(20),
+        gateCounts: new Uint32Array(count).fill(gates), startMs: 0, timesMs: new Float64Array(count),
+        // Echo is only north of the radar.
+        codes: Uint16Array.from({ length: count * gates }, (_, i) => (Math.abs(Math.floor(i / gates) - 180) > 90 ? 50 : 0)),
+    };
+    const radials = radialsByAzimuth(sweep);
+    const plane = planeOf(grid);
+    const { arcM, heightM } = beamAt(site, 20, 10_000);
+    const north = plane.toPlane(destination(site, 0.01, arcM))!;
+    // From the south, along the ground.
+    const geometry = new ViewGeometry(box, { ...usualCamera, tiltDeg: 90 }, 1, 400, 400);
+    const pixel = geometry.project([north[0], north[1], heightM])!;
+    const read = (isShown: (hit: { state: CellState }) => boolean) => sweepHit(geometry, { station: 'KTLX', gates: sweep, radials }, plane, ...pixel, isShown)!;
+    const seen = read(hit => hit.state === CellState.value);
+    assert.deepEqual([seen.state, seen.value, seen.station], [CellState.value, 50, 'KTLX']);
+    assert.ok(seen.at[1] > 0 && Math.abs(seen.rangeM - 10_000) < 5, `${seen.rangeM}`);
+    const clear = read(() => false);
+    assert.ok(clear.state === CellState.noEcho && clear.at[1] < 0, 'if none is shown, the nearest is read');
 });

@@ -67,11 +67,12 @@ test('a region has four numbers, and nothing behind them (2026-11-28: the rest w
 
 test('the command is of one layer, and says none of what it cannot draw', () => {
     const sweep = { ...usualLayers, hasVolume: false, sweepDeg: 0.5 };
-    assert.equal(beyondCommand(usualLayers), null);
-    assert.equal(beyondCommand(sweep), null);
-    assert.equal(beyondCommand({ ...sweep, hasVolume: true }), 'several');
-    assert.equal(beyondCommand({ ...sweep, sweepDeg: null }), 'none');
-    assert.equal(beyondCommand({ ...sweep, hasHaze: true }), 'haze');
-    assert.equal(beyondCommand({ ...usualLayers, surface: { value: 40, moment: '' } }), 'surface');
-    assert.equal(beyondCommand({ ...usualLayers, crop: { westM: 0, eastM: 1, southM: 0, northM: 1, bottomM: 0, topM: 1 } }), 'box');
+    assert.equal(beyondCommand(usualLayers, 1), null);
+    assert.equal(beyondCommand(sweep, 1), null);
+    assert.equal(beyondCommand(sweep, 2), 'mosaic', 'frame refuses a sweep of several radars (2026-11-28: its command was copied)');
+    assert.equal(beyondCommand({ ...sweep, hasVolume: true }, 1), 'several');
+    assert.equal(beyondCommand({ ...sweep, sweepDeg: null }, 1), 'none');
+    assert.equal(beyondCommand({ ...sweep, hasHaze: true }, 1), 'haze');
+    assert.equal(beyondCommand({ ...usualLayers, surface: { value: 40, moment: '' } }, 1), 'surface');
+    assert.equal(beyondCommand({ ...usualLayers, crop: { westM: 0, eastM: 1, southM: 0, northM: 1, bottomM: 0, topM: 1 } }, 1), 'box');
 });

@@ -16,10 +16,11 @@ export interface BeamReading {
     rms: number | null; // of the grid's values against the gates of that sweep and range, in the audit's unit
 }
 
-const beamWidthDeg = 0.95; // of the WSR-88D, between half powers
+// Between half powers, as grid::beam_width_of() has it: of the WSR-88D and of the TDWR, whose names begin with T.
+const beamWidthDeg = (icao: string): number => (icao.startsWith('T') && icao !== 'TJUA' ? 0.55 : 0.95);
 const radians = Math.PI / 180;
 
-export const beamWidthM = (rangeM: number): number => rangeM * beamWidthDeg * radians;
+export const beamWidthM = (icao: string, rangeM: number): number => rangeM * beamWidthDeg(icao) * radians;
 
 function nearest(sweeps: SweepTime[], elevationDeg: number): SweepTime | null {
     let best: SweepTime | null = null;
@@ -35,10 +36,14 @@ function timeOf(sweep: SweepTime, azimuthDeg: number): number | null {
     return Date.parse(sweep.start) + (1000 * (((turned % 360) + 360) % 360)) / Math.abs(sweep.degrees_per_s);
 }
 
+// The site that is nearest to a place, and the way from it; null without sites.
+export function nearestTo(sites: Site[], place: Place): { site: Site; way: { distanceM: number; azimuth: number } } | null {
+    return sites.map(site => ({ site, way: geodesic(site, place) })).sort((a, b) => a.way.distanceM - b.way.distanceM)[0] ?? null;
+}
+
 // Of the site that is nearest to the point; null without sites. `facts` may still be on their way.
 export function beamReading(sites: Site[], facts: GridFacts | null, place: Place, heightM: number): BeamReading | null {
-    const all = sites.map(site => ({ site, way: geodesic(site, place) })).sort((a, b) => a.way.distanceM - b.way.distanceM);
-    const [first] = all;
+    const first = nearestTo(sites, place);
     if (!first) return null;
     const { site, way } = first;
     const { elevationDeg, rangeM } = beamTo(site, way.distanceM, heightM);
@@ -51,7 +56,7 @@ export function beamReading(sites: Site[], facts: GridFacts | null, place: Place
         rangeM,
         azimuthDeg,
         elevationDeg,
-        widthM: beamWidthM(rangeM),
+        widthM: beamWidthM(site.icao, rangeM),
         sweepDeg: sweep?.elevation_deg ?? null,
         timeMs: sweep && timeOf(sweep, azimuthDeg),
         rms: row?.rms ?? null,

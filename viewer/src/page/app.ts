@@ -37,6 +37,7 @@ export interface Shown {
     domain: string;
     moment: string;
     time: string;
+    isBetween: boolean; // made between volumes
 }
 
 // What an address does not say of units is as the user had it last.
@@ -312,7 +313,7 @@ export class App {
         }
     }
 
-    isBetween(time: string): boolean {
+    private isBetween(time: string): boolean {
         return this.state.betweenS > 0 && !this.stored.includes(time);
     }
     // Frames between volumes every so many seconds; 0: the volumes alone.
@@ -348,7 +349,7 @@ export class App {
     }
     private shownOf(time: string, loaded: LoadedGrid): Shown {
         const { domain, moment } = this.state;
-        return { key: Loader.key(domain, moment, time), loaded, domain, moment, time };
+        return { key: Loader.key(domain, moment, time), loaded, domain, moment, time, isBetween: this.isBetween(time) };
     }
     // With what is drawn beside it.
     private async loadWhole(time: string, isAhead: boolean): Promise<void> {

@@ -39,6 +39,7 @@ export class Drawing {
     layers: LayerMaker | null = null;
     windows: Windows | null = null;
     drawn: DrawnLayers | null = null; // what stands beside the volume in the picture
+    pictureChanged: () => void = () => undefined; // another one was drawn
     private ground: Ground | null = null;
     private app: App | null = null;
     private streaming: Streaming | null = null;
@@ -209,6 +210,7 @@ export class Drawing {
         this.drawOver(geometry);
         this.bar.show(table, shownUnit(table.unit, state.units), state.least);
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
+        this.pictureChanged();
         if (isMoving) window.setTimeout(() => this.draw(), this.stillAfterMs);
         else if (!this.isFinal && this.isComplete) this.end(rung, ms, fetches);
     }
@@ -222,7 +224,6 @@ export class Drawing {
             texts.drawn(ms, rung, fetches),
             detail && texts.detail(detail.coarsest, detail.missing),
             this.windows!.coarsest !== (detail?.coarsest ?? 0) && texts.detailOfLayers(this.windows!.coarsest),
-            this.layers!.isLeftOut && texts.surfaceLeftOut,
         ];
         app.say(said.filter(Boolean).join(' · '), false);
         const held = texts.held(app.loader.bytes, app.loader.budget.bytes);

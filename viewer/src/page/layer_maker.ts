@@ -4,7 +4,7 @@
 import { ViewGeometry } from '../camera/geometry';
 import { airOf } from '../fields/air';
 import { fallsOf } from '../fields/falls';
-import { maximumField, planeField } from '../fields/flat_field';
+import { levelsAbout, maximumField, planeField } from '../fields/flat_field';
 import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
 import { cutOf, kindOf, nearestSite } from '../fields/sweep_choice';
@@ -17,7 +17,7 @@ import { Place, Plane, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
-import { SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
+import { ApiError, SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
 import { PackedGrid, valueOf } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
@@ -30,6 +30,7 @@ const sectionColumns = 480;
 const sectionRows = 192;
 const oldestVolumeMs = 30 * 60 * 1000; // no radar takes so long for one volume
 const sweepsOfBudget = 0.2; // of the bytes that the page may hold
+const againAfterMs = 10_000; // a grid of another moment that could not be had
 
 // A sweep as it is drawn, and the sweeps of its volume.
 interface PlacedSweep {
@@ -54,38 +55,8 @@ class Kept {
     }
 }
 
-// Something from the server that is asked for once for a key; null until it has come.
-class Asked<T> {
-    private key = '';
-    private value: T | null = null;
-    isWaiting = false;
-
-    constructor(
-        private came: () => void,
-        private failed: (error: unknown) => void,
-    ) {}
-
-    take(key: string, ask: () => Promise<T>): T | null {
-        if (this.key === key) return this.value;
-        this.key = key;
-        this.value = null;
-        this.isWaiting = true;
-        ask().then(
-            value => this.key === key && this.put(value),
-            error => {
-                if (this.key !== key) return;
-                this.isWaiting = false;
-                this.failed(error);
-            },
-        );
-        return null;
-    }
-    private put(value: T): void {
-        this.isWaiting = false;
-        this.value = value;
-        this.came();
-    }
-}
+// The server has no such volume or sweep: not that it could not be asked.
+const isAbsent = (error: unknown): boolean => error instanceof ApiError && (error.status === 404 || error.status === 410);
 
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
@@ -96,47 +67,45 @@ function movedBy(section: Section, [x, y]: Plane): Section {
 }
 
 export class LayerMaker {
-    isLeftOut = false; // what is asked for cannot be made of this grid
     private kept = new Kept();
-    private other: Asked<LoadedGrid>;
+    private comingOthers = new Set<string>(); // grids of another moment
+    private missingOthers = new Map<string, number>(); // when they could not be had
     private sweeps: FetchedInTurn<PlacedSweep>;
     private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
     private numbers = new WeakMap<LoadedGrid, number>();
     private mostNumber = 0;
-    private lastSweep: { of: LoadedGrid; moment: string; sweep: PlacedSweep } | null = null;
+    private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
     private askedSweep = ''; // the one whose coming is waited for
-    private missingOthers = new Set<string>(); // grids of another moment that could not be had
-    sweepCame: () => void = () => undefined; // or failed
+    layerCame: () => void = () => undefined; // or failed: what is told has changed
 
     constructor(
         private app: App,
         private windows: Windows,
         private came: () => void,
     ) {
-        const failed = (error: unknown) => app.fail(error);
-        this.other = new Asked(came, failed);
         this.sweeps = new FetchedInTurn(sweepsOfBudget * app.loader.budget.bytes, bytesOfSweep);
     }
 
     // Something that is wanted has not come yet.
     get isWaiting(): boolean {
-        return this.other.isWaiting || this.isWaitingForSweep || this.windows.isWaiting;
-    }
-    private get isWaitingForSweep(): boolean {
         const { shown, state } = this.app;
-        return shown !== null && state.layers.sweepDeg !== null && !this.sweeps.isSettled(this.sweepKey(shown));
+        if (!shown) return false;
+        const waitsForSweep = state.layers.sweepDeg !== null && !this.isSweepSettled(this.sweepKey(shown));
+        return waitsForSweep || this.comingOthers.has(this.otherOf(shown)?.key ?? '') || this.windows.isWaiting;
+    }
+    // The one that is drawn stays, also where there is no room to keep it beside those that come.
+    private isSweepSettled(key: string): boolean {
+        return this.lastSweep?.key === key || this.sweeps.isSettled(key);
     }
 
     // What else must come before this is shown: a sweep, or the grid of another moment; null if all is there.
     // `geometry` is that of the next picture.
     alongside(next: Shown, isAhead: boolean, geometry: ViewGeometry): Promise<void> | null {
-        const { surface, sweepDeg } = this.app.state.layers;
+        const { sweepDeg } = this.app.state.layers;
         const waits: Promise<unknown>[] = [];
         if (sweepDeg !== null && this.sweeps.isNeeded(this.sweepKey(next))) waits.push(this.takeSweep(next, isAhead));
-        const other = surface?.moment || next.moment;
-        const key = Loader.key(next.domain, other, next.time);
-        if (other !== next.moment && next.loaded.stream === null && !this.app.loader.has(key) && !this.missingOthers.has(key))
-            waits.push(this.app.loader.load(next.domain, other, next.time, this.app.isBetween(next.time)).catch(() => this.missingOthers.add(key)));
+        const other = this.otherOf(next);
+        if (other && next.loaded.stream === null && !this.app.loader.has(other.key) && !this.isMissing(other.key)) waits.push(this.takeOther(next, other));
         // There is room for the windows of one grid ahead.
         const windows = isAhead ? null : this.windows.next(next.loaded, () => this.cellsOf(next.loaded, geometry, false));
         if (windows) waits.push(windows);
@@ -156,7 +125,6 @@ export class LayerMaker {
     // Null if nothing is to be drawn but the volume as it always was. While the view moves, no other part of a
     // grid is asked for.
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
-        this.isLeftOut = false;
         const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
@@ -220,17 +188,43 @@ export class LayerMaker {
         const drawn = { value: surface.value, isBelow: isBelow(moment, surface.value) };
         if (moment === shown.moment) return { ...drawn, of: null };
         // It would need the bricks of two grids at once.
-        this.isLeftOut = shown.loaded.stream !== null;
-        if (this.isLeftOut) return null;
-        const key = `${shown.domain} ${moment} ${shown.time}`;
-        const { loader } = this.app;
-        const of = loader.find(Loader.key(shown.domain, moment, shown.time)) ?? this.other.take(key, () => loader.load(shown.domain, moment, shown.time, this.app.isBetween(shown.time)));
-        if (!of) return null;
-        if (!hasSameCells(of.grid, shown.loaded.grid)) {
-            this.app.say(texts.layers.otherCells(moment));
-            return null;
+        const other = shown.loaded.stream ? null : this.otherOf(shown);
+        if (!other) return null;
+        const of = this.app.loader.find(other.key);
+        if (of) return hasSameCells(of.grid, shown.loaded.grid) ? { ...drawn, of } : null;
+        if (!this.comingOthers.has(other.key) && !this.isMissing(other.key)) {
+            this.comingOthers.add(other.key);
+            void this.takeOther(shown, other).then(() => {
+                this.comingOthers.delete(other.key);
+                this.layerCame();
+                this.came();
+            });
         }
-        return { ...drawn, of };
+        return null;
+    }
+    // The grid of another moment that the surface encloses; null: it is that of the shown one.
+    private otherOf({ domain, moment, time }: Shown): { key: string; moment: string } | null {
+        const other = this.app.state.layers.surface?.moment || moment;
+        return other === moment ? null : { key: Loader.key(domain, other, time), moment: other };
+    }
+    private isMissing(key: string): boolean {
+        return performance.now() - (this.missingOthers.get(key) ?? -Infinity) < againAfterMs;
+    }
+    private async takeOther({ domain, time, isBetween }: Shown, { key, moment }: { key: string; moment: string }): Promise<void> {
+        try {
+            await this.app.loader.load(domain, moment, time, isBetween);
+        } catch {
+            this.missingOthers.set(key, performance.now());
+        }
+    }
+    // Why the surface is not in the picture; empty if it is.
+    private whyNoSurface(shown: Shown): string {
+        const other = this.otherOf(shown);
+        if (!other) return '';
+        if (shown.loaded.stream) return texts.surfaceLeftOut;
+        const of = this.app.loader.find(other.key);
+        if (of) return hasSameCells(of.grid, shown.loaded.grid) ? '' : texts.layers.otherCells;
+        return this.isMissing(other.key) ? texts.layers.noOther(other.moment) : texts.layers.otherComes;
     }
 
     // The sweeps of the volume of which one is drawn, and which; null until they are known.
@@ -257,12 +251,16 @@ export class LayerMaker {
         const { layers, units } = state;
         if (!shown) return [];
         const said = layers.hasVolume ? this.emptyTold(shown) : [];
-        if (layers.planeM !== null) said.push(texts.layers.planeTold(heightText(layers.planeM, units)));
+        if (layers.planeM !== null) {
+            const isBeyond = levelsAbout(shown.loaded.grid.levelsM, layers.planeM) === null;
+            said.push(texts.layers.planeTold(heightText(layers.planeM, units)) + (isBeyond ? ` (${texts.layers.beyond})` : ''));
+        }
         if (layers.surface) {
             const moment = layers.surface.moment || shown.moment;
             const unit = this.app.domain?.moments.find(one => one.moment === moment)?.units ?? '';
             const value = valueText(layers.surface.value, unit, units);
-            said.push(isBelow(moment, layers.surface.value) ? texts.layers.surfaceBelow(moment, value) : texts.layers.surfaceFrom(moment, value));
+            const why = this.whyNoSurface(shown);
+            said.push((isBelow(moment, layers.surface.value) ? texts.layers.surfaceBelow(moment, value) : texts.layers.surfaceFrom(moment, value)) + (why && ` (${why})`));
         }
         if (layers.hasMaximum) said.push(texts.layers.maximumTold);
         if (layers.sweepDeg !== null) said.push(this.sweepTold(shown));
@@ -271,13 +269,10 @@ export class LayerMaker {
     private sweepTold(shown: Shown): string {
         const station = this.stationOf(shown);
         const found = this.sweepOf(shown);
-        if (found) return texts.layers.sweepAt(station, cutText(found.row, found.rows));
-        return this.sweeps.isSettled(this.sweepKey(shown)) ? texts.layers.noSweep(station) : texts.layers.sweepComes(station);
-    }
-    // The station whose sweep is drawn.
-    sweepStation(): string {
-        const { shown } = this.app;
-        return shown ? this.stationOf(shown) : '';
+        if (found) return texts.layers.sweepAt(found.drawn.station, cutText(found.row, found.rows));
+        const error = this.sweeps.errorOf(this.sweepKey(shown));
+        if (error === undefined) return texts.layers.sweepComes(station);
+        return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
     }
     // Of several sites the one that is nearest to what is looked at.
     private stationOf({ loaded: { grid } }: Shown): string {
@@ -292,7 +287,7 @@ export class LayerMaker {
             asked = (async () => {
                 const volume = await volumeBefore(station, time);
                 // The sweep of an older one is not what was there at this time.
-                if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs) throw new Error(texts.layers.noVolume(station));
+                if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs) throw new ApiError(404, texts.layers.noVolume(station));
                 return { time: volume, rows: await sweeps(station, volume) };
             })();
             known.set(station, asked);
@@ -315,9 +310,9 @@ export class LayerMaker {
         const fetch = async (): Promise<PlacedSweep> => {
             const { time, rows } = await this.rowsOf(shown, station);
             const row = cutOf(rows, moment, sweepDeg!, sweepNumber);
-            if (!row) throw new Error(texts.layers.noSweep(station));
+            if (!row) throw new ApiError(404, texts.layers.noSweep(station));
             const read = readPackedSweep(new Uint8Array(await gates(station, time, row.sweep, moment)));
-            return { rows, row, drawn: { gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(loaded.grid)) } };
+            return { rows, row, drawn: { station, gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(loaded.grid)) } };
         };
         return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
     }
@@ -327,20 +322,21 @@ export class LayerMaker {
         if (this.app.state.layers.sweepDeg === null) return null;
         const { loaded, moment } = shown;
         const key = this.sweepKey(shown);
-        const found = this.sweeps.find(key);
-        if (found) this.lastSweep = { of: loaded, moment, sweep: found };
+        const last = this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep : null;
+        const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
+        if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
         if (found || this.sweeps.isSettled(key)) return found;
         if (this.askedSweep !== key) {
             this.askedSweep = key;
             void this.takeSweep(shown, false).then(() => {
                 this.askedSweep = '';
                 const error = this.sweeps.errorOf(key);
-                if (error !== undefined) this.app.fail(error);
-                this.sweepCame();
+                if (error !== undefined && !isAbsent(error)) this.app.fail(error);
+                this.layerCame();
                 this.came();
             });
         }
-        return this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep.sweep : null;
+        return last?.sweep ?? null;
     }
 }
 

@@ -41,12 +41,12 @@ function solidsAt(app: App, drawing: Drawing, geometry: ViewGeometry, cells: Cel
     const { shown, shownTable: table, state } = app;
     const plane = planeOf(shown!.loaded.grid);
     const isShown = ({ state: status, value }: SolidHit) =>
-        status === CellState.rangeFolded || (status === CellState.value && value > (state.least ?? -Infinity) && colorOf(table!, value) !== null);
+        status === CellState.rangeFolded || (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table!, value) !== null);
     const met: Met[] = [];
     const add = (layer: PickedLayer, hit: SolidHit | null) => void (hit && met.push({ layer, hit, isSolid: isShown(hit) }));
     if (drawn.plane) add('plane', levelHit(geometry, drawn.plane, drawn.plane.heightM, x, y, drawn.mixes));
     if (drawn.section) add('section', sectionHit(geometry, drawn.section, x, y, drawn.mixes));
-    if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, plane, x, y));
+    if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, plane, x, y, isShown));
     if (drawn.maximum) add('maximum', levelHit(geometry, drawn.maximum, geometry.groundM, x, y, drawn.mixes));
     if (drawn.surface) {
         const { value, isBelow, of } = drawn.surface;

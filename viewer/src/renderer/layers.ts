@@ -19,6 +19,7 @@ import { SolidTarget } from './solid_target';
 import type { LoadedGrid } from './renderer';
 
 export interface DrawnSweep {
+    station: string;
     gates: PackedSweep;
     radials: Uint16Array; // by azimuth
     cone: Cone;

@@ -133,13 +133,15 @@ export function layersOf(query: URLSearchParams): Layers {
     };
 }
 
-// What keeps `stormcellar frame` from drawing the layers as they are: it draws one, without surfaces and boxes.
-export function beyondCommand(layers: Layers): 'surface' | 'box' | 'several' | 'none' | 'haze' | null {
+// What keeps `stormcellar frame` from drawing the layers as they are: it draws one, without surfaces and boxes, and a sweep of
+// one radar.
+export function beyondCommand(layers: Layers, siteCount: number): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
     if (layers.surface) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
     if (!layers.hasVolume && layers.hasHaze) return 'haze';
     const drawn = [layers.hasVolume, layers.planeM !== null, layers.section !== null, layers.hasMaximum, layers.sweepDeg !== null].filter(Boolean).length;
-    return drawn === 0 ? 'none' : drawn > 1 ? 'several' : null;
+    if (drawn !== 1) return drawn === 0 ? 'none' : 'several';
+    return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;
 }
 
 // The words with which `stormcellar frame` draws one of the layers; null if it draws the volume. Of several

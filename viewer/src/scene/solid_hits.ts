@@ -23,6 +23,7 @@ export interface SolidHit {
 }
 // A gate of a sweep.
 export interface GateHit extends SolidHit {
+    station: string;
     azimuthDeg: number;
     rangeM: number;
     elevationDeg: number;
@@ -95,8 +96,15 @@ function boxOfSweep(gates: PackedSweep, plane: GridPlane): Crop | null {
     return { westM: site[0] - lastM, eastM: site[0] + lastM, southM: site[1] - lastM, northM: site[1] + lastM, bottomM: low, topM: high };
 }
 
-// The gate under a pixel: where the ray crosses the beam of the sweep's elevation.
-export function sweepHit(geometry: ViewGeometry, { gates, radials }: { gates: PackedSweep; radials: Uint16Array }, plane: GridPlane, x: number, y: number): GateHit | null {
+interface PlacedSweep {
+    station: string;
+    gates: PackedSweep;
+    radials: Uint16Array;
+}
+
+// The gate under a pixel: where the ray crosses the beam of the sweep's elevation. A ray from the side crosses it twice, and
+// through a gate that is not shown the next one is seen. If none is shown, it is the first.
+export function sweepHit(geometry: ViewGeometry, { station, gates, radials }: PlacedSweep, plane: GridPlane, x: number, y: number, isShown: (hit: SolidHit) => boolean): GateHit | null {
     const box = boxOfSweep(gates, plane);
     const depths = box && depthsWithin(geometry, box, x, y);
     if (!depths) return null;
@@ -108,7 +116,8 @@ export function sweepHit(geometry: ViewGeometry, { gates, radials }: { gates: Pa
         return { depth, at, heightM, azimuthDeg: (azimuth / radians + 360) % 360, ...beamTo(gates, distanceM, heightM) };
     };
     const isAbove = (depth: number) => seenAt(depth).elevationDeg > gates.elevationDeg;
-    const from = isAbove(depths[0]);
+    let from = isAbove(depths[0]);
+    let first: GateHit | null = null;
     for (let i = 1; i <= steps; ++i) {
         let [low, high] = [i - 1, i].map(n => depths[0] + (n / steps) * (depths[1] - depths[0])) as [number, number];
         if (isAbove(high) === from) continue;
@@ -117,9 +126,12 @@ export function sweepHit(geometry: ViewGeometry, { gates, radials }: { gates: Pa
             if (isAbove(middle) === from) low = middle;
             else high = middle;
         }
-        return gateAt(gates, radials, seenAt(high));
+        const hit = gateAt(gates, radials, { station, ...seenAt(high) });
+        if (hit && isShown(hit)) return hit;
+        first ??= hit;
+        from = !from;
     }
-    return null;
+    return first;
 }
 
 function gateAt(gates: PackedSweep, radials: Uint16Array, place: Omit<GateHit, 'state' | 'value' | 'timeMs'>): GateHit | null {

@@ -25,13 +25,14 @@ const liveS = 30 * 60; // no radar takes so long from one volume to the next
 const againAfterMs = 20_000; // ages grow
 
 function putTitle(app: App): void {
+    const { domain, moment } = app.shown!;
     const { grid } = app.shown!.loaded;
     const names = grid.sites.map(site => site.icao).join(', ');
     const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
     const ageS = (Date.now() - grid.timeMs) / 1000;
-    const notes = [ageS >= 0 && ageS < newsS ? texts.start.age(ageS) : '', grid.isPartial ? texts.partial : '', app.isBetween(app.shown!.time) ? texts.isBetween : ''];
+    const notes = [ageS >= 0 && ageS < newsS ? texts.start.age(ageS) : '', grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
     element('title').textContent = [names, time, ...notes.filter(note => note !== '')].join('  ');
-    document.title = `${app.state.domain} ${app.state.moment} ${time} · ${texts.title}`;
+    document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
 // What is wrong with the server, the radars, or what was asked for. It stays until it is over.

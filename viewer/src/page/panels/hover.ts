@@ -1,8 +1,9 @@
 // What is under the pointer, beside it: value, height, beam, age and stated error.
 
-import { beamReading, beamWidthM } from '../../fields/beam_reading';
+import { beamReading, beamWidthM, nearestTo } from '../../fields/beam_reading';
 import { GateHit } from '../../scene/solid_hits';
 import { distanceText, heightText, shownUnit, valueText } from '../../tables/units';
+import { isRegion } from '../../wire/api';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
 import { element, paragraph } from '../dom';
@@ -14,7 +15,6 @@ import { texts } from '../texts';
 const restsAfterMs = 120;
 const mostDigits = 6; // of a value that is stored
 const mixedDigits = 1; // of one between others
-const liveS = 24 * 3600; // older volumes have a time instead of an age
 
 export class Hover {
     private timer = 0;
@@ -28,7 +28,8 @@ export class Hover {
 
     begin(): void {
         for (const happening of ['choices', 'camera', 'map'] as const) this.app.on(happening, () => this.hide());
-        for (const happening of ['shown', 'cells'] as const) this.app.on(happening, () => this.put());
+        // What is read is what is drawn, not what will be.
+        this.drawing.pictureChanged = () => this.timer === 0 && this.put();
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
     }
@@ -37,29 +38,39 @@ export class Hover {
     over(x: number, y: number): void {
         this.hide();
         this.at = [x, y];
-        this.timer = window.setTimeout(() => this.put(), restsAfterMs);
+        this.timer = window.setTimeout(() => {
+            this.timer = 0;
+            this.put();
+        }, restsAfterMs);
     }
 
     hide(): void {
         window.clearTimeout(this.timer);
+        this.timer = 0;
         this.at = null;
         element('hover').hidden = true;
     }
 
     private put(): void {
         if (!this.at) return;
-        const picked = pick(this.app, this.drawing, ...this.at, true);
-        if (!picked || picked.state === null && picked.layer !== 'outside') return;
-        // The beam and the error come once the server has told them.
-        if (!this.facts.known) this.facts.ask().then(() => this.put(), () => undefined);
+        const picked = this.app.isGraphicsLost ? null : pick(this.app, this.drawing, ...this.at, true);
         const box = element('hover');
+        box.hidden = !picked || (picked.state === null && picked.layer !== 'outside');
+        if (!picked || box.hidden) return;
+        this.whenTold(() => this.put());
         box.replaceChildren(...this.lines(picked).map(paragraph));
-        box.hidden = false;
         const ratio = window.devicePixelRatio || 1;
         const [x, y] = [this.at[0] / ratio, this.at[1] / ratio];
         const { width, height } = box.getBoundingClientRect();
         box.style.left = `${Math.max(4, x + 14 + width < window.innerWidth ? x + 14 : x - 14 - width)}px`;
         box.style.top = `${Math.max(4, y + 14 + height < window.innerHeight ? y + 14 : y - 14 - height)}px`;
+    }
+
+    // The beam, the time and the error come once the server has told them.
+    whenTold(again: () => void): void {
+        const isRegional = isRegion(this.app.shown?.domain ?? '');
+        if (isRegional ? this.facts.sites : this.facts.known) return;
+        (isRegional ? this.facts.askSites() : this.facts.ask()).then(again, () => undefined);
     }
 
     // What is told of a place: its value, from which layer, which beam saw it and when, and the stated error.
@@ -68,27 +79,28 @@ export class Hover {
         const { units } = app.state;
         const words = texts.hover;
         const { layer, state, value, heightM, gate } = picked;
-        if (layer === 'outside') return [words.outside];
+        const way = nearestTo(app.shown!.loaded.grid.sites, picked.place);
+        const from = way ? [words.from(distanceText(way.way.distanceM, units), (way.way.azimuth * 180) / Math.PI, way.site.icao)] : [];
+        if (layer === 'outside') return [words.outside, ...from];
         const told = state === CellState.value ? valueText(value, app.unit, units, layer === 'plane' || layer === 'section' || layer === 'maximum' ? mixedDigits : mostDigits) : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
-        if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told)];
+        if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
         // Air that is range folded all along the ray has no one height.
-        if (layer === 'volume' && state !== CellState.value) return [told];
+        if (layer === 'volume' && state !== CellState.value) return [told, ...from];
         const lines = [words.value(told, heightText(heightM, units))];
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
         if (picked.halvings > 0) lines.push(words.greatestOf(picked.halvings));
         if (gate) return [...lines, ...this.gateLines(gate)];
-        return state === CellState.value ? [...lines, ...this.beamLines(picked)] : lines;
+        return [...lines, ...(state === CellState.value ? this.beamLines(picked) : from)];
     }
 
+    // No age: what is read may stay on the page.
     private when(timeMs: number): string {
-        const ageS = (Date.now() - timeMs) / 1000;
-        return ageS >= 0 && ageS < liveS ? texts.start.age(ageS) : texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
+        return texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
     }
 
-    private gateLines({ elevationDeg, rangeM, azimuthDeg, timeMs }: GateHit): string[] {
+    private gateLines({ station, elevationDeg, rangeM, azimuthDeg, timeMs }: GateHit): string[] {
         const { units } = this.app.state;
-        const station = this.drawing.layers!.sweepStation();
-        const beam = texts.hover.beam(elevationDeg.toFixed(1), distanceText(beamWidthM(rangeM), units), distanceText(rangeM, units), azimuthDeg, station);
+        const beam = texts.hover.beam(elevationDeg.toFixed(1), distanceText(beamWidthM(station, rangeM), units), distanceText(rangeM, units), azimuthDeg, station);
         return [beam, this.when(timeMs)];
     }
 
@@ -101,7 +113,8 @@ export class Hover {
         const elevation = (beam.sweepDeg ?? beam.elevationDeg).toFixed(1);
         const lines = [texts.hover.beam(elevation, distanceText(beam.widthM, units), distanceText(beam.rangeM, units), beam.azimuthDeg, beam.icao)];
         const site = this.facts.sites?.find(one => one.site === beam.icao);
-        lines.push(site ? texts.start.ofVolumes(site.volumes.map(one => one.middle_s)) : this.when(beam.timeMs ?? grid.timeMs));
+        if (site) lines.push(texts.start.ofVolumes(site.volumes.map(one => one.middle_s)));
+        else if (beam.timeMs !== null) lines.push(this.when(beam.timeMs));
         if (beam.rms !== null) {
             const unit = known!.audit!.unit;
             const { perStored, symbol } = shownUnit(unit, units);

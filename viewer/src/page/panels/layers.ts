@@ -66,7 +66,7 @@ export class LayersPanel {
         addMarks(this.app, this.drawing);
         new SectionPlot(this.app, this.drawing.windows!);
         for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
-        this.drawing.layers!.sweepCame = () => this.put();
+        this.drawing.layers!.layerCame = () => this.put();
     }
 
     private open(isOpen: boolean): void {

@@ -4,6 +4,7 @@ import { ViewGeometry } from '../../camera/geometry';
 import { shades } from '../../renderer/shades';
 import { Plane, planeOf } from '../../scene/projection';
 import { Units, heightNumber, heightText, valueText } from '../../tables/units';
+import { CellState } from '../../wire/packed_grid';
 import { App, Shown } from '../app';
 import { button, element, labeledButton, leaveByEscape, paragraph, textScale } from '../dom';
 import { Drawing } from '../drawing';
@@ -20,7 +21,8 @@ const mostRows = 10;
 const markColor = '#ffffff';
 const mostDigits = 6; // of a value: all that its code has
 
-function summaryOf({ greatest, seenFromM }: ColumnReading, unit: string, units: Units): string {
+function summaryOf({ levels, greatest, seenFromM }: ColumnReading, unit: string, units: Units): string {
+    if (!greatest && levels.some(level => level.code === CellState.rangeFolded)) return texts.rangeFolded;
     if (greatest) return texts.greatestAt(valueText(greatest.value!, unit, units, mostDigits), heightText(greatest.heightM, units));
     return seenFromM === null ? texts.notSeen : texts.noEcho;
 }
@@ -95,7 +97,7 @@ export class Reader implements Tool {
         const ratio = window.devicePixelRatio || 1;
         const pixelAt = (heightM: number) => geometry.project([at[0], at[1], heightM * geometry.exaggeration])?.map(one => one / ratio) as [number, number] | undefined;
         const foot = pixelAt(geometry.groundM);
-        const head = picked ? pixelAt(picked.what.heightM) : foot;
+        const head = picked && picked.of === this.app.shown ? pixelAt(picked.what.heightM) : foot;
         if (!foot || !head) return;
         const scale = textScale();
         for (const [color, width] of [
@@ -149,6 +151,7 @@ export class Reader implements Tool {
         // What was clicked is of one time; the column is read again of another one.
         const { picked } = this;
         const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
+        if (picked?.of === shown) this.pointed.whenTold(() => this.at === at && this.put());
         if (said.length > 0) body.append(...said.map(paragraph), paragraph(texts.column));
         if (!column) body.append(paragraph(texts.hover.outside));
         if (column) {

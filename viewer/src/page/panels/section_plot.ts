@@ -15,6 +15,13 @@ const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pix
 const keyStep = 4;
 const hatchPeriod = 9;
 
+// Of a section without a value.
+function nothingIn({ field, inGrid }: Section): string {
+    if (!inGrid.includes(1)) return texts.layers.beyond;
+    if (field.states.includes(CellState.rangeFolded)) return texts.layers.nothingButFolded;
+    return field.states.includes(CellState.noEcho) ? texts.layers.nothing : texts.notSeen;
+}
+
 function tickStep(range: number, most: number): number {
     const power = 10 ** Math.floor(Math.log10(range / most));
     return [1, 2, 5, 10].map(step => step * power).find(step => range / step <= most) ?? 10 * power;
@@ -172,7 +179,7 @@ export class SectionPlot {
         const ofValue = (value: number) => valueText(value, app.unit, units, 1);
         if (!this.cursor) {
             const greatest = greatestOf(section);
-            this.reading.textContent = greatest ? texts.layers.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM)) : texts.layers.nothing;
+            this.reading.textContent = greatest ? texts.layers.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM)) : nothingIn(section);
             return;
         }
         const [width, height] = this.size;

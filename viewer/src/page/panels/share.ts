@@ -54,7 +54,7 @@ class RawFile {
     }
     async ask(): Promise<void> {
         const { shown } = this.app;
-        if (!shown || this.key === shown.key || this.app.isBetween(shown.time)) return;
+        if (!shown || this.key === shown.key || shown.isBetween) return;
         const { provenance } = await this.facts.ask();
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1;
         const name = isOne ? await rawNameBefore(provenance.stations[0]!, shown.time) : null;
@@ -69,9 +69,9 @@ function whyNoCommand(app: App): string {
     if (!shown) return words.nothing;
     if (isRegion(shown.domain)) return words.region;
     if (!isPrintable(shown.domain)) return words.name;
-    if (app.isBetween(shown.time)) return words.between;
+    if (shown.isBetween) return words.between;
     if (!state.hasGround) return words.ground;
-    const beyond = beyondCommand(state.layers);
+    const beyond = beyondCommand(state.layers, shown.loaded.grid.sites.length);
     return beyond ? words[beyond] : '';
 }
 
@@ -83,7 +83,9 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     if (why || !size) return app.say(why);
     const { domain, moment, time } = app.shown!;
     // The cut that is drawn, whichever rule has chosen it.
-    const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
+    const cut = drawing.layers!.shownCut();
+    if (app.state.layers.sweepDeg !== null && !cut) return app.say(texts.noCommand.noSweep);
+    const layers = { ...app.state.layers, sweepNumber: cut?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
     const notes = [state.layers.hasVolume ? '' : texts.commandFlat, state.layers.hasVolume && veilsFolded(state.layers, moment) ? texts.commandWithoutFolded : ''];
     const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
@@ -107,7 +109,7 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
         button('netcdf', texts.netcdf, () => {
             const { shown } = app;
             if (!shown) return;
-            if (isRegion(shown.domain) || app.isBetween(shown.time)) return app.say(texts.noNetcdf);
+            if (isRegion(shown.domain) || shown.isBetween) return app.say(texts.noNetcdf);
             location.href = address(`${gridPath(shown.domain, shown.moment, shown.time)}/netcdf`);
         }),
     );

@@ -74,7 +74,7 @@ export class ToolsPanel {
         if (!shown) return [];
         await this.facts.askSites();
         const { sites } = this.facts;
-        if (!sites && !this.app.isBetween(shown.time)) return (await this.facts.ask()).provenance.source_files;
+        if (!sites && !shown.isBetween) return (await this.facts.ask()).provenance.source_files;
         const wanted = sites?.flatMap(({ site, volumes }) => volumes.map(({ time }) => [site, time] as const)) ?? [[shown.domain, shown.time] as const];
         const names = await Promise.all(wanted.map(([station, time]) => rawNameBefore(station, time)));
         return names.filter((name): name is string => name !== null);
