@@ -105,6 +105,17 @@ await viewer.show(inParts(scene));
 const ofPointer = await readAt(resting);
 check(`under the pointer: ${ofPointer[0].replaceAll('\n', ', ')}`, ofPointer.filter((text) => /^-?[\d.]+ dBZ at [\d.]+ km\n/.test(text)).length > 1);
 
+// ---- A finger, which never rests over the picture, reads the same (2026-11-28: it read the column of the ground behind)
+const [tapped] = ofPointer.flatMap((text, i) => (/^-?[\d.]+ dBZ at/.test(text) ? [i] : []));
+await viewer.settled(() => page.resize(560, 420));
+await page.touch('touchStart', [resting[tapped]]);
+await page.touch('touchEnd', []);
+const said1 = `document.getElementById('reading').innerText`;
+const ofTap = await page.until(`${said1}.includes('The column') && ${said1}.includes('tilt') && ${said1}`, 20).catch(() => '');
+check(`a tap reads ${ofTap.split('\n').filter(Boolean).slice(2, 4).join(', ')}`, ofTap.includes(ofPointer[tapped].split('\n')[0]));
+await page.evaluate("document.getElementById('reading-close').click()");
+await viewer.settled(() => page.resize(400, 266));
+
 // ---- The graphics processor forgets all
 await page.evaluate(`(() => {
   const lost = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context');

@@ -94,6 +94,17 @@ try {
   const later = await page.until('window.taken', 60);
   const drawn = await evaluate('document.documentElement.dataset.drawn');
   check(`a picture that is asked for while VEL comes is of what is drawn: ${later.name}, ${drawn}`, later.name.includes('_VEL_') && drawn.includes('/VEL/'));
+
+  // ---- What is lit is what is drawn (2026-11-28: the button of the moment that comes was, over the picture of the one before)
+  await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/packed*' }] });
+  const held = new Promise((done) => browser.listeners.push(({ method, params }) => method === 'Fetch.requestPaused' && done(params.requestId)));
+  await evaluate("document.getElementById('moment-SW').click()");
+  const requestId = await held;
+  const lit = () => evaluate("['aria-pressed', 'aria-busy'].map((name) => document.querySelector(`#moments [${name}=true]`)?.textContent).join()");
+  const whileItComes = await lit();
+  await page.send('Fetch.disable');
+  await page.until("document.documentElement.dataset.drawn?.includes('/SW/')", 60);
+  check(`while SW comes, what is lit and what is waited for: ${whileItComes}; then ${await lit()}`, requestId && whileItComes === 'VEL,SW' && (await lit()) === 'SW,');
   check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
 } finally {
   await browser.end();

@@ -8,9 +8,10 @@ const told = ['title', 'sites-told', 'layers-told'];
 const lineHeight = 20;
 const swatch = 10;
 
+// Without how old the data are, which is so only now.
 function shownLines(): string[] {
     const lines = told.map(id => element(id)).filter(one => one && !one.hidden);
-    return lines.map(one => one.textContent ?? '').filter(Boolean);
+    return lines.map(one => [...one.childNodes].filter(node => !(node instanceof HTMLSpanElement)).map(node => node.textContent).join('')).filter(Boolean);
 }
 
 // Rows of the legend from `top` on, at the right edge.

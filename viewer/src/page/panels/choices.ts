@@ -17,7 +17,16 @@ function putChoices(app: App): void {
     element('moments').replaceChildren(
         ...(domain?.moments ?? []).map(({ moment }) => button(`moment-${moment}`, moment, () => void app.choose(state.domain, moment))),
     );
-    for (const { moment } of domain?.moments ?? []) press(`moment-${moment}`, moment === state.moment);
+    putMoment(app);
+}
+
+// What is lit is what is drawn; another one is on its way until then.
+function putMoment({ state, shown, domain }: App): void {
+    const drawn = shown?.domain === state.domain ? shown.moment : '';
+    for (const { moment } of domain?.moments ?? []) {
+        press(`moment-${moment}`, moment === drawn);
+        element(`moment-${moment}`).setAttribute('aria-busy', String(moment === state.moment && moment !== drawn));
+    }
 }
 
 const newsS = 48 * 3600; // older data are an archive, whose date says enough
@@ -30,8 +39,11 @@ function putTitle(app: App): void {
     const names = grid.sites.map(site => site.icao).join(', ');
     const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
     const ageS = (Date.now() - grid.timeMs) / 1000;
-    const notes = [ageS >= 0 && ageS < newsS ? texts.start.age(ageS) : '', grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
-    element('title').textContent = [names, time, ...notes.filter(note => note !== '')].join('  ');
+    const notes = [grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
+    // A saved picture has no age.
+    const age = document.createElement('span');
+    age.textContent = ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '';
+    element('title').replaceChildren([names, time, ...notes.filter(note => note !== '')].join('  '), age);
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
@@ -86,6 +98,7 @@ export function addChoices(app: App, facts: FactsOfShown): void {
     }, againAfterMs);
     app.on('shown', () => {
         putTitle(app);
+        putMoment(app);
         putSites(app, facts);
         void facts.askSites().then(() => putSites(app, facts), () => undefined);
     });

@@ -32,6 +32,7 @@ export class Hover {
         this.drawing.pictureChanged = () => this.timer === 0 && this.put();
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
+        window.addEventListener('resize', () => this.hide());
     }
 
     // The pointer rests over a pixel of the picture.

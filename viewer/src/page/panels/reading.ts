@@ -49,6 +49,7 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
 export class Reader implements Tool {
     private at: Plane | null = null; // the place that was clicked, meters from the middle
     private picked: { of: Shown; what: Picked } | null = null; // what was clicked there
+    private waits: [number, number] | null = null; // the pixel that was clicked, until the cells along its ray have come
     private domain = '';
     private close = labeledButton('reading-close', '×', texts.close, () => this.leave());
 
@@ -66,6 +67,10 @@ export class Reader implements Tool {
         this.app.on('units', () => {
             if (this.at) this.put();
         });
+        this.app.on('cells', () => {
+            if (this.waits) this.click(...this.waits);
+        });
+        this.app.on('camera', () => (this.waits = null));
         leaveByEscape(element('reading'), 'picture', () => this.clear());
         keys.add('Escape', () => this.clear());
         keys.add('?', () => this.showHelp());
@@ -86,6 +91,7 @@ export class Reader implements Tool {
         const { shown } = this.app;
         this.picked = what && shown && { of: shown, what };
         this.at = what?.at ?? null;
+        this.waits = shown?.loaded.stream && what?.state === null && what.layer !== 'outside' ? [x, y] : null;
         this.put();
         this.drawing.drawMarks();
     }
@@ -131,7 +137,7 @@ export class Reader implements Tool {
         element('picture').focus();
     }
     private clear(): void {
-        this.at = this.picked = null;
+        this.at = this.picked = this.waits = null;
         element('reading').hidden = true;
         this.drawing.drawMarks();
     }
