@@ -8,6 +8,7 @@
 
 #include "tests/pipeline/small_house.h"
 #include "tests/web/served_volumes.h"
+#include "web/doors/api_door.h"
 
 namespace stormcellar::web {
 namespace {
@@ -146,6 +147,25 @@ TEST(EventFeed, WithoutGridsTheCatalogTellsOfVolumes) {
     const auto silent = ear.hear_until("station_silent");
     ASSERT_FALSE(silent.empty());
     EXPECT_EQ(silent.back()["station"], "KTLX");
+}
+
+// 2026-11-28: a page that was opened after a radar fell silent did not learn that it was.
+TEST(EventFeed, TheListOfStationsSaysWhoIsSilent) {
+    STORMCELLAR_NEED_DATA();
+    for (const bool is_silent : {false, true}) {
+        const std::shared_ptr<const EventFeed> feed =
+            EventFeed::open({.grids = nullptr,
+                             .catalog = served_volumes().state() / "catalog",
+                             .hub = EventHub::make(),
+                             .silent_after = is_silent ? -1s : 3600s});
+        ApiDoor door(ApiSources{.grids = nullptr,
+                                .catalog = served_volumes().state() / "catalog",
+                                .kept = nullptr,
+                                .feed = feed});
+        for (const json& station :
+             json::parse(body_of(asked(door, "/api/v1/stations")))["stations"])
+            EXPECT_EQ(station["silent_s"].is_number(), is_silent) << station;
+    }
 }
 
 TEST(EventFeed, WhatIsThereWhenItBeginsIsNotTold) {

@@ -259,7 +259,23 @@ TEST_F(Region, TheApiSaysOfWhichVolumesEachSiteIsMade) {
                      {"volumes", {{{"time", "2024-11-22T12:00:00Z"}, {"middle_s", -180}}}}},
                     {{"site", "KCCX"},
                      {"volumes", {{{"time", "2024-11-22T12:06:00Z"}, {"middle_s", 180}}}}}}));
+    EXPECT_EQ(instant["left_out_because"], Json::object());
     json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/soon/sites", 404);
+}
+
+// 2026-11-28: sites that were not in the picture had one reason, whatever the true one was.
+TEST_F(Region, TheApiSaysWhyASiteIsNotInThePicture) {
+    grid::Grid low = grid_of("KBGM", value_of_kbgm, testing::noon - std::chrono::hours{3});
+    low.spec.levels_m = {1000};
+    low.values.resize(low.spec.cell_count());
+    low.status.resize(low.spec.cell_count());
+    commit(low);
+    grids_->refresh();
+    const Json earlier = json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/2024-11-22T09:00:00Z/sites");
+    EXPECT_EQ(earlier["sites"], Json::array());
+    EXPECT_EQ(earlier["left_out_because"],
+              (Json{{"KBGM", "its grids of this time have other levels or codes"},
+                    {"KCCX", "it has no volume within 15 minutes"}}));
 }
 
 // 2026-11-28: a radar that its file places, but no table, was in no region and in no list of

@@ -76,6 +76,16 @@ TEST(StationBook, WhatWasSilentBeforeTheServerBeganIsNoNews) {
         << "what is an hour old is not speaking";
 }
 
+// 2026-11-28: a station that has grids alone was silent until the first came after a start, and
+// never told as silent if none came.
+TEST(StationBook, ANewVolumeSpeaksForAStationOfWhichNothingCameYet) {
+    StationBook book(20min);
+    book.note("KTLX", start, std::nullopt, start + 5min);
+    EXPECT_FALSE(book.pages().at(0).is_silent);
+    EXPECT_EQ(names_of(book.look(start + 20min + 1s)), Names{"station_silent"});
+    EXPECT_EQ(book.pages().at(0).spoke(), start);
+}
+
 TEST(CatalogChanges, NamesTheStationsThatWereWritten) {
     const testing::TemporaryDirectory directory;
     CatalogChanges changes(directory.path());

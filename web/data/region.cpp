@@ -170,19 +170,29 @@ UtcTime middle_of(const OpenGrid& grid) {
 Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const RegionPlan& plan,
                                  UtcTime instant) {
     const auto gap = pipeline::FrameOptions{}.greatest_gap;
-    RegionSite found{site, nullptr, nullptr};
+    RegionSite found{site, nullptr, nullptr, {}};
+    bool has_others = false;  // that do not fit
     const auto times = grids.times(site, plan.moment, instant - 2 * gap, instant + gap);
     for (auto time = times.rbegin(); time != times.rend() && !found.before; ++time) {
         auto grid = grids.find(site, plan.moment, *time);
         // It may have been evicted meanwhile.
         if (!grid && grid.error().code == ErrorCode::not_found) continue;
         if (!grid) return pass_on(grid);
-        // An older one may have been made by another configuration.
-        if (!fits(**grid, plan)) continue;
         const UtcTime middle = middle_of(**grid);
         if (std::abs(seconds_between(middle, instant)) > std::chrono::duration<double>(gap).count())
             continue;
+        // An older one may have been made by another configuration.
+        if (!fits(**grid, plan)) {
+            has_others = true;
+            continue;
+        }
         (middle <= instant ? found.before : found.after) = std::move(*grid);
+    }
+    if (!found.before && !found.after) {
+        found.left_out_because =
+            has_others ? "its grids of this time have other levels or codes"
+                       : fmt::format("it has no volume within {} minutes",
+                                     std::chrono::duration_cast<std::chrono::minutes>(gap).count());
     }
     return found;
 }
@@ -298,7 +308,7 @@ Result<std::vector<RegionSite>> region_sites(Grids& grids, const RegionPlan& pla
     for (const std::string& site : plan.sites) {
         auto found = volumes_about(grids, site, plan, instant);
         if (!found) return pass_on(found);
-        if (found->before || found->after) sites.push_back(std::move(*found));
+        sites.push_back(std::move(*found));
     }
     return sites;
 }

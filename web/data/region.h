@@ -38,7 +38,7 @@ inline constexpr int most_region_halvings = 3;
 // Instants of a region: whole multiples of this since midnight.
 inline constexpr std::chrono::minutes region_interval{5};
 
-// A site that the grid of a region leaves out, and why: the rest of a sentence.
+// A site that the grid of a region leaves out, and why.
 struct LeftOutSite {
     std::string site, reason;
 };
@@ -71,10 +71,12 @@ struct RegionPlan {
 struct RegionSite {
     std::string site;
     std::shared_ptr<const OpenGrid> before, after;
+    std::string left_out_because;  // where there is neither
     // From the instant to the middle of a volume; less than 0 before it.
     [[nodiscard]] static double seconds_to(const OpenGrid& volume, UtcTime instant);
 };
-// Returns the sites that have a volume near the instant, by name. Errors: those of Grids::find().
+// Returns the sites of the plan with their volumes near the instant. Errors: those of
+// Grids::find().
 [[nodiscard]] Result<std::vector<RegionSite>> region_sites(Grids& grids, const RegionPlan& plan,
                                                            UtcTime instant);
 

@@ -41,7 +41,7 @@ void StationBook::note(const std::string& station, std::optional<UtcTime> newest
     if (newest_volume && is_believed(*newest_volume, now))
         page.newest_volume = std::max(page.newest_volume.value_or(*newest_volume), *newest_volume);
     if (heard) page.heard = std::max(page.heard.value_or(*heard), std::min(*heard, now));
-    page.is_silent = !page.heard || now - *page.heard > silent_after_;
+    page.is_silent = !page.spoke() || now - *page.spoke() > silent_after_;
 }
 
 std::vector<Event> StationBook::hear(const std::string& station, std::optional<SeenVolume> volume,
@@ -72,11 +72,12 @@ std::vector<Event> StationBook::look(UtcTime now) {
     std::vector<Event> events;
     const std::scoped_lock lock(mutex_);
     for (auto& [station, page] : pages_) {
-        if (page.is_silent || !page.heard || now - *page.heard <= silent_after_) continue;
+        if (page.is_silent || !page.spoke() || now - *page.spoke() <= silent_after_) continue;
         page.is_silent = true;
-        events.push_back(station_event(EventType::station_silent, station, now,
-                                       {{"silent_s", std::floor(seconds_between(*page.heard, now))},
-                                        {"newest_volume", time_or_null(page.newest_volume)}}));
+        events.push_back(
+            station_event(EventType::station_silent, station, now,
+                          {{"silent_s", std::floor(seconds_between(*page.spoke(), now))},
+                           {"newest_volume", time_or_null(page.newest_volume)}}));
     }
     return events;
 }

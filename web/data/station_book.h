@@ -42,6 +42,8 @@ class StationBook {
         std::optional<UtcTime> newest_volume;  // its start
         std::optional<UtcTime> heard;          // when something came
         bool is_silent = false;
+        // When it spoke last: of one of which nothing came yet, the start of its newest volume.
+        [[nodiscard]] std::optional<UtcTime> spoke() const { return heard ? heard : newest_volume; }
     };
 
     // Notes what is there when the server begins. It tells nothing.

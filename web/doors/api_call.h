@@ -29,6 +29,8 @@
 
 namespace stormcellar::web {
 
+class EventFeed;
+
 using ApiJson = nlohmann::ordered_json;
 
 // Where the API finds what it serves.
@@ -38,6 +40,7 @@ struct ApiSources {
     // The same, if it is open already.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
+    std::shared_ptr<const EventFeed> feed = nullptr;  // null: nobody watches who is silent
 };
 
 class ApiState {

@@ -89,7 +89,7 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
      no_errors,
      api_openapi},
     {"stations", "/api/v1/stations",
-     "The stations that have volumes or grids: place, newest volume, newest grid, ages.",
+     "The stations that have volumes or grids: place, newest volume, newest grid, ages, silence.",
      stations_parameters, json_type, bad_request, api_stations},
     {"volumes", "/api/v1/stations/{station}/volumes", "The raw volumes of a station, oldest first.",
      volumes_parameters, json_type, catalog_errors, api_volumes},

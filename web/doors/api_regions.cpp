@@ -110,8 +110,14 @@ Answer api_region_sites(const ApiCall& call) {
     if (!time) return json_error(404, time.error().message);
     const auto found = region_sites(call.grids(), asked->plan, *time);
     if (!found) return json_error(found.error());
-    ApiJson sites = ApiJson::array();
+    ApiJson sites = ApiJson::array(), left_out = ApiJson::object();
+    for (const LeftOutSite& one : asked->plan.left_out)
+        left_out[one.site] = one.reason;
     for (const RegionSite& site : *found) {
+        if (!site.left_out_because.empty()) {
+            left_out[site.site] = site.left_out_because;
+            continue;
+        }
         ApiJson volumes = ApiJson::array();
         for (const auto& volume : {site.before, site.after}) {
             if (!volume) continue;
@@ -122,7 +128,8 @@ Answer api_region_sites(const ApiCall& call) {
     }
     return json_answer(call.request, {{"domain", "region:" + asked->name},
                                       {"time", format_utc(*time)},
-                                      {"sites", std::move(sites)}});
+                                      {"sites", std::move(sites)},
+                                      {"left_out_because", std::move(left_out)}});
 }
 
 }  // namespace stormcellar::web

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "stormcellar/base/station_table.h"
+#include "web/data/event_feed.h"
 #include "web/data/station_place.h"
 #include "web/doors/api_operations.h"
 
@@ -59,6 +61,18 @@ std::set<std::string> station_names(const ApiCall& call, const catalog::CatalogR
     return names;
 }
 
+// For how many seconds nothing has come from each station that is silent.
+std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
+    std::map<std::string, double> silences;
+    const auto& feed = call.state.sources().feed;
+    if (!feed) return silences;
+    for (const StationBook::Page& page : feed->stations()) {
+        if (page.is_silent && page.spoke())
+            silences[page.station] = std::floor(seconds_between(*page.spoke(), now));
+    }
+    return silences;
+}
+
 ApiJson station_json(const ApiCall& call, const catalog::CatalogReader* catalog,
                      const std::string& icao, UtcTime now) {
     ApiJson json = station_place_json(call, icao);
@@ -98,9 +112,13 @@ Answer api_stations(const ApiCall& call) {
         std::erase_if(names, [&](const std::string& name) { return name != *icao; });
     }
     const UtcTime now = now_utc();
+    const auto silences = silences_s(call, now);
     ApiJson list = ApiJson::array();
-    for (const std::string& name : names)
-        list.push_back(station_json(call, reader, name, now));
+    for (const std::string& name : names) {
+        ApiJson& station = list.emplace_back(station_json(call, reader, name, now));
+        const auto silence = silences.find(name);
+        station["silent_s"] = silence == silences.end() ? ApiJson() : ApiJson(silence->second);
+    }
     return json_answer(call.request, {{"time", format_utc(now)}, {"stations", list}});
 }
 

@@ -130,17 +130,18 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::s3))
         doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
     const auto kept = std::make_shared<KeptAnswers>(limits.kept_bytes);
+    const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {
         const auto api = std::make_shared<ApiDoor>(ApiSources{.grids = sources.grids,
                                                               .catalog = setup.catalog,
                                                               .reader = sources.catalog,
-                                                              .kept = kept});
+                                                              .kept = kept,
+                                                              .feed = watched.feed});
         api->set_long_workers(std::make_shared<WorkQueue>(
             static_cast<unsigned>(limits.renders), static_cast<std::size_t>(limits.waiting)));
         doors->add("/api/v1", api);
     }
-    const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
