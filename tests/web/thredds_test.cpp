@@ -304,6 +304,26 @@ TEST_F(Thredds, ADataSetOfLevelIIINeedsAVariableAndHasTheFilesOfItsDirectory) {
     EXPECT_EQ(count_in(body_of(get(level3 + "?stn=FTG&var=N0Q&temporal=all")), "urlPath"), 2U);
 }
 
+// 2026-11-28: stations on both sides of 180 degrees gave a coverage of all longitudes.
+TEST_F(Thredds, TheCoverageGoesOnAcrossTheAntimeridian) {
+    const auto east_west_of = [&](std::vector<std::string> stations) {
+        ThreddsConfig config = WebConfig::usual_thredds();
+        config.collections.push_back(
+            {"nexrad/level3/IDD", "Level III", {"N0Q"}, {}, std::move(stations)});
+        configure(std::move(config));
+        return text_between(body_of(get("/thredds/radarServer/nexrad/level3/IDD/dataset.xml")),
+                            "<eastwest>", "<units>");
+    };
+    const auto starts = [](const std::string& text, const char* start, const char* size) {
+        return text.find(std::string("<start>") + start + "</start>") != text.npos &&
+               text.find(std::string("<size>") + size + "</size>") != text.npos;
+    };
+    const std::string pacific = east_west_of({"GUA", "HKI"});  // 144.81 and -159.55
+    EXPECT_TRUE(starts(pacific, "139.0", "67.0")) << pacific;
+    const std::string plains = east_west_of({"TLX"});  // -97.28
+    EXPECT_TRUE(starts(plains, "-103.0", "11.0")) << plains;
+}
+
 // What the IDV's HTTP layer does with a file, over a connection.
 TEST_F(Thredds, TheIdvOpensAFileByRanges) {
     auto doors = std::make_shared<Doors>();

@@ -40,25 +40,43 @@ void write_extent(XmlWriter& xml, std::string_view name, Extent extent, std::str
         .close();
 }
 
+// The longitudes that hold all stations, without the widest gap between them: about the
+// antimeridian they go on beyond 180.
+Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
+    std::ranges::sort(stations_deg);
+    double west = stations_deg.front(), east = stations_deg.back();
+    double widest = west + 360 - east;
+    for (std::size_t i = 1; i < stations_deg.size(); ++i) {
+        const double gap = stations_deg[i] - stations_deg[i - 1];
+        if (gap <= widest) continue;
+        widest = gap;
+        west = stations_deg[i];
+        east = stations_deg[i - 1] + 360;
+    }
+    const double start = std::floor(west - margin_deg);
+    const double size = std::ceil(east + margin_deg) - start;
+    if (size >= 360) return {-180, 360};
+    return {start < -180 ? start + 360 : start, size};
+}
+
 // What the radars see: their places, and 460 km around them, in whole degrees.
 void write_coverage(XmlWriter& xml, const std::vector<ThreddsStation>& stations) {
     constexpr double margin_deg = 5, top_km = 20;
-    double north = -90, south = 90, east = -180, west = 180;
+    double north = -90, south = 90;
+    std::vector<double> longitudes;
     for (const ThreddsStation& station : stations) {
         if (!station.has_place) continue;
-        north = std::max(north, station.latitude_deg + margin_deg);
-        south = std::min(south, station.latitude_deg - margin_deg);
-        east = std::max(east, station.longitude_deg + margin_deg);
-        west = std::min(west, station.longitude_deg - margin_deg);
+        north = std::max(north, std::min(std::ceil(station.latitude_deg + margin_deg), 90.0));
+        south = std::min(south, std::max(std::floor(station.latitude_deg - margin_deg), -90.0));
+        longitudes.push_back(station.longitude_deg);
     }
-    if (north < south) north = 90, south = -90, east = 180, west = -180;
-    const auto whole = [](double low, double high, double most) {
-        low = std::max(std::floor(low), -most);
-        return Extent{low, std::min(std::ceil(high), most) - low};
-    };
+    const bool is_known = !longitudes.empty();
+    if (!is_known) std::swap(north, south);
     xml.open("geospatialCoverage");
-    write_extent(xml, "northsouth", whole(south, north, 90), "degrees_north");
-    write_extent(xml, "eastwest", whole(west, east, 180), "degrees_east");
+    write_extent(xml, "northsouth", {south, north - south}, "degrees_north");
+    write_extent(xml, "eastwest",
+                 is_known ? longitudes_of(std::move(longitudes), margin_deg) : Extent{-180, 360},
+                 "degrees_east");
     write_extent(xml, "updown", {0, top_km}, "km");
     xml.close();
 }
