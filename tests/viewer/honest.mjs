@@ -13,9 +13,14 @@ const upstream = new URL(address);
 // ---- A server that can go away, tell of events, and have another list of times
 let events = [];
 let listed = (path, body) => body;
+let isRefusing = false; // it has no place for another stream
+let isHanging = false; // it takes connections, and sends nothing
 const streams = new Set();
+setInterval(() => isHanging || streams.forEach((stream) => stream.write(': heartbeat\n\n')), 200).unref();
 function pass(asked, answer) {
+  if (isHanging) return;
   if (asked.url.startsWith('/api/v1/events')) {
+    if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10' }).end('{"error": "as many as there may be"}');
     answer.writeHead(200, { 'Content-Type': 'text/event-stream' });
     answer.write(`retry: 200\n\n${events.join('')}`);
     streams.add(answer);
@@ -60,6 +65,11 @@ try {
   await viewer.open(`domain=${station}&moment=XXX&time=2099-01-01T00:00:00Z`);
   check(`a moment and a time that are not there: ${await text('notice')}`, (await text('notice')).includes(`${station} has no XXX`) && (await text('notice')).includes('2099-01-01 00:00:00'));
   await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=yesterday`);
+  check(`a time that is none: ${await text('notice')}`, (await text('notice')).includes('yesterday is no time'));
+  await viewer.show(`domain=${station}&moment=REF&surface=20&surface-moment=XXX`);
+  check(`a surface of a moment that is not there: ${await says('layers-told', 'no XXX for this time')}`, (await text('layers-told')).includes('no XXX for this time'));
+  await page.goto('about:blank');
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
   check('what is there needs no notice', (await text('notice')) === '');
   check('what is no link of ours is no region', await page.evaluate(`(location.hash = 'domain=' + encodeURIComponent('region:-100,33,-95,37,/REF;x'), true)`) && (await says('notice', 'No data for region')) !== '');
@@ -71,26 +81,42 @@ try {
   check('the newest is followed', (await page.evaluate(lit)) === 'true');
   await cut();
   check(`a server that is gone: ${await says('notice', 'does not answer')}`, (await text('notice')).includes('does not answer') && (await page.evaluate(lit)) === 'false');
+  const isQuiet = () => page.until("document.getElementById('notice').textContent === ''", 30).then(() => true, () => false);
 
   // ---- News that came meanwhile (2026-11-28: the page stayed with the old picture)
   const before = page.requests.filter((url) => url.includes('/api/v1/grids?')).length;
   events = ['event: reset\ndata: {"type":"reset","reason":"another run"}\n\n'];
   await begin(port);
-  await page.until("document.getElementById('notice').textContent === ''", 30).catch(() => undefined);
-  check('the server is back, and nothing is said', (await text('notice')) === '' && (await page.evaluate(lit)) === 'true');
-  for (let tries = 0; tries < 300 && page.requests.filter((url) => url.includes('/api/v1/grids?')).length < before + 2; ++tries) await new Promise((done) => setTimeout(done, 50));
-  check('it asks for the lists anew', page.requests.filter((url) => url.includes('/api/v1/grids?')).length >= before + 2);
-  const asked = page.requests.filter((url) => url.includes('/api/v1/grids?')).length;
+  check('the server is back, and nothing is said', (await isQuiet()) && (await page.evaluate(lit)) === 'true');
+  const requests = (part) => page.requests.filter((url) => url.includes(part)).length;
+  const asksFor = async (part, more) => {
+    for (let tries = 0; tries < 300 && requests(part) < more; ++tries) await new Promise((done) => setTimeout(done, 50));
+    return requests(part) >= more;
+  };
+  check('it asks for the lists anew', await asksFor('/api/v1/grids?', before + 1));
+  const asked = requests('/api/v1/grids?');
   tell('reset', { type: 'reset', reason: 'events were lost' });
-  for (let tries = 0; tries < 300 && page.requests.filter((url) => url.includes('/api/v1/grids?')).length === asked; ++tries) await new Promise((done) => setTimeout(done, 50));
-  check('and so it does when events were lost', page.requests.filter((url) => url.includes('/api/v1/grids?')).length > asked);
+  check('and so it does when events were lost', await asksFor('/api/v1/grids?', asked + 1));
+
+  // ---- A grid that was made again while another moment was shown (2026-11-28: the page kept the old one)
+  const time = (await page.evaluate('document.documentElement.dataset.drawn')).split('/').pop();
+  for (const moment of ['VEL', 'REF']) await viewer.settled(() => page.evaluate(`document.getElementById('moment-${moment}').click()`));
+  const velocities = `/${station}/VEL/${encodeURIComponent(time)}/packed`;
+  const loaded = requests(velocities);
+  await viewer.settled(() => page.evaluate(`document.getElementById('moment-VEL').click()`));
+  check('what was loaded is not loaded again', requests(velocities) === loaded);
+  await viewer.settled(() => page.evaluate(`document.getElementById('moment-REF').click()`));
+  tell('sweep_gridded', { type: 'sweep_gridded', domain: station, station, moment: 'VEL', grid: time });
+  await new Promise((done) => setTimeout(done, 500));
+  await viewer.settled(() => page.evaluate(`document.getElementById('moment-VEL').click()`));
+  check('what was made again is', requests(velocities) > loaded);
+  await viewer.settled(() => page.evaluate(`document.getElementById('moment-REF').click()`));
 
   // ---- A radar that is silent, and speaks again
   tell('station_silent', { type: 'station_silent', station, silent_s: 840 });
   check(`a silent radar: ${await says('notice', 'silent')}`, (await text('notice')).includes(`${station} is silent: nothing came for 14 min`) && (await page.evaluate(lit)) === 'false');
   tell('station_spoke', { type: 'station_spoke', station });
-  await page.until("document.getElementById('notice').textContent === ''", 30).catch(() => undefined);
-  check('it speaks again', (await text('notice')) === '');
+  check('it speaks again', await isQuiet());
 
   // ---- A graphics processor that is lost, and comes back (2026-11-28: it looked like clear air)
   await page.evaluate(`window.loser = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context'); loser.loseContext()`);
@@ -109,6 +135,40 @@ try {
   await page.goto('about:blank');
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
   check(`the title tells the age of what is shown: ${await text('title')}`, /6[01] min ago/.test(await text('title')));
+  // The clock of this browser is two hours behind, and it waits less for a server (2026-11-28: ages were told by it).
+  const { identifier } = await page.send('Page.addScriptToEvaluateOnNewDocument', {
+    source: `const [clock, timer] = [Date.now, setTimeout]; Date.now = () => clock() - 7200e3;
+      window.setTimeout = (act, ms, ...more) => timer(act, ms === 40000 ? 1500 : ms, ...more);`,
+  });
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  check(`by the clock of the server: ${await text('title')}`, /6[01] min ago/.test(await text('title')));
+
+  // ---- A server that takes connections and says nothing (2026-11-28: it looked alive)
+  isHanging = true;
+  check(`a server that hangs: ${await says('notice', 'does not answer')}`, (await text('notice')).includes('does not answer'));
+  isHanging = false;
+  check('it goes on', await isQuiet());
+
+  // ---- A server without a place for another stream (2026-11-28: it was said not to answer)
+  isRefusing = true;
+  await page.goto('about:blank');
+  const lists = requests('/api/v1/grids?');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  check('without events the lists are asked for again', (await asksFor('/api/v1/grids?', lists + 2)) && (await isQuiet()));
+  isRefusing = false;
+  await page.send('Page.removeScriptToEvaluateOnNewDocument', { identifier });
+
+  // ---- A radar that fell silent before the page was opened (2026-11-28: nothing was said)
+  listed = (path, body) => {
+    if (!path.startsWith('/api/v1/stations')) return body;
+    const all = JSON.parse(body.toString());
+    for (const one of all.stations) one.silent_s = one.station === station ? 840 : null;
+    return Buffer.from(JSON.stringify(all));
+  };
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  check(`silent before: ${await says('notice', 'silent')}`, (await text('notice')).includes(`${station} is silent: nothing came for 14 min`));
 } finally {
   await browser.end();
   await cut();

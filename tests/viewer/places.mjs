@@ -160,6 +160,18 @@ const landed = await viewer.told('look-at-km');
 await page.key('q');
 check('Escape lands', (await viewer.told('look-at-km')) === landed);
 
+// ---- The whole earth has land (2026-11-28: beyond the first view there was none)
+await page.goto('about:blank');
+await page.goto(`${address}/view/`);
+await places();
+for (let times = 0; times < 10; ++times) await page.key('-');
+const isWide = (url) => Number(new URL(url).searchParams.get('east')) - Number(new URL(url).searchParams.get('west')) > 359;
+const ofEarth = () => page.requests.filter((url) => url.includes('/api/v1/map?') && isWide(url)).length;
+for (let tries = 0; tries < 100 && ofEarth() === 0; ++tries) await new Promise((done) => setTimeout(done, 100));
+await new Promise((done) => setTimeout(done, 1500));
+check(`the map of the whole earth is asked for once: ${ofEarth()}`, ofEarth() === 1);
+await keep('earth');
+
 check('no request leaves the server of the page', page.requests.every((url) => url.startsWith(`${address}/`) || url.startsWith('data:') || url.startsWith('blob:')));
 check('nothing failed on the way', page.trouble.length === 0, page.trouble.join('\n'));
 

@@ -44,6 +44,10 @@ try {
   execFileSync(resolve(program), [...words.slice(0, -1), drawn], { cwd: dirname(resolve(volume)), stdio: 'ignore' });
   check('and draws a picture', readFileSync(drawn).length > 10000);
   check('it names the colors and the size of the page', command.includes('--colors ') && command.includes(`--width ${width} --height ${height}`));
+  // 2026-11-28: it had the colors of the moment that was chosen, and not of the one that was shown.
+  await evaluate(`window.copied = undefined; document.getElementById('moment-VEL').click(); document.getElementById('command').click()`);
+  check(`while another moment comes there is none: ${await evaluate("document.getElementById('state').textContent")}`, !(await evaluate('window.copied')) && (await evaluate("document.getElementById('state').textContent")).includes('not complete'));
+  await page.until("document.documentElement.dataset.drawn?.includes('/VEL/')", 60);
   // What cannot be said is not offered (2026-11-28: of several layers it drew one without a word).
   await viewer.show(link.split('#')[1]);
   await evaluate('window.copied = undefined');
@@ -89,6 +93,19 @@ try {
   await new Promise((done) => setTimeout(done, 300));
   check('the button asks for it', page.requests.some((url) => url.endsWith('/netcdf')));
   await page.send('Network.setBlockedURLs', { urls: [] });
+
+  // ---- Its raw file is gone, an older one is there (2026-11-28: the command drew that one)
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF`);
+  await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } });
+    window.own = window.fetch;
+    window.fetch = (url, ...more) => String(url).includes('/volumes?to=') ? Promise.resolve(new Response(JSON.stringify({ volumes: [{ name: 'OLDER', time: '2016-06-01T14:50:00Z' }] }))).finally(() => (window.told = true)) : own(url, ...more); undefined`);
+  await press('open');
+  await page.until('window.told');
+  await new Promise((done) => setTimeout(done, 300));
+  await press('command');
+  const ofCache = await page.until('window.copied');
+  check(`the command reads the cache then, and the page says so: ${ofCache}`, ofCache.startsWith(`stormcellar frame ${station} `) && (await evaluate("document.getElementById('state').textContent")).includes('cache'));
 
   // ---- The link, opened by somebody else
   await page.goto('about:blank');

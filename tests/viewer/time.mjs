@@ -62,6 +62,16 @@ try {
   const title = await evaluate("document.getElementById('title').textContent");
   check(`the title says what it is: ${title}`, title.includes('made between volumes') && title.includes(':00 UTC'));
   check('the address says it', (await viewer.told('between')) === '60');
+  // 2026-11-28: it said that there was no volume of the time of one.
+  const notice = await evaluate("document.getElementById('notice').textContent");
+  check(`nothing is missing${notice}`, notice === '');
+
+  // ---- A link to a time between two volumes (2026-11-28: the later one was called the nearest)
+  const wanted = new Date(Date.parse(times[1]) + 60_000).toISOString();
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&tilt=0&field-of-view=0&time=${wanted}`);
+  const told = await evaluate("document.getElementById('notice').textContent");
+  check(`a minute after ${times[1]}: ${told}`, (await shown()).endsWith(times[1]) && told.includes('the nearest'));
   check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
 } finally {
   await browser.end();

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../src/time/player';
+import { advanced, at, followed, looped, nearestTime, nextOf, stepped, stopped, withTimes } from '../src/time/player';
 
 const times = ['a', 'b', 'c', 'd'];
 
@@ -53,4 +53,10 @@ test('an end of a loop takes the other along, and a loop of one time does not pl
     const later = looped(at(player, 3), 'from');
     assert.deepEqual(later.loop, { from: 'd', to: 'd' });
     assert.equal(nextOf(later), null);
+});
+
+test('a link to a time that is not there shows the nearest one (2026-11-28: it was the next, and was called the nearest)', () => {
+    const all = ['2010-09-11T01:10:00Z', '2010-09-11T01:20:00Z', '2010-09-11T01:35:00Z'];
+    for (const [wanted, index] of [['01:25', 1], ['01:28', 2], ['00:00', 0], ['09:00', 2], ['01:20', 1]] as const) assert.equal(nearestTime(all, `2010-09-11T${wanted}:00Z`), index, wanted);
+    assert.equal(nearestTime([], all[0]!), -1);
 });

@@ -12,3 +12,8 @@ test('of a region is told how far the volumes of each site are from the instant'
     const many = ['KAAA', 'KBBB', 'KCCC'].map((site, i) => ({ site, middlesS: [-100 * i, 200] }));
     assert.equal(sitesAt([...many, { site: 'KDDD', middlesS: [-600] }]), '3 sites from volumes at most 4 min away; as they were: KDDD 10 min before');
 });
+
+test('each site that is left out of a region has the reason that the server gives (2026-11-28: it was made up)', () => {
+    const sites: [string, string][] = [['KENX', 'it has no volume within 15 minutes'], ['ROP5', 'it has no grids of VEL'], ['KOKX', 'it has no volume within 15 minutes'], ['KBGM', '']];
+    assert.equal(texts.start.leftOut(sites), 'not in the picture: KENX, KOKX (they have no volume within 15 minutes), ROP5 (it has no grids of VEL), KBGM');
+});

@@ -5,7 +5,7 @@ import test from 'node:test';
 import { beyondCommand, usualLayers } from '../src/scene/layers';
 import { isPrintable } from '../src/scene/shell';
 import { isRegion, regionName } from '../src/wire/region';
-import { addressOf, commandOf, stateOf, usualState } from '../src/scene/view_state';
+import { addressOf, commandOf, isBeyondLimits, stateOf, usualState } from '../src/scene/view_state';
 
 const chosen = {
     ...usualState,
@@ -73,6 +73,25 @@ test('the command is of one layer, and says none of what it cannot draw', () => 
     assert.equal(beyondCommand({ ...sweep, hasVolume: true }, 1), 'several');
     assert.equal(beyondCommand({ ...sweep, sweepDeg: null }, 1), 'none');
     assert.equal(beyondCommand({ ...sweep, hasHaze: true }, 1), 'haze');
+    assert.equal(beyondCommand({ ...sweep, hasFolded: true }, 1), 'haze');
     assert.equal(beyondCommand({ ...usualLayers, surface: { value: 40, moment: '' } }, 1), 'surface');
     assert.equal(beyondCommand({ ...usualLayers, crop: { westM: 0, eastM: 1, southM: 0, northM: 1, bottomM: 0, topM: 1 } }, 1), 'box');
+});
+
+test('what the program refuses is not offered as a command (2026-11-28: the command ended with an error)', () => {
+    const is = (part: object, layers: object, width = 796): boolean => isBeyondLimits({ ...chosen, camera: { ...chosen.camera, ...part }, layers: { ...usualLayers, ...layers } }, width, 532);
+    const section = (degrees: number) => ({ hasVolume: false, section: [{ latitudeDeg: 35, longitudeDeg: -97 }, { latitudeDeg: 35 + degrees, longitudeDeg: -97 }] });
+    assert.equal(is({}, {}), false);
+    assert.equal(is({ fieldOfViewDeg: 0 }, {}), false);
+    assert.equal(is({ fieldOfViewDeg: 0.5 }, {}), true);
+    assert.equal(is({}, {}, 9000), true);
+    assert.equal(is({}, { hasVolume: false, planeM: 61_000 }), true);
+    assert.equal(is({}, section(0.001)), true);
+    assert.equal(is({}, section(1)), false);
+});
+
+test('a time without a zone is UTC (2026-11-28: it was taken as that of the browser)', () => {
+    const read = (time: string): string => stateOf(`#time=${encodeURIComponent(time)}`).time;
+    for (const time of ['2016-06-01T15:00:26', '2016-06-01 15:00:26', '2016-06-01T15:00:26Z', '2016-06-01T10:00:26-05:00']) assert.equal(Date.parse(read(time)), Date.UTC(2016, 5, 1, 15, 0, 26), time);
+    for (const time of ['latest', 'x', '2016-13-01T00:00:00Z', '']) assert.equal(read(time), 'latest', time);
 });

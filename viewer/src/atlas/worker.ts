@@ -3,6 +3,7 @@
 import { BrickStore, MadeColumn } from './brick_store';
 import { Atlas, ShownCodes, coverageOf, histogramOf, makeAtlas, rangeOfCodes, shownCodes } from './atlas';
 import { Pyramid, pyramidOf } from './pyramid';
+import { isClearAir } from '../fields/clear_air';
 import { PackedGrid, readGridOrTable, readPackedBricks, readPackedGrid } from '../wire/packed_grid';
 
 interface Column {
@@ -31,6 +32,7 @@ export interface WorkerAnswer {
     shown?: ShownCodes; // of a table
     columns?: MadeColumn[];
     histogram?: Uint32Array; // of a whole level
+    isClear?: boolean; // a whole level shows clear air, if it is of reflectivity
 }
 export type Numbered<T> = T & { number: number };
 
@@ -59,7 +61,7 @@ function takeLevel(store: BrickStore, bytes: ArrayBuffer): WorkerAnswer {
             if (column.texels.length > 0) columns.push(column);
         }
     }
-    return { columns, coverage: coverageOf(grid), histogram: histogramOf(grid, store.shown.table) };
+    return { columns, coverage: coverageOf(grid), histogram: histogramOf(grid, store.shown.table), isClear: isClearAir(grid) };
 }
 
 function answerTo(request: WorkerRequest): WorkerAnswer {

@@ -1,5 +1,6 @@
 // Whether a grid of reflectivity shows clear air: there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less
-// than 60 km2, by the greatest values of columns (render/view/echo_outline.h).
+// than 60 km2, by the greatest values of columns (render/view/echo_outline.h). Of a halved grid, whose cells are the
+// greatest of those that they stand for, areas are estimates: of the 4^n columns of a cell 2^n count.
 
 import { cellSizeM } from '../scene/projection';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -12,7 +13,7 @@ const limits = [
 // Storms are known after a few bricks.
 export function isClearAir(grid: PackedGrid): boolean {
     const [width, height] = cellSizeM(grid);
-    const cellKm2 = (width * height) / 1e6;
+    const cellKm2 = (width * height) / 1e6 / 2 ** grid.halvings;
     const edge = grid.brickEdge;
     const leastCodes = limits.map(({ dbz }) => firstValueCode + Math.ceil((dbz - valueOf(grid, firstValueCode)) / grid.step));
     const reached = new Uint8Array(grid.nx * grid.ny); // how many of the limits a column reaches

@@ -8,7 +8,7 @@ import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
 import { instantsBetween } from '../time/between';
 import { outdatedBy } from '../time/outdated';
-import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped, withTimes } from '../time/player';
+import { PlayerState, advanced, at, followed, looped, nearestTime, nextOf, stepped, stopped, withTimes } from '../time/player';
 import { Units, namesOf } from '../tables/units';
 import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
 import { element } from './dom';
@@ -23,11 +23,12 @@ const loadedAhead = 12; // of a loop
 const betweenAhead = 3; // of what is made on request
 const addressAfterMs = 150; // less than the picture waits until it is fine
 const addressEveryMs = 1000; // while something moves
-const newOfRegion = 4; // instants that a volume of a site may change
+// From the time of a grid to the instants of regions that it is in: it takes some minutes, and they are at most 15 away.
+const farthestMadeMs = 30 * 60 * 1000;
 
 // 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
 // where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
-// 'map': the map of all stations is opened or left; 'cells': more of a grid in parts is there; 'notice': what a user must know
+// 'map': the map of all stations is opened or left; 'cells': more of a grid in parts, or of the layers, is there; 'notice': what a user must know
 // of the server, the radars, or what was asked for.
 export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells' | 'notice';
 
@@ -46,6 +47,12 @@ function stateOfAddress(): ViewState {
     return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
 }
 
+// A time of the address that is none; empty if it has a time or none at all.
+function timeThatIsNone(): string {
+    const time = new URLSearchParams(location.hash.slice(1)).get('time') ?? '';
+    return time !== '' && time !== 'latest' && stateOf(location.hash).time === 'latest' ? time.slice(0, 40) : '';
+}
+
 export class App {
     state: ViewState = stateOfAddress();
     domains: Domain[] = [];
@@ -60,6 +67,7 @@ export class App {
     isGraphicsLost = false; // nothing can be drawn
     isCutOff = false; // the server does not answer
     silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
+    private clockAheadMs = 0; // of the server, before that of the browser
     missed = ''; // what was asked for and is not there
     private stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
@@ -68,6 +76,7 @@ export class App {
     private addressTimer = 0;
     private addressAt = 0; // when it was written
     private turn = 0; // of what is to be shown
+    private unreadTime = timeThatIsNone(); // of the address
 
     constructor(readonly loader: Loader) {}
 
@@ -143,7 +152,8 @@ export class App {
         this.remember();
         const { shown, state } = this;
         const isShown = shown?.domain === state.domain && shown.moment === state.moment;
-        return new URL(`#${addressOf(isShown ? { ...state, time: shown.time } : state)}`, location.href).href;
+        const time = isShown ? shown.time : (this.player.times[this.player.at] ?? state.time);
+        return new URL(`#${addressOf({ ...state, time })}`, location.href).href;
     }
 
     // The address was changed by hand, or by going back.
@@ -152,6 +162,7 @@ export class App {
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
         if (!this.isOnMap && addressOf(next) === addressOf(this.state)) return;
         this.state = next;
+        this.unreadTime = timeThatIsNone();
         this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
         void this.choose(next.domain, next.moment);
@@ -172,7 +183,15 @@ export class App {
         this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
     }
 
-    takeServer(answers: boolean): void {
+    // Ages are told by the clock of the server: that of the browser may be wrong.
+    get nowMs(): number {
+        return Date.now() + this.clockAheadMs;
+    }
+    get hasLists(): boolean {
+        return this.stored.length > 0;
+    }
+    takeServer(answers: boolean, serverMs = NaN): void {
+        if (!Number.isNaN(serverMs)) this.clockAheadMs = serverMs - Date.now();
         if (this.isCutOff === !answers) return;
         this.isCutOff = !answers;
         this.tell('notice');
@@ -184,19 +203,24 @@ export class App {
     // `silentS`: for how long; null: it spoke.
     takeSilence(station: string, silentS: number | null): void {
         if (silentS === null) this.silentSince.delete(station);
-        else this.silentSince.set(station, Date.now() - 1000 * silentS);
+        else this.silentSince.set(station, this.nowMs - 1000 * silentS);
         this.tell('notice');
     }
-    // News were lost: all lists are asked for anew.
+    // Of all stations that are silent.
+    takeSilences(all: [string, number][]): void {
+        this.silentSince = new Map(all.map(([station, silentS]) => [station, this.nowMs - 1000 * silentS]));
+        this.tell('notice');
+    }
+    // News were lost: all lists are asked for anew, and any grid may have been made again.
     async catchUp(): Promise<void> {
         if (!this.book || this.domains.length === 0) return this.begin();
         await this.findDomains();
         this.tell('choices');
-        const { domain, moment } = this.state;
-        this.loader.forgetAll(key => key !== this.shown?.key);
-        if (this.isOnMap || !this.shown) return;
-        if (isRegion(domain)) return this.takeNewsOfSite();
-        await this.takeNews(domain, moment, this.stored[this.stored.length - 1]);
+        const { state, shown } = this;
+        this.loader.forgetAll(key => key !== shown?.key);
+        if (this.isOnMap || !shown) return;
+        if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
+        await this.takeNews(state.domain, state.moment, shown.time);
     }
     private miss(text: string): void {
         this.missed = text;
@@ -267,7 +291,9 @@ export class App {
         const missed = [
             isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),
             moment === '' || moment === this.state.moment ? '' : texts.notice.otherMoment(this.state.domain, moment, this.state.moment),
+            this.unreadTime === '' ? '' : texts.notice.noTime(this.unreadTime),
         ];
+        this.unreadTime = '';
         this.miss(missed.filter(Boolean).join(' '));
         this.tell('choices');
         this.say(texts.loading);
@@ -280,7 +306,7 @@ export class App {
             // A time before those of the first answer is looked for among all.
             const isOlder = soon.more && !this.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
             if (isOlder) await this.findOlder();
-            if (!this.player.follows) this.findTime(time);
+            if (!this.player.follows && !this.findTime(time)) this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '));
             await this.showTime();
             if (soon.more && !isOlder) await this.findOlder();
         } catch (error) {
@@ -293,13 +319,11 @@ export class App {
         const { betweenS } = this.state;
         this.player = withTimes(this.player, betweenS > 0 ? instantsBetween(stored, betweenS, this.missing) : stored);
     }
-    // The first time that is not before the wanted one.
-    private findTime(wanted: string): void {
-        const { times: all } = this.player;
-        const index = all.findIndex(time => Date.parse(time) >= Date.parse(wanted));
-        this.player = { ...this.player, at: index < 0 ? all.length - 1 : index };
-        const found = all[this.player.at];
-        if (found !== undefined && Date.parse(found) !== Date.parse(wanted)) this.miss([this.missed, texts.notice.otherTime(wanted)].filter(Boolean).join(' '));
+    // The time that is nearest to the wanted one. Returns false if it is another.
+    private findTime(wanted: string): boolean {
+        const at = nearestTime(this.player.times, wanted);
+        this.player = { ...this.player, at };
+        return at < 0 || Date.parse(this.player.times[at]!) === Date.parse(wanted);
     }
     // The timeline has every grid; the older ones come after the first picture.
     private async findOlder(): Promise<void> {
@@ -375,9 +399,9 @@ export class App {
 
     private take(shown: Shown): void {
         const { book } = this;
-        // The colors stay while a loop plays. Of a grid in parts the codes are not all here.
+        // The colors stay while a loop plays. Of a grid in parts the halved one says what it is.
         const isOther = this.shown?.domain !== shown.domain || !this.player.isPlaying;
-        if (book && isOther) book.isClearAir = shown.moment === 'REF' && !shown.loaded.stream && isClearAir(shown.loaded.grid);
+        if (book && isOther) book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
         this.shown = shown;
         this.state.time = this.player.follows ? 'latest' : shown.time;
         this.loadAhead();
@@ -460,11 +484,12 @@ export class App {
         const own = this.domain as Region | undefined;
         return domain === this.state.domain || (isRegion(this.state.domain) && (own?.moments.some(one => one.sites.includes(domain ?? '')) ?? false));
     }
-    // Of a region, any instant near the newest may have become another one.
-    private async takeNewsOfSite(): Promise<void> {
+    // Of a region, any instant near the volume may have become another one; near none: any at all.
+    private async takeNewsOfSite(volume: string | undefined): Promise<void> {
         const { domain, moment } = this.state;
         await this.findRegion(domain);
-        for (const time of this.stored.slice(-newOfRegion)) this.loader.forget(Loader.key(domain, moment, time));
+        const isNear = (time: string) => volume === undefined || Math.abs(Date.parse(time) - Date.parse(volume)) <= farthestMadeMs;
+        for (const time of this.stored) if (isNear(time)) this.loader.forget(Loader.key(domain, moment, time));
         this.takeTimes((await times(domain, moment, soonTimes)).times);
         await this.showTime();
     }
@@ -486,7 +511,7 @@ export class App {
         // A surface may be that of another moment.
         const isOfSurface = moment !== undefined && moment === this.state.layers.surface?.moment;
         if (!this.isPartOfShown(domain) || (moment !== this.state.moment && !isOfSurface)) return;
-        if (domain !== this.state.domain) return this.takeNewsOfSite();
+        if (domain !== this.state.domain) return this.takeNewsOfSite(changedTime);
         if (moment !== this.state.moment) return changedTime === this.shown?.time ? this.showTime() : undefined;
         const before = this.player.times[this.player.at];
         const newest = (await times(domain, moment, soonTimes)).times;

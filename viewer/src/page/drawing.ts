@@ -69,7 +69,7 @@ export class Drawing {
         const { loader } = app;
         this.windows = new Windows(loader.decoder, loader.budget.bytes, () => app.cellsCame(), error => app.fail(error));
         loader.besides = () => this.windows!.bytes;
-        this.layers = new LayerMaker(app, this.windows, () => this.draw());
+        this.layers = new LayerMaker(app, this.windows, () => app.cellsCame());
         app.alongside = (next, isAhead) => this.layers!.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
         app.isShownWhole = () => !this.layers!.isWaiting;
         app.on('cells', () => this.draw());

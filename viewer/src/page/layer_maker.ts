@@ -17,7 +17,7 @@ import { Place, Plane, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
-import { ApiError, SweepRow, gates, sweeps, volumeBefore } from '../wire/api';
+import { ApiError, SweepRow, gates, rawBefore, sweeps } from '../wire/api';
 import { PackedGrid, valueOf } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
@@ -285,7 +285,7 @@ export class LayerMaker {
         let asked = known.get(station);
         if (!asked) {
             asked = (async () => {
-                const volume = await volumeBefore(station, time);
+                const volume = (await rawBefore(station, time))?.time ?? null;
                 // The sweep of an older one is not what was there at this time.
                 if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs) throw new ApiError(404, texts.layers.noVolume(station));
                 return { time: volume, rows: await sweeps(station, volume) };
@@ -296,12 +296,15 @@ export class LayerMaker {
         return asked;
     }
 
-    // A grid that was made again may have another volume's sweeps, so that the time is not enough.
+    // A grid that was made again may have another volume's sweeps and another grid beside it, so that the time is not enough.
+    private numberOf(loaded: LoadedGrid): number {
+        if (!this.numbers.has(loaded)) this.numbers.set(loaded, ++this.mostNumber);
+        return this.numbers.get(loaded)!;
+    }
     private sweepKey(shown: Shown): string {
         const { loaded, moment } = shown;
-        if (!this.numbers.has(loaded)) this.numbers.set(loaded, ++this.mostNumber);
         const { sweepDeg, sweepNumber } = this.app.state.layers;
-        return [this.numbers.get(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber].join(' ');
+        return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber].join(' ');
     }
     private takeSweep(shown: Shown, isAhead: boolean): Promise<void> {
         const { sweepDeg, sweepNumber } = this.app.state.layers;

@@ -1,6 +1,7 @@
 // What the server tells of new and changed grids, and whether it still tells anything.
 
-import { address } from '../wire/api';
+import { askEvents, silences } from '../wire/api';
+import { EventText, ServerEvent } from '../wire/events';
 import { App } from './app';
 
 interface News {
@@ -11,27 +12,94 @@ interface News {
     silent_s?: number;
 }
 
-const againAfterMs = 5000; // where the browser does not connect again by itself
+const againAfterMs = 3000;
+const refusedAgainAfterMs = 30_000;
+const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
 
-export function hear(app: App): void {
-    const events = new EventSource(address('api/v1/events'));
-    const listen = (kind: string, take: (news: News) => void) =>
-        events.addEventListener(kind, event => take(JSON.parse((event as MessageEvent<string>).data) as News));
-    // What came meanwhile is not told to a new listener, nor after a reset.
-    const catchUp = () => void app.catchUp().catch(error => app.fail(error));
-    for (const kind of ['sweep_gridded', 'volume_complete', 'mosaic', 'grid_evicted']) {
-        listen(kind, ({ domain, moment, grid }) => void app.takeNews(domain, moment, grid).catch(error => app.fail(error)));
+const pause = (ms: number): Promise<void> => new Promise(done => window.setTimeout(done, ms));
+
+export class Live {
+    private last = ''; // the id of the last event
+    private isBehind = false; // news may be lost: all lists are to be asked for
+
+    // News are taken once the page has `begun`; what comes before waits.
+    constructor(
+        private app: App,
+        private begun: Promise<void>,
+    ) {}
+
+    async hear(): Promise<never> {
+        for (;;) await pause((await this.listen()) ? againAfterMs : refusedAgainAfterMs);
     }
-    listen('station_silent', ({ station, silent_s }) => app.takeSilence(station ?? '', silent_s ?? 0));
-    listen('station_spoke', ({ station }) => app.takeSilence(station ?? '', null));
-    listen('reset', catchUp);
-    events.addEventListener('open', () => {
-        if (app.isCutOff || !app.book) catchUp();
-        app.takeServer(true);
-    });
-    events.addEventListener('error', () => {
-        app.takeServer(false);
-        if (events.readyState !== EventSource.CLOSED) return;
-        window.setTimeout(() => hear(app), againAfterMs);
-    });
+
+    // Returns when the stream has ended: false if the server answers, but gives none.
+    private async listen(): Promise<boolean> {
+        const abort = new AbortController();
+        let timer = 0;
+        const wait = () => {
+            window.clearTimeout(timer);
+            timer = window.setTimeout(() => abort.abort(), mostQuietMs);
+        };
+        wait();
+        try {
+            const answer = await askEvents(this.last, abort.signal);
+            if (!answer.ok || !answer.body) {
+                await this.doWithout();
+                return false;
+            }
+            this.connected(answer);
+            const [reader, decoder, text] = [answer.body.getReader(), new TextDecoder(), new EventText()];
+            for (let part = await reader.read(); !part.done; part = await reader.read()) {
+                wait();
+                for (const event of text.take(decoder.decode(part.value, { stream: true }))) this.take(event);
+                this.catchUp();
+            }
+        } catch {
+            // Without the id of an event the server cannot say what was missed.
+            this.isBehind = this.isBehind || this.last === '';
+            this.app.takeServer(false);
+        } finally {
+            window.clearTimeout(timer);
+        }
+        return true;
+    }
+
+    private connected(answer: Response): void {
+        this.app.takeServer(true, Date.parse(answer.headers.get('Date') ?? ''));
+        // Lists that came before the stream may lack what came between the two.
+        this.isBehind = this.isBehind || (this.last === '' && this.app.hasLists);
+        void this.begun.then(() => this.askSilences()).catch(() => undefined);
+    }
+    // Of who fell silent before, there are no news.
+    private async askSilences(): Promise<void> {
+        this.app.takeSilences(await silences());
+    }
+    // There is no place for another stream, or the server has none: the lists tell as much, if later.
+    private async doWithout(): Promise<void> {
+        await this.begun;
+        await this.app.catchUp();
+        await this.askSilences();
+        this.app.takeServer(true);
+    }
+
+    private do(act: () => Promise<void>): void {
+        void this.begun.then(act).catch(error => {
+            this.isBehind = true;
+            this.app.fail(error);
+        });
+    }
+    private catchUp(): void {
+        if (!this.isBehind) return;
+        this.isBehind = false;
+        this.do(() => this.app.catchUp());
+    }
+    private take({ kind, id, data }: ServerEvent): void {
+        if (id !== '') this.last = id;
+        if (kind === '') return;
+        const { domain, moment, grid, station, silent_s } = JSON.parse(data) as News;
+        if (kind === 'reset') this.isBehind = true;
+        else if (kind === 'station_silent') this.app.takeSilence(station ?? '', silent_s ?? 0);
+        else if (kind === 'station_spoke') this.app.takeSilence(station ?? '', null);
+        else if (kind !== 'volume_begun') this.do(() => this.app.takeNews(domain, moment, grid));
+    }
 }

@@ -150,9 +150,9 @@ export class Loader {
         const [grid, pyramid] = [table.grid!, table.pyramid!];
         const level = Math.max(1, levelWithin(pyramid, this.budget.mostFirst));
         const bytes = await packed(domain, moment, time, { half: String(level), by: 'maximum', id: grid.id, codes: 'values' });
-        const { columns, coverage, histogram } = await this.decoder.ask({ kind: 'level', key, bytes });
+        const { columns, coverage, histogram, isClear } = await this.decoder.ask({ kind: 'level', key, bytes });
         const atlas = { ...poolAtlas(grid, pyramid, table, this.budget.poolSide), histogram: histogram! };
-        const stream = { key, domain, moment, time, pyramid, shownOf: table.shown!.table, level, first: columns! };
+        const stream = { key, domain, moment, time, pyramid, shownOf: table.shown!.table, level, first: columns!, isClear: isClear! };
         return { grid, atlas, coverage: coverage!, stream };
     }
 

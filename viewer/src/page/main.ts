@@ -6,7 +6,7 @@ import { element } from './dom';
 import { Drawing } from './drawing';
 import { FactsOfShown } from './facts_of_shown';
 import { Keys } from './keys';
-import { hear } from './live';
+import { Live } from './live';
 import { stateOf } from '../scene/view_state';
 import { Budget, Loader } from './loader';
 import { addChoices } from './panels/choices';
@@ -57,12 +57,8 @@ async function begin(): Promise<void> {
     pointers.begin();
     keys.begin();
     window.addEventListener('hashchange', () => app.takeAddress());
-    try {
-        await app.begin();
-    } catch (error) {
-        app.fail(error);
-    }
-    hear(app);
+    // The stream is there before the lists, so that nothing is lost between them.
+    void new Live(app, app.begin().catch(error => app.fail(error))).hear();
 }
 
 begin().catch(error => {

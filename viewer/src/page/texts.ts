@@ -27,6 +27,16 @@ function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
 }
 
+// Sites with the server's reason, a sentence that begins with "it" or "its".
+function leftOut(sites: [string, string][]): string {
+    const reasons = [...new Set(sites.map(([, reason]) => reason))].map(reason => {
+        const names = sites.filter(one => one[1] === reason).map(([site]) => site);
+        const told = names.length === 1 ? reason : reason.replace(/^it has /, 'they have ').replace(/^its /, 'their ');
+        return names.join(', ') + (told && ` (${told})`);
+    });
+    return `not in the picture: ${reasons.join(', ')}`;
+}
+
 const greatestOf = (halvings: number): string => `greatest of ${2 ** halvings} x ${2 ** halvings} cells`;
 
 export const texts = {
@@ -44,6 +54,7 @@ export const texts = {
         noDomain: (domain: string) => `No data for ${domain}. Choose another radar.`,
         otherDomain: (domain: string, shown: string) => `No data for ${domain}. This is ${shown}.`,
         otherMoment: (domain: string, moment: string, shown: string) => `${domain} has no ${moment}. This is ${shown}.`,
+        noTime: (text: string) => `${text} is no time. This is the newest.`,
         otherTime: (time: string) => `No volume of ${time.slice(0, 19).replace('T', ' ')} UTC. This is the nearest that is here.`,
     },
     failed: (what: string) => `This did not work: ${what}`,
@@ -117,21 +128,24 @@ export const texts = {
     notSaved: 'No picture was saved, because it did not become complete. Try again.',
     command: 'Copy command',
     commandCopied: 'The command is in the clipboard.',
-    commandOf: (raw: string) => `The command is in the clipboard. It reads ${raw}, which Raw volume gives.`,
+    commandReads: (raw: string) => `It reads ${raw}, which Raw volume gives.`,
+    commandReadsCache: 'It reads the cache of this server.',
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     commandFlat: 'It draws the layer as a map of the grid.',
     commandWithoutFolded: 'It leaves out range-folded air.',
     noCommand: {
         nothing: 'There is no picture yet.',
+        coming: 'The picture is not complete yet.',
         region: 'No command draws a merged region.',
         name: 'The name of this domain cannot be pasted.',
         between: 'No command draws an interpolated frame.',
         ground: 'No command draws echo without the ground.',
         surface: 'No command draws a surface. Hide it to copy one.',
         box: 'No command cuts the volume to a box. Remove the box to copy one.',
-        haze: 'No command draws haze without the volume.',
+        haze: 'No command draws haze or the veil without the volume.',
         mosaic: 'No command draws a sweep of a mosaic. Choose its radar to copy one.',
         noSweep: 'No sweep is shown.',
+        limits: 'No command draws this view: its perspective, height, section or size is beyond the limits.',
         several: 'A command draws one layer. Hide the others to copy one.',
         none: 'No layer is shown.',
     },
@@ -263,8 +277,8 @@ export const texts = {
         region: 'Region',
         ofVolumes,
         sitesAt,
-        withoutVolume: (sites: string[]) => `not in the picture: ${sites.join(', ')} (no volume within 15 min)`,
-        withOtherCells: (sites: string[]) => `not in the picture: ${sites.join(', ')} (other levels or values)`,
+        leftOut,
+        halved: (halvings: number) => `each cell is the ${greatestOf(halvings)}`,
         ownVelocities: 'each velocity is toward or away from its own radar',
         merging: (sites: string[]) => `Merging ${sites.join(', ')}`,
         nothing: 'no data',

@@ -39,6 +39,7 @@ export interface GridInParts {
     shownOf: Uint8Array; // shown code of each code
     level: number; // how often the first halved grid was halved
     first: MadeColumn[]; // all columns of it that have values
+    isClear: boolean; // it shows clear air, if it is of reflectivity
 }
 
 export interface Frame {

@@ -138,7 +138,7 @@ export function layersOf(query: URLSearchParams): Layers {
 export function beyondCommand(layers: Layers, siteCount: number): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
     if (layers.surface) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
-    if (!layers.hasVolume && layers.hasHaze) return 'haze';
+    if (!layers.hasVolume && (layers.hasHaze || layers.hasFolded === true)) return 'haze';
     const drawn = [layers.hasVolume, layers.planeM !== null, layers.section !== null, layers.hasMaximum, layers.sweepDeg !== null].filter(Boolean).length;
     if (drawn !== 1) return drawn === 0 ? 'none' : 'several';
     return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;

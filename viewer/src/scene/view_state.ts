@@ -1,6 +1,7 @@
 // What the page shows, as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
+import { geodesic } from './projection';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
@@ -93,16 +94,22 @@ function number(text: string | null, least: number, most: number, otherwise: num
     return value >= least && value <= most ? value : otherwise;
 }
 
+// A time without a zone is UTC, as everywhere here.
+function timeOf(text: string): string {
+    const hasZone = /(Z|[+-]\d\d:?\d\d)$/i.test(text) && text.includes(':');
+    const time = hasZone || !text.includes(':') ? text : `${text}Z`;
+    return Number.isNaN(Date.parse(time)) ? 'latest' : time;
+}
+
 // What makes no sense in the text is left at its usual value.
 export function stateOf(text: string): ViewState {
     const query = new URLSearchParams(text.replace(/^#/, ''));
     const usual = usualState;
     const lookAt = (query.get('look-at-km') ?? '').split(',').map(Number);
-    const time = query.get('time') ?? '';
     return {
         domain: (query.get('domain') ?? '').slice(0, 100),
         moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
-        time: Number.isNaN(Date.parse(time)) ? 'latest' : time,
+        time: timeOf(query.get('time') ?? ''),
         betweenS: number(query.get('between'), 10, 3600, 0),
         camera: {
             azimuthDeg: number(query.get('azimuth'), 0, 360, usual.camera.azimuthDeg),
@@ -123,6 +130,21 @@ export function stateOf(text: string): ViewState {
         layers: layersOf(query),
         units: unitsOf(query.get('units') ?? ''),
     };
+}
+
+// What `stormcellar frame` takes (stormcellar/render/scene.h).
+const leastPerspectiveDeg = 1;
+const mostPlaneM = 60_000;
+const sectionM = { least: 1000, most: 5e6 };
+const sidePixels = { least: 16, most: 8192 };
+
+export function isBeyondLimits({ camera, layers }: ViewState, width: number, height: number): boolean {
+    if ([width, height].some(side => side < sidePixels.least || side > sidePixels.most)) return true;
+    if (layers.hasVolume) return camera.fieldOfViewDeg > 0 && camera.fieldOfViewDeg < leastPerspectiveDeg;
+    if (layers.planeM !== null && layers.planeM > mostPlaneM) return true;
+    if (!layers.section) return false;
+    const { distanceM } = geodesic(layers.section[0], layers.section[1]);
+    return !(distanceM >= sectionM.least && distanceM <= sectionM.most);
 }
 
 function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): string[] {

@@ -28,6 +28,12 @@ export function withTimes(player: PlayerState, times: string[]): PlayerState {
     return { ...player, times, at: later < 0 ? times.length - 1 : later };
 }
 
+// The index of the time that is nearest to another; -1: there is none.
+export function nearestTime(times: string[], wanted: string): number {
+    const away = (index: number) => Math.abs(Date.parse(times[index]!) - Date.parse(wanted));
+    return times.reduce((best, _, i) => (best < 0 || away(i) < away(best) ? i : best), -1);
+}
+
 export function at(player: PlayerState, index: number): PlayerState {
     if (player.times.length === 0) return player;
     const bounded = Math.min(player.times.length - 1, Math.max(0, index));

@@ -41,6 +41,7 @@ export interface Station {
     newest_volume: Newest | null;
     newest_grid: Newest | null;
     moments: string[];
+    silent_s?: number | null; // for how long nothing came; null: it is not silent
 }
 // What a grid is, of which the page uses a part.
 export interface GridFacts {
@@ -79,7 +80,7 @@ export interface AuditRow {
 }
 // Several sites within a box, as one domain (docs/web/grids.md#regions).
 export interface Region extends Domain {
-    moments: (MomentOfDomain & { sites: string[]; left_out: string[]; left_out_because: Record<string, string>; spacing_m: number; times: string[] })[];
+    moments: (MomentOfDomain & { sites: string[]; left_out: string[]; spacing_m: number; halved: number; times: string[] })[];
 }
 export interface MapLine {
     kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
@@ -135,6 +136,10 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return ((await (await ask('api/v1/stations')).json()) as { stations: Station[] }).stations;
 }
+// For how many seconds nothing came from each station that is silent.
+export async function silences(): Promise<[string, number][]> {
+    return (await stations()).flatMap(({ station, silent_s }): [string, number][] => (silent_s == null ? [] : [[station, silent_s]]));
+}
 export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
 }
@@ -149,8 +154,12 @@ export interface RegionSite {
     site: string;
     volumes: { time: string; middle_s: number }[];
 }
-export async function regionSites(domain: string, moment: string, time: string): Promise<RegionSite[]> {
-    return ((await (await ask(`${gridPath(domain, moment, time)}/sites`)).json()) as { sites: RegionSite[] }).sites;
+export interface RegionSites {
+    sites: RegionSite[];
+    left_out_because: Record<string, string>; // of each site that is not in the picture
+}
+export async function regionSites(domain: string, moment: string, time: string): Promise<RegionSites> {
+    return (await ask(`${gridPath(domain, moment, time)}/sites`)).json() as Promise<RegionSites>;
 }
 export interface Times {
     times: string[]; // rising
@@ -183,6 +192,11 @@ export async function packedBetween(domain: string, moment: string, time: string
     const path = isRegion(domain) ? `${gridPath(domain, moment, time)}/packed` : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
     return (await ask(path)).arrayBuffer();
 }
+// Events after the one of this id; empty: from now on. Errors: those of fetch().
+export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
+    const query = id === '' ? '' : `?last_event_id=${encodeURIComponent(id)}`;
+    return fetch(address(`api/v1/events${query}`), { cache: 'no-store', headers: { Accept: 'text/event-stream' }, signal });
+}
 export interface Tables {
     tables: ColorTable[];
     usual: Record<string, string>; // of a moment
@@ -207,16 +221,16 @@ export interface SweepRow {
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
 
-// The start of the newest volume of a station that began at a time or before.
-export async function volumeBefore(station: string, time: string): Promise<string | null> {
-    const path = `${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`;
-    const { volumes } = (await (await ask(path)).json()) as { volumes: { time: string | null }[] };
-    return volumes[volumes.length - 1]?.time ?? null;
+// The newest volume of a station that began at a time or before.
+export async function rawBefore(station: string, time: string): Promise<{ name: string; time: string | null } | null> {
+    const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: { name: string; time: string | null }[] };
+    return volumes[volumes.length - 1] ?? null;
 }
-// The file of the newest volume of a station that began at a time or before.
-export async function rawNameBefore(station: string, time: string): Promise<string | null> {
-    const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: { name: string }[] };
-    return volumes[volumes.length - 1]?.name ?? null;
+const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
+// The file of the volume that began at a time; null if it is gone, where the newest before would be an older one.
+export async function rawNameAt(station: string, time: string): Promise<string | null> {
+    const volume = await rawBefore(station, time);
+    return volume?.time != null && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume.name : null;
 }
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;

@@ -38,7 +38,7 @@ function putTitle(app: App): void {
     const { grid } = app.shown!.loaded;
     const names = grid.sites.map(site => site.icao).join(', ');
     const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
-    const ageS = (Date.now() - grid.timeMs) / 1000;
+    const ageS = (app.nowMs - grid.timeMs) / 1000;
     const notes = [grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
     // A saved picture has no age.
     const age = document.createElement('span');
@@ -52,7 +52,7 @@ function putNotice(app: App): void {
     const sites = app.shown?.loaded.grid.sites.map(site => site.icao) ?? [];
     const silent = sites.flatMap(site => {
         const sinceMs = app.silentSince.get(site);
-        const ageS = sinceMs === undefined ? Infinity : (Date.now() - sinceMs) / 1000;
+        const ageS = sinceMs === undefined ? Infinity : (app.nowMs - sinceMs) / 1000;
         return ageS < newsS ? [texts.notice.silent(site, ageS)] : [];
     });
     const text = [app.isGraphicsLost ? texts.notice.noGraphics : '', app.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
@@ -61,22 +61,22 @@ function putNotice(app: App): void {
     element('reload').hidden = !app.isGraphicsLost;
     press('follow', app.player.follows && !app.isCutOff && silent.length === 0);
     const newest = app.player.times[app.player.times.length - 1];
-    const isLive = newest !== undefined && Date.now() - Date.parse(newest) < 1000 * liveS;
+    const isLive = newest !== undefined && app.nowMs - Date.parse(newest) < 1000 * liveS;
     element('follow').textContent = isLive ? texts.live : texts.latest;
 }
 
-// When each site of a region was seen.
+// When each site of a region was seen, and why others are not in the picture.
 function putSites(app: App, { sites }: FactsOfShown): void {
     const box = element('sites-told');
     const { shown } = app;
     const inPicture = shown?.loaded.grid.sites.map(site => site.icao) ?? [];
-    const ofSites = (sites ?? []).filter(({ site }) => inPicture.includes(site)).map(({ site, volumes }) => ({ site, middlesS: volumes.map(one => one.middle_s) }));
+    const ofSites = (sites?.sites ?? []).filter(({ site }) => inPicture.includes(site)).map(({ site, volumes }) => ({ site, middlesS: volumes.map(one => one.middle_s) }));
     const region = shown && isRegion(shown.domain) ? (app.domain as Region).moments.find(one => one.moment === shown.moment) : undefined;
-    const without = region?.sites.filter(site => !inPicture.includes(site)) ?? [];
+    const without = [...(region?.sites ?? []), ...(region?.left_out ?? [])].filter(site => !inPicture.includes(site));
     const told = [
         texts.start.sitesAt(ofSites),
-        without.length > 0 ? texts.start.withoutVolume(without) : '',
-        region && region.left_out.length > 0 ? texts.start.withOtherCells(region.left_out) : '',
+        without.length > 0 ? texts.start.leftOut(without.map(site => [site, sites?.left_out_because[site] ?? ''])) : '',
+        region && region.halved > 0 ? texts.start.halved(region.halved) : '',
         shown?.moment === 'VEL' && inPicture.length > 1 ? texts.start.ownVelocities : '',
     ];
     box.textContent = told.filter(Boolean).join('; ');

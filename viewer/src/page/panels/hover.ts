@@ -113,7 +113,7 @@ export class Hover {
         if (!beam) return [];
         const elevation = (beam.sweepDeg ?? beam.elevationDeg).toFixed(1);
         const lines = [texts.hover.beam(elevation, distanceText(beam.widthM, units), distanceText(beam.rangeM, units), beam.azimuthDeg, beam.icao)];
-        const site = this.facts.sites?.find(one => one.site === beam.icao);
+        const site = this.facts.sites?.sites.find(one => one.site === beam.icao);
         if (site) lines.push(texts.start.ofVolumes(site.volumes.map(one => one.middle_s)));
         else if (beam.timeMs !== null) lines.push(this.when(beam.timeMs));
         if (beam.rms !== null) {

@@ -2,8 +2,9 @@
 
 import { beyondCommand, veilsFolded } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
-import { commandOf } from '../../scene/view_state';
-import { address, gridPath, isRegion, rawNameBefore } from '../../wire/api';
+import { commandOf, isBeyondLimits } from '../../scene/view_state';
+import { LoadedGrid } from '../../renderer/renderer';
+import { address, gridPath, isRegion, rawNameAt } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
@@ -41,7 +42,7 @@ const savedFiles = new Set<string>(); // of commands that were copied
 // The raw file of which the grid was made, if it is one: whoever has it needs no cache for the command. A
 // browser lets the page copy only at once, so that it is asked for before.
 class RawFile {
-    private key = '';
+    private of: LoadedGrid | null = null;
     private name = '';
 
     constructor(
@@ -50,46 +51,52 @@ class RawFile {
     ) {}
 
     get known(): string {
-        return this.key === this.app.shown?.key && isPrintable(this.name) ? this.name : '';
+        return this.of === this.app.shown?.loaded && isPrintable(this.name) ? this.name : '';
     }
     async ask(): Promise<void> {
         const { shown } = this.app;
-        if (!shown || this.key === shown.key || shown.isBetween) return;
+        if (!shown || this.of === shown.loaded || isRegion(shown.domain) || shown.isBetween) return;
         const { provenance } = await this.facts.ask();
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1;
-        const name = isOne ? await rawNameBefore(provenance.stations[0]!, shown.time) : null;
-        [this.key, this.name] = [shown.key, name ?? ''];
+        const name = isOne ? await rawNameAt(provenance.stations[0]!, shown.time) : null;
+        [this.of, this.name] = [shown.loaded, name ?? ''];
     }
 }
 
 // Why no command draws what is shown; empty if one does.
-function whyNoCommand(app: App): string {
+function whyNoCommand(app: App, drawing: Drawing): string {
     const { shown, state } = app;
     const words = texts.noCommand;
     if (!shown) return words.nothing;
+    if (shown.domain !== state.domain || shown.moment !== state.moment) return words.coming;
     if (isRegion(shown.domain)) return words.region;
     if (!isPrintable(shown.domain)) return words.name;
     if (shown.isBetween) return words.between;
     if (!state.hasGround) return words.ground;
     const beyond = beyondCommand(state.layers, shown.loaded.grid.sites.length);
-    return beyond ? words[beyond] : '';
+    if (beyond) return words[beyond];
+    const size = drawing.geometry();
+    if (isBeyondLimits(state, size?.width ?? 0, size?.height ?? 0)) return words.limits;
+    return state.layers.sweepDeg !== null && !drawing.layers?.shownCut() ? words.noSweep : '';
 }
 
 // The command of what is shown: of its time also while the newest is followed, and as large as the page shows it.
 // Colors that no table of the program has are in a file that the command names.
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: string): void {
-    const why = whyNoCommand(app);
+    const why = whyNoCommand(app, drawing);
     const size = drawing.geometry();
     if (why || !size) return app.say(why);
     const { domain, moment, time } = app.shown!;
     // The cut that is drawn, whichever rule has chosen it.
-    const cut = drawing.layers!.shownCut();
-    if (app.state.layers.sweepDeg !== null && !cut) return app.say(texts.noCommand.noSweep);
-    const layers = { ...app.state.layers, sweepNumber: cut?.sweep ?? null };
+    const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
-    const notes = [state.layers.hasVolume ? '' : texts.commandFlat, state.layers.hasVolume && veilsFolded(state.layers, moment) ? texts.commandWithoutFolded : ''];
+    const notes = [
+        raw ? texts.commandReads(raw) : texts.commandReadsCache,
+        state.layers.hasVolume ? '' : texts.commandFlat,
+        state.layers.hasVolume && veilsFolded(state.layers, moment) ? texts.commandWithoutFolded : '',
+    ];
     const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
-    if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', raw ? texts.commandOf(raw) : texts.commandCopied);
+    if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', texts.commandCopied);
     const file = editing.tomlForCommand();
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
     savedFiles.add(file.name);
@@ -98,10 +105,12 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
 
 export function addShare(app: App, drawing: Drawing, editing: TableEditing, facts: FactsOfShown): void {
     const raw = new RawFile(app, facts);
-    element('open').addEventListener('click', () => void raw.ask().catch(() => undefined));
+    const askRaw = () => void (element('settings').hidden || raw.ask().catch(() => undefined));
+    element('open').addEventListener('click', askRaw);
+    app.on('shown', askRaw);
     // What cannot be said is not offered; a press says why.
-    const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app) !== ''));
-    for (const happening of ['view', 'shown', 'choices'] as const) app.on(happening, mark);
+    const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app, drawing) !== ''));
+    for (const happening of ['view', 'shown', 'choices', 'cells'] as const) app.on(happening, mark);
     element('actions').append(
         button('share', texts.share, () => copy(app, app.link, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),

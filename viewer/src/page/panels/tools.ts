@@ -1,6 +1,6 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
-import { rawNameBefore, rawPath } from '../../wire/api';
+import { rawBefore, rawNameAt, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
 import { Drawing } from '../drawing';
@@ -75,8 +75,8 @@ export class ToolsPanel {
         await this.facts.askSites();
         const { sites } = this.facts;
         if (!sites && !shown.isBetween) return (await this.facts.ask()).provenance.source_files;
-        const wanted = sites?.flatMap(({ site, volumes }) => volumes.map(({ time }) => [site, time] as const)) ?? [[shown.domain, shown.time] as const];
-        const names = await Promise.all(wanted.map(([station, time]) => rawNameBefore(station, time)));
+        if (!sites) return [(await rawBefore(shown.domain, shown.time))?.name ?? ''].filter(Boolean);
+        const names = await Promise.all(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => rawNameAt(site, time))));
         return names.filter((name): name is string => name !== null);
     }
 

@@ -7,6 +7,7 @@ import { MapPaths, mapPaths } from './painter';
 const fineFromScale = 8000; // pixels of the earth, from which finer lines are worth their bytes
 const finestFromScale = 24000;
 const settledAfterMs = 250;
+const mostLatitudeDeg = 85; // of a box of lines
 
 interface Area {
     box: MapBox;
@@ -32,15 +33,22 @@ export class BaseMap {
         this.loaded();
     }
 
-    // The lines for a view; finer ones are loaded once it rests.
+    // The lines for a view; others, and finer ones, are loaded once it rests.
     for(view: MapView): MapPaths | null {
-        const box = boxBetween(view, [0, 0], [view.width, view.height]);
-        const detail = view.scale >= fineFromScale ? 0 : 1;
+        const seen = boxBetween(view, [0, 0], [view.width, view.height]);
+        const box = { ...seen, south: Math.max(-mostLatitudeDeg, seen.south), north: Math.min(mostLatitudeDeg, seen.north) };
+        const isThere = (area: Area | null) => area !== null && holdsBox(area.box, box);
+        const isFine = view.scale >= fineFromScale;
+        const needsFine = isFine && !isThere(this.fine);
         window.clearTimeout(this.timer);
-        if (detail === 0 && !(this.fine && holdsBox(this.fine.box, box))) {
-            this.timer = window.setTimeout(() => void this.refine(grownBox(box, 0.3), view.scale >= finestFromScale), settledAfterMs);
+        // Before the first coarse lines there is a request for them.
+        if (needsFine || (this.coarse && !isThere(this.coarse))) {
+            this.timer = window.setTimeout(() => {
+                if (needsFine) void this.refine(grownBox(box, 0.3), view.scale >= finestFromScale);
+                void this.begin(box).catch(() => undefined);
+            }, settledAfterMs);
         }
-        return (detail === 0 && this.fine && holdsBox(this.fine.box, box) ? this.fine : this.coarse)?.paths ?? null;
+        return (isFine && isThere(this.fine) ? this.fine : this.coarse)?.paths ?? null;
     }
 
     private async refine(box: MapBox, withCounties: boolean): Promise<void> {
