@@ -115,13 +115,31 @@ def countries(directory):
     return lines.joined(border)
 
 
+def between_seams(ring):
+    """The ring, or what it is on each side of 180 degrees, if it crosses them."""
+    unrolled = [ring[0]]
+    for lon, lat in ring[1:]:
+        unrolled.append((lon - 360 * round((lon - unrolled[-1][0]) / 360), lat))
+    west, east = min(p[0] for p in unrolled), max(p[0] for p in unrolled)
+    if unrolled == ring or unrolled[0] != unrolled[-1]:
+        return [ring]
+    shape = shapely.geometry.Polygon(unrolled).buffer(0)
+    found = []
+    for turn in range(math.floor((west + 180) / 360), math.floor((east + 180) / 360) + 1):
+        side = shapely.geometry.box(360 * turn - 180, -90, 360 * turn + 180, 90)
+        for part in parts_of(shape.intersection(side)):
+            found.append([(lon - 360 * turn, lat) for lon, lat in part.exterior.coords])
+    return found
+
+
 def land(directory):
     """Closed rings; land is to the left of them."""
     found = []
     for _, rings in polygons_of(pathlib.Path(directory) / "land-10m.json", "land"):
-        for index, ring in enumerate(rings):
-            if in_region(ring):
-                found.append(lines.turned(ring, index == 0))
+        for index, whole in enumerate(rings):
+            for ring in between_seams(whole):
+                if in_region(ring):
+                    found.append(lines.turned(ring, index == 0))
     return found
 
 

@@ -214,6 +214,52 @@ TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
     }
 }
 
+// Whether a place lies within the rings of the coast, of which every edge turns land to sea.
+bool is_land(const BaseMap& map, int detail, grid::GeoPoint place) {
+    bool is_within = false;
+    for (const MapSet& set : map.sets()) {
+        if (set.kind != MapKind::coast || set.detail != detail) continue;
+        for (const MapLine& line : set.lines) {
+            const auto points = map.points_of(line).value();
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                const grid::GeoPoint &a = points[i - 1], &b = points[i];
+                if ((a.latitude_deg > place.latitude_deg) == (b.latitude_deg > place.latitude_deg))
+                    continue;
+                const double share =
+                    (place.latitude_deg - a.latitude_deg) / (b.latitude_deg - a.latitude_deg);
+                if (place.longitude_deg <
+                    a.longitude_deg + share * (b.longitude_deg - a.longitude_deg))
+                    is_within = !is_within;
+            }
+        }
+    }
+    return is_within;
+}
+
+// 2026-11-28: the ring of Siberia goes on beyond 180 degrees and was closed across the whole earth:
+// from 65 to 69 degrees north the map had land as sea, and sea as land.
+TEST(BaseMap, LandAndSeaAreNotTurnedBesideTheAntimeridian) {
+    const auto map = BaseMap::built_in().value();
+    for (int detail = 0; detail < map_detail_count; ++detail) {
+        for (const grid::GeoPoint place : {grid::GeoPoint{66.56, -145.25},  // Fort Yukon
+                                           {67.0, -156.0},                  // Alaska
+                                           {67.5, 178.5},                   // Chukotka
+                                           {66.3, -175.0},
+                                           {71.2, -179.2},  // Wrangel Island, both parts
+                                           {71.1, 179.5},
+                                           {35.33, -97.28},
+                                           {13.45, 144.75}})
+            EXPECT_TRUE(is_land(map, detail, place)) << detail << " " << place.latitude_deg;
+        for (const grid::GeoPoint place : {grid::GeoPoint{67.7, -168.5},  // Chukchi Sea
+                                           {67.8, -172.0},
+                                           {66.0, -60.0},  // Davis Strait
+                                           {62.0, -175.0},
+                                           {71.0, -160.0},
+                                           {25.0, -90.0}})
+            EXPECT_FALSE(is_land(map, detail, place)) << detail << " " << place.latitude_deg;
+    }
+}
+
 TEST(BaseMap, CitiesComeLargestFirstAndStandWhereTheyAre) {
     const auto map = BaseMap::built_in().value();
     const auto& cities = map.cities();
