@@ -1,7 +1,5 @@
 #include "web/http/server.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -22,6 +20,7 @@
 #include "stormcellar/base/descriptor.h"
 #include "web/http/answer_budget.h"
 #include "web/http/client_address.h"
+#include "web/http/common_headers.h"
 #include "web/http/connection_watch.h"
 #include "web/http/read_request.h"
 #include "web/http/response.h"
@@ -31,32 +30,6 @@ namespace stormcellar::web {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-// Whether a browser shows it as data: no page and no script. Anything unknown is none.
-bool is_data(const Answer& answer) {
-    const auto type = std::ranges::find(answer.headers, "Content-Type", &Fields::value_type::first);
-    if (type == answer.headers.end()) return false;
-    constexpr std::array<std::string_view, 7> types{
-        "image/png",           "image/jpeg",       "image/webp",
-        "image/tiff",          "application/json", "application/octet-stream",
-        "application/x-netcdf"};
-    return std::ranges::any_of(types,
-                               [&](std::string_view one) { return type->second.starts_with(one); });
-}
-
-// What no page of ours needs, a browser must not do with it.
-const Fields& headers_of_pages() {
-    static const Fields headers = {
-        {"Content-Security-Policy",
-         "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src "
-         "'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "
-         "frame-ancestors 'none'; form-action 'none'"},
-        {"Cross-Origin-Opener-Policy", "same-origin"},
-        {"Cross-Origin-Embedder-Policy", "require-corp"},
-        {"Referrer-Policy", "no-referrer"},
-    };
-    return headers;
-}
 
 // Exceptions must not cross libmicrohttpd. Without memory, what was read before ends up as no
 // request: all headers go.
@@ -164,7 +137,6 @@ struct Server::Impl {
               bool may_take_long);
     void take_budget(Exchange& exchange);
     MHD_Result send(MHD_Connection* connection, Exchange& exchange);
-    void finish(Answer& answer, const Request& request) const;
     void stop();
 
     static void* first_line(void* self, const char* uri, MHD_Connection* connection);
@@ -356,29 +328,6 @@ void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchan
     }
 }
 
-// What every answer has.
-void Server::Impl::finish(Answer& answer, const Request& request) const {
-    answer.with("X-Content-Type-Options", "nosniff");
-    if (!is_data(answer)) {
-        for (const auto& [name, value] : headers_of_pages())
-            answer.with(name, value);
-    }
-    answer.with("Cross-Origin-Resource-Policy",
-                options.any_origin ? "cross-origin" : "same-origin");
-    if (options.any_origin) {
-        answer.with("Access-Control-Allow-Origin", "*");
-        answer.with(
-            "Access-Control-Expose-Headers",
-            "Accept-Ranges, Content-Length, Content-Range, ETag, Last-Modified, Retry-After");
-        if (request.verb == Verb::options) {
-            answer.with("Access-Control-Allow-Methods", "GET, HEAD, OPTIONS");
-            answer.with("Access-Control-Allow-Headers", "Range, If-None-Match, Last-Event-ID");
-            answer.with("Access-Control-Max-Age", "86400");
-        }
-    }
-    if (is_stopping) answer.closes = true;
-}
-
 // An answer without a body that is sent, such as that to HEAD, takes nothing.
 void Server::Impl::take_budget(Exchange& exchange) {
     const auto* pieces = std::get_if<Pieces>(&exchange.answer->body);
@@ -393,7 +342,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     if (!exchange.answer) return MHD_NO;
     take_budget(exchange);
     Answer& answer = *exchange.answer;
-    finish(answer, exchange.request);
+    add_common_headers(answer, exchange.request, options.any_origin);
+    if (is_stopping) answer.closes = true;
     const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
     const Response response =
         make_response(answer, exchange.request.verb, connection, &exchange.feed);

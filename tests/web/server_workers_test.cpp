@@ -1,0 +1,183 @@
+// How the server shares its workers, and what it does when an answer throws.
+#include <atomic>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/web/served.h"
+
+namespace stormcellar::web {
+namespace {
+
+using namespace std::chrono_literals;
+
+class WebServerWorkers : public WebServer {
+  protected:
+    // Three clients ask, and one of them is served. Returns what they get.
+    [[nodiscard]] std::vector<std::future<std::string>> asked_three_times(const char* target) {
+        std::vector<std::future<std::string>> answers;
+        for (int i = 0; i < 3; ++i)
+            answers.push_back(std::async(std::launch::async, [=, this] { return get(target); }));
+        EXPECT_TRUE(wait_for([&] {
+            const ServerFacts facts = server_->facts();
+            return facts.working == 1 && facts.waiting == 2;
+        }));
+        return answers;
+    }
+};
+
+TEST_F(WebServerWorkers, ADoorWithWorkersOfItsOwnHoldsUpNoOther) {
+    options_.limits.workers = 1;
+    std::promise<void> released;
+    const std::shared_future<void> release = released.get_future().share();
+    std::atomic<int> drawn = 0;
+    const auto slow = std::make_shared<FunctionDoor>([&](const Request&) {
+        ++drawn;
+        release.wait();
+        return text_answer(200, "text/plain", "a picture");
+    });
+    slow->set_workers(std::make_shared<WorkQueue>(1, 1));
+    doors_->add("/slow", slow);
+    start();
+    std::vector<std::future<std::string>> pictures;
+    for (int i = 0; i < 2; ++i) {
+        pictures.push_back(std::async(std::launch::async, [&] { return get("/slow"); }));
+        ASSERT_TRUE(wait_for([&] {
+            const ServerFacts facts = server_->facts();
+            return facts.working + facts.waiting == pictures.size();
+        }));
+    }
+    EXPECT_EQ(body_in(get("/other")), "at /other") << "the worker of the server is free";
+    const std::string refused = get("/slow");
+    EXPECT_EQ(status_in(refused), 503) << "one is drawn and one waits";
+    EXPECT_NE(refused.find("Retry-After: "), std::string::npos);
+    released.set_value();
+    for (auto& picture : pictures)
+        EXPECT_EQ(body_in(picture.get()), "a picture");
+    EXPECT_EQ(drawn, 2);
+}
+
+TEST_F(WebServerWorkers, RequestsThatWaitForADoorsWorkersAreAnsweredWhenItStops) {
+    std::promise<void> released;
+    const std::shared_future<void> release = released.get_future().share();
+    const auto slow = std::make_shared<FunctionDoor>([release](const Request&) {
+        release.wait();
+        return text_answer(200, "text/plain", "a picture");
+    });
+    slow->set_workers(std::make_shared<WorkQueue>(1, 8));
+    doors_->add("/slow", slow);
+    start();
+    auto pictures = asked_three_times("/slow");
+    auto stopped = std::async(std::launch::async, [&] { server_.reset(); });
+    EXPECT_EQ(stopped.wait_for(20ms), std::future_status::timeout) << "one is under way";
+    released.set_value();
+    stopped.get();
+    std::multiset<int> statuses;
+    for (auto& picture : pictures)
+        statuses.insert(status_in(picture.get()));
+    EXPECT_EQ(statuses, (std::multiset<int>{200, 503, 503}));
+}
+
+TEST_F(WebServerWorkers, WorkersDoNotHoldUpOthersAndBeyondTheQueueClientsComeBack) {
+    options_.limits.workers = 1;
+    options_.limits.most_waiting = 1;
+    std::promise<void> go_on;
+    const std::shared_future<void> released = go_on.get_future().share();
+    add("/slow", [&](const Request&) {
+        released.wait();
+        return sentence(200, "done");
+    });
+    class QuickDoor : public Door {
+      public:
+        std::optional<Answer> answer_at_once(const Request&) override {
+            return sentence(200, "quick");
+        }
+        Answer answer(const Request&) override { return sentence(500, "not asked"); }
+    };
+    doors_->add("/quick", std::make_shared<QuickDoor>());
+    start();
+    auto first = std::async(std::launch::async, [&] { return get("/slow"); });
+    ASSERT_TRUE(wait_for([&] { return server_->facts().working == 1; }));
+    auto second = std::async(std::launch::async, [&] { return get("/slow"); });
+    ASSERT_TRUE(wait_for([&] { return server_->facts().waiting == 1; }));
+    EXPECT_EQ(status_in(get("/quick")), 200);
+    const std::string third = get("/slow");
+    EXPECT_EQ(status_in(third), 503);
+    EXPECT_NE(third.find("Retry-After: 2"), std::string::npos);
+    go_on.set_value();
+    EXPECT_EQ(status_in(first.get()), 200);
+    EXPECT_EQ(status_in(second.get()), 200);
+}
+
+// 2026-11-28: a worker that threw, or had no memory left, ended the server.
+TEST_F(WebServerWorkers, AnAnswerThatThrowsIsA503AndTheServerGoesOn) {
+    class ThrowingDoor : public Door {
+      public:
+        std::optional<Answer> answer_at_once(const Request& request) override {
+            if (request.path == "/throws/at-once") throw std::bad_alloc();
+            return std::nullopt;
+        }
+        Answer answer(const Request& request) override {
+            if (request.path == "/throws/memory") throw std::bad_alloc();
+            throw std::runtime_error("/var/lib/secret: trouble");
+        }
+    };
+    doors_->add("/throws", std::make_shared<ThrowingDoor>());
+    std::mutex mutex;
+    std::string trouble;
+    options_.on_answer = [&](const Served& served) {
+        const std::scoped_lock lock(mutex);
+        if (!served.trouble.empty()) trouble = served.trouble;
+    };
+    start();
+    for (const char* target : {"/throws/at-once", "/throws/memory", "/throws/other"}) {
+        const std::string answer = get(target);
+        EXPECT_EQ(status_in(answer), 503) << target;
+        EXPECT_NE(answer.find("Retry-After: "), std::string::npos) << target;
+        EXPECT_EQ(answer.find("/var/lib"), std::string::npos) << target;
+    }
+    EXPECT_EQ(status_in(get("/")), 200);
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(trouble, "/var/lib/secret: trouble") << "for the log";
+}
+
+// 2026-11-28: who asked while a grid was computed for another client was told to come back.
+TEST_F(WebServerWorkers, WhatTakesLongWaitsForWorkersOfItsOwn) {
+    class LongDoor : public Door {
+      public:
+        explicit LongDoor(std::shared_future<void> release) : release_(std::move(release)) {}
+        std::optional<Answer> answer_soon(const Request& request) override {
+            if (request.path == "/long/kept") return sentence(200, "kept");
+            return std::nullopt;
+        }
+        Answer answer(const Request&) override {
+            release_.wait();
+            return sentence(200, "computed");
+        }
+
+      private:
+        std::shared_future<void> release_;
+    };
+    options_.limits.workers = 1;
+    std::promise<void> released;
+    const auto door = std::make_shared<LongDoor>(released.get_future().share());
+    door->set_long_workers(std::make_shared<WorkQueue>(1, 8));
+    doors_->add("/long", door);
+    start();
+    auto computed = asked_three_times("/long/grid");
+    EXPECT_EQ(body_in(get("/long/kept")), "kept\n") << "the worker of the server is free";
+    released.set_value();
+    for (auto& one : computed)
+        EXPECT_EQ(body_in(one.get()), "computed\n");
+}
+
+}  // namespace
+}  // namespace stormcellar::web
