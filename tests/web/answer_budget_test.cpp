@@ -1,5 +1,7 @@
 #include "web/http/answer_budget.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace stormcellar::web {
@@ -35,6 +37,33 @@ TEST(AnswerBudget, OneClientHoldsHalfAtMost) {
     EXPECT_TRUE(budget.take("fourth", text_of_kib(10))) << "small answers always pass";
     budget.give_back("greedy", a);
     EXPECT_TRUE(budget.take("fourth", e));
+}
+
+// 2026-11-28: sixteen ranges of 63 KiB were a copy of a megabyte, and counted as nothing.
+TEST(AnswerBudget, ManySmallPiecesCountAsOne) {
+    AnswerBudget budget(100 << 10);
+    Pieces parts;
+    for (int i = 0; i < 16; ++i)
+        parts.push_back(text_of_kib(10).front());
+    EXPECT_TRUE(budget.take("a", parts));
+    EXPECT_EQ(budget.bytes(), 160u << 10);
+    EXPECT_FALSE(budget.take("b", text_of_kib(100)));
+    budget.give_back("a", parts);
+    EXPECT_EQ(budget.bytes(), 0u);
+}
+
+TEST(AnswerBudget, EachFurtherClientHoldsHalfOfWhatIsLeft) {
+    AnswerBudget budget(800 << 10);
+    std::vector<Pieces> taken;
+    for (const char* client : {"a", "b", "c"}) {
+        for (int i = 0; i < 8; ++i) {
+            const Pieces one = text_of_kib(100);
+            if (budget.take(client, one)) taken.push_back(one);
+        }
+    }
+    EXPECT_EQ(taken.size(), 4u + 2 + 1);
+    EXPECT_TRUE(budget.take("d", text_of_kib(100)))
+        << "a client that has nothing gets what is left";
 }
 
 TEST(AnswerBudget, ALargerAnswerPassesAlone) {

@@ -104,6 +104,27 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     EXPECT_EQ(body_in(get("/own")).size(), large);
 }
 
+// 2026-11-28: slow readers of two addresses held the whole budget for half an hour, and everybody
+// else was told to come back.
+TEST_F(WebServer, ASlowBodyGivesWayWhenMemoryIsShort) {
+    constexpr std::size_t large = 8 << 20;
+    options_.limits.answer_bytes = 10 << 20;
+    options_.limits.least_bytes_per_s = 100'000;
+    options_.limits.rate_time = 600s;
+    options_.limits.answer_time = 600s;
+    add("/own", [&](const Request&) {
+        Answer answer;
+        answer.body = Pieces{text_of(std::string(large, 'o'))};
+        return answer;
+    });
+    start();
+    RawClient slow(port_, 4096, "127.0.0.2");
+    slow.send("GET /own HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_EQ(status_in(slow.read_until("\r\n\r\n")), 200);
+    EXPECT_EQ(status_in(get("/own")), 503);
+    EXPECT_TRUE(wait_for([&] { return status_in(get("/own")) == 200; }));
+}
+
 // 2026-11-28: a client that took 1,000 bytes a second held a connection for ten hours.
 TEST_F(WebServer, AnAnswerHasATotalTime) {
     options_.limits.answer_time = 3s;

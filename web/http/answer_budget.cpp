@@ -6,70 +6,69 @@
 namespace stormcellar::web {
 namespace {
 
-// The object that a piece keeps in memory, with all of its bytes; no bytes: it is not counted.
-struct HeldObject {
-    const void* object = nullptr;
-    std::uint64_t bytes = 0;
-};
-HeldObject object_of(const Piece& piece) {
-    HeldObject held;
-    if (const auto* text = std::get_if<Text>(&piece)) {
-        held = {text->get(), (*text)->size()};
-    } else if (const auto* slice = std::get_if<FileSlice>(&piece)) {
-        held = {slice->file.get(), slice->memory_bytes};
-    }
-    return held.bytes < least_counted_bytes ? HeldObject{} : held;
-}
-
-bool is_counted(const Pieces& pieces) {
-    return std::ranges::any_of(pieces,
-                               [](const Piece& piece) { return object_of(piece).bytes > 0; });
+// The object that a piece keeps in memory, with all of its bytes.
+AnswerBudget::HeldObject object_of(const Piece& piece) {
+    if (const auto* text = std::get_if<Text>(&piece)) return {text->get(), (*text)->size()};
+    const auto& slice = std::get<FileSlice>(piece);
+    return {slice.file.get(), slice.memory_bytes};
 }
 
 }  // namespace
 
-std::uint64_t AnswerBudget::Holder::bytes_with(const Pieces& pieces) const {
+// Many small pieces of one answer are as much as a large one.
+bool AnswerBudget::is_counted(const Pieces& pieces) {
+    std::uint64_t sum = 0;
+    for (const Piece& piece : pieces)
+        sum += object_of(piece).bytes;
+    return sum >= least_counted_bytes;
+}
+
+AnswerBudget::Objects AnswerBudget::objects_of(const Pieces& pieces) {
+    Objects objects;
+    for (const Piece& piece : pieces)
+        if (const HeldObject held = object_of(piece); held.bytes > 0) objects.push_back(held);
+    return objects;
+}
+
+std::uint64_t AnswerBudget::Holder::bytes_with(const Objects& objects) const {
     std::uint64_t sum = bytes;
     std::set<const void*> fresh;
-    for (const Piece& piece : pieces) {
-        const HeldObject held = object_of(piece);
-        if (held.bytes > 0 && !uses.contains(held.object) && fresh.insert(held.object).second)
-            sum += held.bytes;
-    }
+    for (const HeldObject& held : objects)
+        if (!uses.contains(held.object) && fresh.insert(held.object).second) sum += held.bytes;
     return sum;
 }
 
-void AnswerBudget::Holder::add(const Pieces& pieces) {
-    for (const Piece& piece : pieces) {
-        const HeldObject held = object_of(piece);
-        if (held.bytes > 0 && ++uses[held.object] == 1) bytes += held.bytes;
-    }
+void AnswerBudget::Holder::add(const Objects& objects) {
+    for (const HeldObject& held : objects)
+        if (++uses[held.object] == 1) bytes += held.bytes;
 }
 
-void AnswerBudget::Holder::remove(const Pieces& pieces) {
-    for (const Piece& piece : pieces) {
-        const HeldObject held = object_of(piece);
+void AnswerBudget::Holder::remove(const Objects& objects) {
+    for (const HeldObject& held : objects) {
         const auto use = uses.find(held.object);
-        if (held.bytes == 0 || use == uses.end() || --use->second > 0) continue;
+        if (use == uses.end() || --use->second > 0) continue;
         uses.erase(use);
         bytes -= held.bytes;
     }
 }
 
-bool AnswerBudget::Holder::has_room(const Pieces& pieces, std::uint64_t most) const {
-    const std::uint64_t with = bytes_with(pieces);
+bool AnswerBudget::Holder::has_room(const Objects& objects, std::uint64_t most) const {
+    const std::uint64_t with = bytes_with(objects);
     return with <= most || with == bytes || bytes == 0;
 }
 
 bool AnswerBudget::take(const std::string& client, const Pieces& pieces) {
     if (!is_counted(pieces)) return true;
+    const Objects objects = objects_of(pieces);
     const std::scoped_lock lock(mutex_);
     const auto theirs = by_client_.try_emplace(client).first;
+    const std::uint64_t of_others = all_.bytes - theirs->second.bytes;
+    const std::uint64_t most_of_client = (most_bytes_ - std::min(most_bytes_, of_others)) / 2;
     const bool has_room =
-        all_.has_room(pieces, most_bytes_) && theirs->second.has_room(pieces, most_bytes_ / 2);
+        all_.has_room(objects, most_bytes_) && theirs->second.has_room(objects, most_of_client);
     if (has_room) {
-        all_.add(pieces);
-        theirs->second.add(pieces);
+        all_.add(objects);
+        theirs->second.add(objects);
     } else if (theirs->second.uses.empty()) {
         by_client_.erase(theirs);
     }
@@ -78,11 +77,12 @@ bool AnswerBudget::take(const std::string& client, const Pieces& pieces) {
 
 void AnswerBudget::give_back(const std::string& client, const Pieces& pieces) {
     if (!is_counted(pieces)) return;
+    const Objects objects = objects_of(pieces);
     const std::scoped_lock lock(mutex_);
     const auto found = by_client_.find(client);
     if (found == by_client_.end()) return;
-    all_.remove(pieces);
-    found->second.remove(pieces);
+    all_.remove(objects);
+    found->second.remove(objects);
     if (found->second.uses.empty()) by_client_.erase(found);
 }
 

@@ -1,8 +1,9 @@
 // web/http/answer_budget.h -- bounds the memory of answers that are on their way to clients.
 //
 // Counted are bytes in memory and files without a name, each once however many answers share it;
-// pieces below 64 KiB are not counted, so that small answers pass when the budget is spent. One
-// client holds half of the budget at most. An answer that is larger passes if it is the only one.
+// answers below 64 KiB are not counted, so that they pass when the budget is spent. One client
+// holds at most half of what the others leave. An answer that is larger passes if it is the only
+// one.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -11,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "web/http/answer.h"
 
@@ -22,22 +24,30 @@ class AnswerBudget {
   public:
     explicit AnswerBudget(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
 
+    [[nodiscard]] static bool is_counted(const Pieces& pieces);
     // Returns false if the budget, or the client's share of it, has no room; then nothing is taken.
     [[nodiscard]] bool take(const std::string& client, const Pieces& pieces);
     // To be called once for each take() that succeeded, with the same pieces.
     void give_back(const std::string& client, const Pieces& pieces);
     [[nodiscard]] std::uint64_t bytes() const;
 
+    struct HeldObject {
+        const void* object = nullptr;
+        std::uint64_t bytes = 0;
+    };
+
   private:
+    using Objects = std::vector<HeldObject>;
+    static Objects objects_of(const Pieces& pieces);
     // What somebody holds: how many answers use each object.
     struct Holder {
         std::map<const void*, std::uint64_t> uses;
         std::uint64_t bytes = 0;
 
-        [[nodiscard]] std::uint64_t bytes_with(const Pieces& pieces) const;
-        [[nodiscard]] bool has_room(const Pieces& pieces, std::uint64_t most) const;
-        void add(const Pieces& pieces);
-        void remove(const Pieces& pieces);
+        [[nodiscard]] std::uint64_t bytes_with(const Objects& objects) const;
+        [[nodiscard]] bool has_room(const Objects& objects, std::uint64_t most) const;
+        void add(const Objects& objects);
+        void remove(const Objects& objects);
     };
 
     const std::uint64_t most_bytes_;

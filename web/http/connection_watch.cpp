@@ -102,7 +102,8 @@ void ConnectionWatch::forget_client(const std::string& client) {
     if (--theirs->second == 0) by_client_.erase(theirs);
 }
 
-void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes) {
+void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes,
+                                bool holds_memory) {
     const std::scoped_lock lock(mutex_);
     const auto found = open_.find(connection);
     if (found == open_.end()) return;
@@ -117,6 +118,7 @@ void ConnectionWatch::set_phase(MHD_Connection* connection, Phase phase, std::ui
     open.phase = phase;
     open.since = open.began = std::chrono::steady_clock::now();
     open.body_bytes = body_bytes;
+    open.holds_memory = holds_memory;
     if (phase == Phase::body || phase == Phase::stream)
         open.taken_bytes = open.acknowledged_before = acknowledged_bytes(open.descriptor);
 }
@@ -125,8 +127,9 @@ void ConnectionWatch::request_arrived(MHD_Connection* connection) {
     set_phase(connection, Phase::thinking);
 }
 
-void ConnectionWatch::sending_body(MHD_Connection* connection, std::uint64_t bytes) {
-    set_phase(connection, Phase::body, bytes);
+void ConnectionWatch::sending_body(MHD_Connection* connection, std::uint64_t bytes,
+                                   bool holds_memory) {
+    set_phase(connection, Phase::body, bytes, holds_memory);
 }
 
 void ConnectionWatch::sending_stream(MHD_Connection* connection,
@@ -150,6 +153,11 @@ bool ConnectionWatch::is_idle() const {
     const std::scoped_lock lock(mutex_);
     return std::all_of(open_.begin(), open_.end(),
                        [](const auto& one) { return one.second.phase == Phase::request; });
+}
+
+double ConnectionWatch::rate_of(const Open& open, SteadyTime now) {
+    return static_cast<double>(acknowledged_bytes(open.descriptor) - open.acknowledged_before) /
+           std::chrono::duration<double>(now - open.began).count();
 }
 
 void ConnectionWatch::cut(Open& open) {
@@ -194,12 +202,23 @@ ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
             continue;
         const unsigned theirs = exempt_.contains(open.client) ? 1 : by_client_[open.client];
         if (theirs < most) continue;
-        const double rate =
-            static_cast<double>(acknowledged_bytes(open.descriptor) - open.acknowledged_before) /
-            std::chrono::duration<double>(now - open.began).count();
+        const double rate = rate_of(open, now);
         if (theirs == most && slowest != nullptr && rate >= least_rate) continue;
         slowest = &open;
         most = theirs;
+        least_rate = rate;
+    }
+    return slowest;
+}
+
+ConnectionWatch::Open* ConnectionWatch::slowest_that_holds_memory(SteadyTime now) {
+    Open* slowest = nullptr;
+    auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
+    for (auto& [connection, open] : open_) {
+        if (open.is_cut || !open.holds_memory || now - open.began < rate_is_known_after) continue;
+        const double rate = rate_of(open, now);
+        if (rate >= least_rate) continue;
+        slowest = &open;
         least_rate = rate;
     }
     return slowest;
@@ -245,6 +264,9 @@ ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
     cut_slowest_bodies(now);
+    if (is_memory_short_.exchange(false)) {
+        if (Open* slowest = slowest_that_holds_memory(now)) cut(*slowest);
+    }
     cut_those_gone();
     Streams over;
     for (auto& [connection, open] : open_) {

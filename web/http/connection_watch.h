@@ -9,6 +9,7 @@
 // Threads   Many threads may use it; a thread of its own looks twice a second.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -46,9 +47,13 @@ class ConnectionWatch {
     void request_arrived(MHD_Connection* connection);
     // The answer goes out from now on: a body, or a stream, which may have nothing to send for
     // long.
-    void sending_body(MHD_Connection* connection, std::uint64_t bytes);
+    // `holds_memory`: the body counts among the bytes that are on their way.
+    void sending_body(MHD_Connection* connection, std::uint64_t bytes, bool holds_memory = false);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
+    // An answer was refused for want of memory: the slowest body that holds some is ended, unless
+    // its client takes it at twenty times the least rate.
+    void memory_is_short() { is_memory_short_ = true; }
     [[nodiscard]] std::size_t count() const;  // with streams
     // Returns true if no answer is being made or sent.
     [[nodiscard]] bool is_idle() const;
@@ -64,6 +69,7 @@ class ConnectionWatch {
         SteadyTime began = {};                  // of the phase
         std::uint64_t acknowledged_before = 0;  // what the client had acknowledged then
         std::uint64_t body_bytes = 0;
+        bool holds_memory = false;
         bool is_cut = false;
         std::weak_ptr<StreamFeed> stream = {};
     };
@@ -72,20 +78,25 @@ class ConnectionWatch {
     [[nodiscard]] Streams look(SteadyTime now);
     void cut_those_gone();
     bool is_too_slow(Open& open, SteadyTime now) const;
-    void set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes = 0);
+    void set_phase(MHD_Connection* connection, Phase phase, std::uint64_t body_bytes = 0,
+                   bool holds_memory = false);
     void make_room();
     void cut_slowest_bodies(SteadyTime now);
     [[nodiscard]] Open* longest_without_request();
     [[nodiscard]] Open* slowest_body(SteadyTime now);
+    [[nodiscard]] Open* slowest_that_holds_memory(SteadyTime now);
     [[nodiscard]] bool takes_too_long(const Open& open, SteadyTime now) const;
     // The name under which a client's connections are counted: a proxy that may have all is itself.
     [[nodiscard]] std::string name_of(const std::string& client) const;
     void count_client(const std::string& client);
     void forget_client(const std::string& client);
     static void cut(Open& open);
+    // Bytes a second, of the phase.
+    static double rate_of(const Open& open, SteadyTime now);
 
     const ServerLimits limits_;
     const std::set<std::string> exempt_;
+    std::atomic<bool> is_memory_short_ = false;
     mutable std::mutex mutex_;
     std::condition_variable ends_;
     bool is_stopping_ = false;

@@ -334,6 +334,7 @@ void Server::Impl::take_budget(Exchange& exchange) {
     if (pieces == nullptr || exchange.request.verb == Verb::head) return;
     exchange.holds_budget = budget.take(exchange.counts_as, *pieces);
     if (exchange.holds_budget) return;
+    watch.memory_is_short();
     exchange.answer = come_back(std::chrono::seconds{10},
                                 "As many bytes are on their way as this server holds; ask again.");
 }
@@ -354,6 +355,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
         if (is_stopping) exchange.feed->end();
     }
     const std::uint64_t bytes = is_stream ? 0 : size_of(std::get<Pieces>(answer.body));
+    const bool holds_memory =
+        exchange.holds_budget && AnswerBudget::is_counted(std::get<Pieces>(answer.body));
     if (options.on_answer) {
         options.on_answer({&exchange.request, answer.status, bytes,
                            SteadyClock::now() - exchange.began, answer.trouble});
@@ -361,7 +364,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     if (exchange.feed != nullptr) {
         watch.sending_stream(connection, exchange.feed);
     } else {
-        watch.sending_body(connection, exchange.request.verb == Verb::head ? 0 : bytes);
+        watch.sending_body(connection, exchange.request.verb == Verb::head ? 0 : bytes,
+                           holds_memory);
     }
     return MHD_queue_response(connection, answer.status, response.get());
 }
