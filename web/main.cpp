@@ -24,6 +24,7 @@
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
 #include "web/config/web_setup.h"
+#include "web/service/watchdog.h"
 #include "web/service/web_service.h"
 
 namespace stormcellar::web {
@@ -66,27 +67,13 @@ std::string reloading_state() {
                        std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
 }
 
-// Feeds the watchdog four times in its period. The thread that calls it must be able to ask the
-// server for its facts, so a server that is stuck is started again. So is one that listens nowhere.
-class Watchdog {
-  public:
-    Watchdog() {
-        std::uint64_t microseconds = 0;
-        if (::sd_watchdog_enabled(0, &microseconds) > 0)
-            period_ = std::chrono::microseconds{microseconds} / 4;
-    }
-    void feed(const WebService& service) {
-        const SteadyTime now = steady_now();
-        if (!period_ || now < next_ || !service.is_listening()) return;
-        next_ = now + *period_;
-        (void)service.facts();
-        notify("WATCHDOG=1");
-    }
-
-  private:
-    std::optional<std::chrono::microseconds> period_;
-    SteadyTime next_{};
-};
+Watchdog systemd_watchdog() {
+    std::uint64_t microseconds = 0;
+    std::optional<std::chrono::microseconds> period;
+    if (::sd_watchdog_enabled(0, &microseconds) > 0)
+        period = std::chrono::microseconds{microseconds};
+    return Watchdog(period, [] { notify("WATCHDOG=1"); });
+}
 
 void reload(WebService& service, const std::filesystem::path& file) {
     notify(reloading_state());
@@ -131,9 +118,9 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
         say(LogLevel::warning, "there is no catalog {} yet", setup.catalog.native());
     look_at_drop(setup.drop);
     notify("READY=1");
-    Watchdog watchdog;
+    Watchdog watchdog = systemd_watchdog();
     for (;;) {
-        watchdog.feed(**service);
+        watchdog.feed(**service, steady_now());
         const auto number = signals.next(turn);
         if (!number) {
             (*service)->look_again();

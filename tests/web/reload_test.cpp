@@ -1,6 +1,7 @@
 // The whole data server while it takes over another configuration.
 #include <atomic>
 #include <fstream>
+#include <future>
 #include <thread>
 
 #include <arpa/inet.h>
@@ -10,10 +11,12 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include "base/steady_time.h"
 #include "stormcellar/base/file_system.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/web/raw_client.h"
 #include "tests/web/setup_below.h"
+#include "web/service/watchdog.h"
 #include "web/service/web_service.h"
 
 namespace stormcellar::web {
@@ -78,6 +81,42 @@ TEST_F(Reload, NoOtherProgramCanTakeThePort) {
     EXPECT_EQ(status(), 200);
 }
 
+// 2026-11-28: while an answer was computed or taken slowly, a reload held up every other client.
+TEST_F(Reload, NobodyWaitsForTheOldServersEnd) {
+    start();
+    RawClient half(port_, 2048);
+    half.send(
+        "GET /api/v1/map?west=-170&south=-60&east=170&north=75&detail=0 HTTP/1.1\r\nHost: "
+        "localhost\r\n\r\n");
+    ASSERT_EQ(status_in(half.read_until("\r\n\r\n")), 200);
+    WebSetup fresh = setup_;
+    fresh.web.cors = true;
+    auto reloaded = std::async(std::launch::async, [&] { return service_->reload(fresh); });
+    int of_the_new_one = 0;
+    while (reloaded.wait_for(std::chrono::seconds{0}) != std::future_status::ready) {
+        const std::string answer = RawClient::get(port_, "/api/v1");
+        EXPECT_EQ(status_in(answer), 200);
+        of_the_new_one += answer.find("Access-Control-Allow-Origin") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_TRUE(reloaded.get());
+    EXPECT_GE(of_the_new_one, 3) << "while the old one still ends";
+}
+
+// 2026-11-28: a client that had connected just before a reload was cut off without an answer.
+TEST_F(Reload, AClientThatHasJustConnectedIsAnswered) {
+    start();
+    for (int i = 0; i < 10; ++i) {
+        RawClient client(port_);
+        // The server knows the connection, and not yet what it wants.
+        while (service_->facts().connections == 0)
+            std::this_thread::yield();
+        auto reloaded = std::async(std::launch::async, [&] { return service_->reload(setup_); });
+        client.send("GET /api/v1 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+        EXPECT_NE(status_in(client.read_to_end()), 0) << "503 is an answer, too";
+        EXPECT_TRUE(reloaded.get());
+    }
+}
+
 TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
     start();
     const Descriptor other{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
@@ -94,6 +133,18 @@ TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
     EXPECT_EQ(status(), 200);
 }
 
+// 2026-11-28: the old server ended although no end of its own could have helped.
+TEST_F(Reload, AnAddressOfAnotherMachineLeavesTheServerAsItWas) {
+    start();
+    RawClient kept(port_);
+    while (service_->facts().connections == 0)
+        std::this_thread::yield();
+    setup_.web.listen = {{"203.0.113.9", port_}};
+    EXPECT_FALSE(service_->reload(setup_));
+    EXPECT_TRUE(kept.send("GET /api/v1 HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"));
+    EXPECT_EQ(status_in(kept.read_to_end()), 200);
+}
+
 TEST_F(Reload, AServerMayBeOpenedToAllOnTheSamePort) {
     start();
     setup_.web.listen = {{"127.0.0.1", port_}};
@@ -108,9 +159,13 @@ TEST_F(Reload, AServerMayBeOpenedToAllOnTheSamePort) {
 // watchdog fed.
 TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
     start();
+    setup_.web.listen = {{"127.0.0.1", port_}};
+    ASSERT_TRUE(service_->reload(setup_));
     rlimit before{};
     ::getrlimit(RLIMIT_NOFILE, &before);
     bool was_deaf = false;
+    int beats = 0;
+    Watchdog watchdog(std::chrono::microseconds{4}, [&] { ++beats; });
     for (int i = 0; i < 200 && !was_deaf; ++i) {
         // Somebody else takes each descriptor that becomes free.
         const rlimit few{512, before.rlim_max};
@@ -129,11 +184,15 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
         });
         while (!has_all)
             std::this_thread::yield();
+        // The one address is in the way of the other, so the old server must end first.
+        setup_.web.listen = {{i % 2 == 0 ? "0.0.0.0" : "127.0.0.1", port_}};
         (void)service_->reload(setup_);
         was_deaf = !service_->is_listening();
         if (was_deaf) {
             service_->look_again();
             EXPECT_FALSE(service_->is_listening()) << "there is no descriptor yet";
+            watchdog.feed(*service_, steady_now());
+            EXPECT_EQ(beats, 0) << "systemd starts it again";
         }
         is_over = true;
         greedy.join();
@@ -144,6 +203,8 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
         ASSERT_EQ(status(), 200);
     }
     EXPECT_TRUE(was_deaf);
+    watchdog.feed(*service_, steady_now());
+    EXPECT_EQ(beats, 1);
 }
 
 // 2026-11-28: a server that was killed left temporary files, which no later start removed.

@@ -22,6 +22,8 @@ constexpr std::chrono::seconds rate_is_known_after{5};
 constexpr std::uint64_t times_least_rate = 20;
 // Each takes a look at all bodies, while others wait for the lock.
 constexpr int most_cut_at_once = 16;
+// A new connection has so much time to say what it wants before it counts as idle.
+constexpr std::chrono::milliseconds first_words_within{250};
 
 // The bytes that the other side has acknowledged since the connection was opened.
 std::uint64_t acknowledged_bytes(int descriptor) {
@@ -151,8 +153,12 @@ std::size_t ConnectionWatch::count() const {
 
 bool ConnectionWatch::is_idle() const {
     const std::scoped_lock lock(mutex_);
-    return std::all_of(open_.begin(), open_.end(),
-                       [](const auto& one) { return one.second.phase == Phase::request; });
+    const SteadyTime now = std::chrono::steady_clock::now();
+    return std::ranges::all_of(open_, [&](const auto& one) {
+        const Open& open = one.second;
+        const bool is_new = open.began == SteadyTime{} && now - open.since < first_words_within;
+        return open.phase == Phase::request && !is_new;
+    });
 }
 
 double ConnectionWatch::rate_of(const Open& open, SteadyTime now) {

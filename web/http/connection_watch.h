@@ -55,7 +55,7 @@ class ConnectionWatch {
     // its client takes it at twenty times the least rate.
     void memory_is_short() { is_memory_short_ = true; }
     [[nodiscard]] std::size_t count() const;  // with streams
-    // Returns true if no answer is being made or sent.
+    // Returns true if no answer is being made or sent, and no request may be about to be read.
     [[nodiscard]] bool is_idle() const;
 
   private:

@@ -130,9 +130,10 @@ Status WebService::serve() {
     };
     auto server = Server::open(std::move(options), doors_to(sources_, *measures), *sockets);
     if (!server) return pass_on(server);
+    measures->set_server(server->get());
     sockets_ = std::move(*sockets);
+    // A server that was there ends now: this one listens already, so nobody waits for its end.
     server_ = std::move(*server);
-    measures->set_server(server_.get());
     return {};
 }
 
@@ -186,16 +187,21 @@ Status WebService::reload(WebSetup fresh) {
     sources->numbers = sources_.numbers;
     const auto wanted = server_options_of(sources->setup.web).listen;
     auto sockets = open_listen_sockets(wanted, sockets_);
-    const bool is_in_own_way = !sockets && holds_a_port_of(wanted, sockets_);
-    if (!sockets && !is_in_own_way) return pass_on(sockets);
-    server_.reset();
+    if (!sockets) {
+        const ErrorCode why = sockets.error().code;
+        const bool may_help = why == ErrorCode::busy || why == ErrorCode::exhausted;
+        if (!may_help || !holds_a_port_of(wanted, sockets_)) return pass_on(sockets);
+        server_.reset();
+        sockets_.clear();
+        sockets.emplace();
+    }
+    ListenSockets held = std::exchange(sockets_, *std::move(sockets));
     std::swap(sources_, *sources);
-    ListenSockets held = std::exchange(sockets_, sockets ? *sockets : ListenSockets{});
-    if (is_in_own_way) held.clear();
     const Status served = serve();
     if (served) return {};
     std::swap(sources_, *sources);
     sockets_ = std::move(held);
+    if (server_ != nullptr) return served;
     if (const Status again = serve(); !again) {
         say(LogLevel::error, "this server listens nowhere, and tries again each second: {}",
             again.error().message);

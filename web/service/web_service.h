@@ -32,9 +32,9 @@ class WebService {
     // Call once a second.
     void look_again();
 
-    // Takes over a configuration, but for what needs_restart() names: connections are closed, and
-    // another server listens on the same sockets, which stay open. If it cannot, it goes on as
-    // before. Errors: those of open().
+    // Takes over a configuration, but for what needs_restart() names: another server begins on the
+    // same sockets, which stay open, and then the old one ends with its connections. If it cannot,
+    // it goes on as before. Errors: those of open().
     Status reload(WebSetup fresh);
     [[nodiscard]] ServerFacts facts() const;
 
