@@ -103,6 +103,21 @@ void look_at_drop(const std::filesystem::path& drop) {
         names.error().message);
 }
 
+// For want of memory or threads a turn may fail; the server goes on as it is.
+void take_turn(WebService& service, const std::filesystem::path& file, bool reloads) {
+    try {
+        if (reloads) {
+            reload(service, file);
+        } else {
+            service.look_again();
+        }
+    } catch (const std::exception& error) {
+        say(LogLevel::error, "{}: {}",
+            reloads ? "the configuration stays as it was" : "a look failed", error.what());
+        if (reloads) notify("READY=1");
+    }
+}
+
 int serve(const WebSetup& setup, const std::filesystem::path& file) {
     keep_freed_memory();
     cache::install_map_guard();
@@ -122,10 +137,8 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     for (;;) {
         watchdog.feed(**service, steady_now());
         const auto number = signals.next(turn);
-        if (!number) {
-            (*service)->look_again();
-        } else if (*number == SIGHUP) {
-            reload(**service, file);
+        if (!number || *number == SIGHUP) {
+            take_turn(**service, file, number.has_value());
         } else {
             say(LogLevel::info, "stopping: received {}", *number == SIGTERM ? "SIGTERM" : "SIGINT");
             break;

@@ -293,20 +293,22 @@ bool CacheTree::take(const char* events, std::size_t size) {
         // The name is padded with zeros.
         handle(event.wd, event.mask, {name, ::strnlen(name, event.len)});
     }
-    if (lost) {
-        // The times of directories tell what came and went; what was read must be read again.
-        tell_everything();
-        for (auto& [name, domain] : domains_) {
-            domain.seen.read_ns = 0;
-            for (auto& [moment, days] : domain.moments) {
-                days.seen.read_ns = 0;
-                for (auto& [day, known] : days.days)
-                    known.seen.read_ns = 0;
-            }
-        }
-        root_.read_ns = 0;
-    }
+    if (lost) forget_times();
     return !lost && !root_gone_;
+}
+
+// The times of directories tell what came and went; what was read must be read again.
+void CacheTree::forget_times() {
+    tell_everything();
+    for (auto& [name, domain] : domains_) {
+        domain.seen.read_ns = 0;
+        for (auto& [moment, days] : domain.moments) {
+            days.seen.read_ns = 0;
+            for (auto& [day, known] : days.days)
+                known.seen.read_ns = 0;
+        }
+    }
+    root_.read_ns = 0;
 }
 
 void CacheTree::handle(int watch, std::uint32_t mask, std::string_view name) {

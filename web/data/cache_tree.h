@@ -36,6 +36,8 @@ class CacheTree {
     [[nodiscard]] bool is_there() const { return is_there_; }
     // Returns true if some directory could not be watched or read.
     [[nodiscard]] bool is_blind() const { return blind_; }
+    // After events were lost: tells so, and lets the next scan() read every directory.
+    void forget_times();
     // Tells that everything may have changed.
     void tell_everything();
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -27,6 +28,7 @@ constexpr std::chrono::seconds look_when_blind_every{2};
 constexpr std::chrono::seconds look_at_times_every{60};
 // Without a descriptor left nothing wakes the thread, so it looks itself whether it must end.
 constexpr int look_for_the_end_every_ms = 100;
+constexpr int try_again_after_ms = 1000;
 
 }  // namespace
 
@@ -37,14 +39,21 @@ struct CacheWatch::Impl {
           stop(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
           tree(std::move(cache), notify.number(), std::move(listener)) {}
 
-    // Reads all events that wait. The lock is held.
+    // Reads all events that wait. The lock is held. If it throws, for want of memory, the next call
+    // begins with a look at everything.
     void read_events() {
+        const bool has_missed = std::exchange(is_missing_events, true);
+        if (has_missed) {
+            tree.forget_times();
+            scan();
+        }
         alignas(inotify_event) std::array<char, 65536> buffer;
         while (true) {
             const ssize_t size = ::read(notify.number(), buffer.data(), buffer.size());
-            if (size <= 0) return;
+            if (size <= 0) break;
             if (!tree.take(buffer.data(), static_cast<std::size_t>(size))) scan();
         }
+        is_missing_events = false;
     }
     void scan() {
         tree.scan();
@@ -59,13 +68,15 @@ struct CacheWatch::Impl {
                                       pollfd{notify.number(), POLLIN, 0}};
         while (true) {
             int timeout_ms = 0;
-            {
+            try {
                 const std::scoped_lock lock(mutex);
                 if (notify.is_open()) read_events();
                 if (WatchClock::now() >= scanned + pause()) scan();
                 const auto left = scanned + pause() - WatchClock::now();
                 timeout_ms =
                     static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(left).count());
+            } catch (const std::exception&) {
+                timeout_ms = try_again_after_ms;
             }
             if (!stop.is_open()) timeout_ms = std::min(timeout_ms, look_for_the_end_every_ms);
             ::poll(waiting.data(), waiting.size(), std::max(timeout_ms, 1));
@@ -79,6 +90,7 @@ struct CacheWatch::Impl {
     std::atomic<bool> is_stopping = false;
     mutable std::mutex mutex;
     CacheTree tree;                    // guarded by mutex
+    bool is_missing_events = false;    // guarded by mutex
     WatchClock::time_point scanned{};  // guarded by mutex
     std::thread thread;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -52,6 +53,14 @@ struct WaitingChanges {
         if (std::exchange(has_lost, false)) taken = {{CacheEvent::everything, {}}};
         return taken;
     }
+    void lose() {
+        const std::scoped_lock lock(mutex);
+        has_lost = true;
+    }
+    [[nodiscard]] bool must_stop() {
+        const std::scoped_lock lock(mutex);
+        return is_stopping;
+    }
     void stop() {
         {
             const std::scoped_lock lock(mutex);
@@ -75,6 +84,7 @@ struct EventFeed::Impl {
           reader(options.reader) {}
 
     void begin();
+    void take_turn(SteadyTime& next_tick, SteadyTime& next_look);
     void run();
     void publish(std::vector<Event> events) {
         for (Event& event : events)
@@ -178,24 +188,29 @@ void EventFeed::Impl::take_grids(SteadyTime until) {
     publish(std::move(events));
 }
 
+void EventFeed::Impl::take_turn(SteadyTime& next_tick, SteadyTime& next_look) {
+    take_grids(std::min(next_tick, next_look));
+    const SteadyTime now = steady_now();
+    if (now >= next_look) {
+        next_look = now + options.look_every;
+        look_at_catalog(now);
+        publish(book.look(now_utc()));
+    }
+    if (now >= next_tick) {
+        next_tick = now + tick_every;
+        options.hub->tick();
+    }
+}
+
 void EventFeed::Impl::run() {
     SteadyTime next_tick = steady_now() + tick_every;
     SteadyTime next_look = steady_now() + options.look_every;
-    while (true) {
-        {
-            const std::scoped_lock lock(waiting->mutex);
-            if (waiting->is_stopping) return;
-        }
-        take_grids(std::min(next_tick, next_look));
-        const SteadyTime now = steady_now();
-        if (now >= next_look) {
-            next_look = now + options.look_every;
-            look_at_catalog(now);
-            publish(book.look(now_utc()));
-        }
-        if (now >= next_tick) {
-            next_tick = now + tick_every;
-            options.hub->tick();
+    while (!waiting->must_stop()) {
+        try {
+            take_turn(next_tick, next_look);
+        } catch (const std::exception&) {
+            // For want of memory. What was taken may be lost, so clients ask for everything anew.
+            waiting->lose();
         }
     }
 }

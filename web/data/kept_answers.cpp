@@ -36,6 +36,7 @@ Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
 struct KeptAnswers::Making {
     std::condition_variable done;
     std::optional<Result<Kept>> result;
+    bool is_over = false;  // without a result there was no memory for it
 };
 
 std::optional<Kept> KeptAnswers::find(const std::string& key) {
@@ -49,8 +50,14 @@ std::optional<Kept> KeptAnswers::find(const std::string& key) {
 void KeptAnswers::keep(const std::string& key, const Kept& value) {
     const std::uint64_t size = size_in_budget(key, value);
     if (size > budget_bytes_ / 4 || by_key_.contains(key)) return;
-    entries_.push_front({key, value});
-    by_key_[key] = entries_.begin();
+    const auto place = by_key_.try_emplace(key).first;
+    try {
+        entries_.push_front({key, value});
+    } catch (...) {
+        by_key_.erase(place);
+        throw;
+    }
+    place->second = entries_.begin();
     bytes_ += size;
     while (bytes_ > budget_bytes_) {
         const Entry& last = entries_.back();
@@ -68,17 +75,23 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
     if (const auto found = by_key_.find(key); found != by_key_.end()) return found->second->value;
     if (const auto other = making_.find(key); other != making_.end()) {
         const std::shared_ptr<Making> theirs = other->second;
-        theirs->done.wait(lock, [&] { return theirs->result.has_value(); });
-        return *theirs->result;
+        theirs->done.wait(lock, [&] { return theirs->is_over; });
+        if (theirs->result) return *theirs->result;
+        return fail(ErrorCode::exhausted, "there is no memory left for this answer");
     }
     const auto ours = std::make_shared<Making>();
     making_[key] = ours;
     lock.unlock();
     Result<Kept> made = made_in_file(make);
     lock.lock();
-    if (made) keep(key, *made);
     making_.erase(key);
-    ours->result = made;
+    try {
+        ours->result = made;
+        if (made) keep(key, *made);
+    } catch (const std::bad_alloc&) {
+        // It is sent, and not kept.
+    }
+    ours->is_over = true;
     ours->done.notify_all();
     return made;
 }

@@ -1,6 +1,7 @@
 #include "web/http/connection_watch.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include <linux/sockios.h>
@@ -44,7 +45,12 @@ ConnectionWatch::ConnectionWatch(ServerLimits limits, std::set<std::string> exem
     : limits_(limits), exempt_(std::move(exempt)), thread_([this] {
           std::unique_lock lock(mutex_);
           while (!ends_.wait_for(lock, look_every, [this] { return is_stopping_; })) {
-              const Streams over = look(std::chrono::steady_clock::now());
+              Streams over;
+              try {
+                  over = look(std::chrono::steady_clock::now());
+              } catch (const std::exception&) {
+                  // For want of memory; the next look does what was left.
+              }
               lock.unlock();
               for (const auto& stream : over)
                   stream->end();

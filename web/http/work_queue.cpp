@@ -1,14 +1,20 @@
 #include "web/http/work_queue.h"
 
 #include <algorithm>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
 namespace stormcellar::web {
 
 WorkQueue::WorkQueue(unsigned workers, std::size_t most_waiting) : most_waiting_(most_waiting) {
-    for (unsigned i = 0; i < std::max(1u, workers); ++i)
-        threads_.emplace_back([this] { run(); });
+    try {
+        for (unsigned i = 0; i < std::max(1u, workers); ++i)
+            threads_.emplace_back([this] { run(); });
+    } catch (const std::system_error&) {
+        // The system has no further thread: those that there are share the work.
+        if (threads_.empty()) throw;
+    }
 }
 
 WorkQueue::~WorkQueue() {

@@ -1,6 +1,7 @@
 #include "web/service/web_service.h"
 
 #include <algorithm>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <set>
@@ -117,7 +118,7 @@ Result<std::unique_ptr<WebService>> WebService::open(WebSetup setup) {
     return service;
 }
 
-Status WebService::serve() {
+Status WebService::serve() try {
     const auto measures = std::make_shared<Measures>();
     ServerOptions options = server_options_of(sources_.setup.web);
     auto sockets = open_listen_sockets(options.listen, sockets_);
@@ -135,6 +136,8 @@ Status WebService::serve() {
     // A server that was there ends now: this one listens already, so nobody waits for its end.
     server_ = std::move(*server);
     return {};
+} catch (const std::exception& error) {
+    return fail(ErrorCode::exhausted, "the server cannot begin: {}", error.what());
 }
 
 std::vector<std::string> WebService::addresses() const {

@@ -1,0 +1,59 @@
+// The watch of the cache when it cannot tell what it saw.
+#include "web/data/cache_watch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "stormcellar/cache/store.h"
+#include "tests/cache/made_grids.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::web {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::noon;
+
+// 2026-11-28: the program ended when there was no memory for the name of a grid that had come.
+TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
+    const testing::TemporaryDirectory directory;
+    auto store = *cache::StoreWriter::open(real_file_system(), directory / "cache", false);
+    std::atomic<bool> is_short = false;
+    std::mutex mutex;
+    std::vector<CacheEvent> told;
+    const auto watch = CacheWatch::open(directory / "cache", [&](const CacheChange& change) {
+        if (is_short.exchange(false)) throw std::bad_alloc();
+        const std::scoped_lock lock(mutex);
+        told.push_back(change.event);
+    });
+    ASSERT_TRUE(testing::commit_sized(store, "KBGM", noon - 5min));
+    watch->catch_up();
+    is_short = true;
+    ASSERT_TRUE(testing::commit_sized(store, "KBGM", noon));
+    const auto has_told = [&](CacheEvent event) {
+        const std::scoped_lock lock(mutex);
+        return std::ranges::count(told, event) > 0;
+    };
+    for (int i = 0; i < 500 && !has_told(CacheEvent::everything); ++i) {
+        try {
+            watch->catch_up();
+        } catch (const std::bad_alloc&) {
+            // It was this thread that met it.
+        }
+        std::this_thread::sleep_for(10ms);
+    }
+    EXPECT_TRUE(has_told(CacheEvent::everything));
+    ASSERT_TRUE(store.remove(store.list("KBGM", level2::Moment::ref, noon, noon)->front()));
+    watch->catch_up();
+    EXPECT_TRUE(has_told(CacheEvent::went)) << "it goes on";
+}
+
+}  // namespace
+}  // namespace stormcellar::web
