@@ -140,6 +140,39 @@ TEST_F(Thredds, AStationThatItsFilesPlaceHasAPlace) {
     EXPECT_EQ(count_in(query(box), "urlPath"), 0U) << "without a grid nobody knows";
 }
 
+// 2026-11-28: for each station that no table places, all stations were looked for again.
+TEST(ThreddsStations, AllPlacesAreAskedForAtOnce) {
+    class CountedFiles final : public RawFiles {
+      public:
+        Result<std::vector<RawStation>> stations() override {
+            ++asked;
+            std::vector<RawStation> all;
+            for (int i = 100; i < 200; ++i) {
+                RawStation& station = all.emplace_back();
+                station.icao = "Z" + std::to_string(i);
+                station.has_place = i % 2 == 0;
+                station.latitude_deg = 40;
+            }
+            return all;
+        }
+        Result<std::vector<RawVolume>> list(std::string_view, const RawRange&) override {
+            return std::vector<RawVolume>{};
+        }
+        OpenedOrMissing open(std::string_view, std::string_view) override {
+            return tl::unexpected(RawFailure{});
+        }
+        std::optional<OpenedVolume> open_kept(std::string_view, std::string_view) override {
+            return std::nullopt;
+        }
+        int asked = 0;
+    };
+    const auto files = std::make_shared<CountedFiles>();
+    ThreddsDoor door(files);
+    const std::string xml = body_of(asked(door, level2 + std::string{"/stations.xml"}));
+    EXPECT_EQ(count_in(xml, "<station "), 50U) << "the others have no place";
+    EXPECT_EQ(files->asked, 2);
+}
+
 TEST_F(Thredds, AnAnswerHasWhatClientsResolve) {
     const Answer answer = get(level2 + std::string{"?stn=KTLX&time=2017-01-01T03%3A30%3A00"});
     EXPECT_EQ(answer.status, 200U);

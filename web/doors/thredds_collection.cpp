@@ -65,10 +65,14 @@ Result<std::vector<ThreddsStation>> ThreddsCollection::stations() {
         ids = std::move(*all);
     }
     std::vector<ThreddsStation> stations;
-    for (const std::string& id : ids) {
-        ThreddsStation& station = stations.emplace_back(thredds_station(id, places_));
+    for (const std::string& id : ids)
+        stations.push_back(thredds_station(id, places_));
+    if (std::ranges::all_of(stations, &ThreddsStation::has_place)) return stations;
+    const std::vector<RawStation> placed = placed_by_files();
+    for (ThreddsStation& station : stations) {
         if (station.has_place) continue;
-        if (const auto own = placed_by_files(id)) set_place(station, *own);
+        const auto own = std::ranges::lower_bound(placed, station.id, {}, &RawStation::icao);
+        if (own != placed.end() && own->icao == station.id) set_place(station, *own);
     }
     return stations;
 }

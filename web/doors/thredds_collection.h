@@ -77,10 +77,8 @@ class ThreddsCollection {
     [[nodiscard]] const ConfiguredCollection& configured() const { return configured_; }
     // The identifiers of all stations that have files.
     [[nodiscard]] virtual Result<std::vector<std::string>> station_ids() = 0;
-    // Where the files of a station have it, if they say so.
-    [[nodiscard]] virtual std::optional<RawStation> placed_by_files(std::string_view /*id*/) {
-        return std::nullopt;
-    }
+    // The stations that the files place, sorted by ICAO.
+    [[nodiscard]] virtual std::vector<RawStation> placed_by_files() { return {}; }
 
   private:
     const ConfiguredCollection configured_;

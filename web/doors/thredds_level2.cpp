@@ -43,7 +43,7 @@ class Level2Collection final : public ThreddsCollection {
 
   protected:
     Result<std::vector<std::string>> station_ids() override;
-    std::optional<RawStation> placed_by_files(std::string_view id) override;
+    std::vector<RawStation> placed_by_files() override;
 
   private:
     // STATION/YYYYMMDD/NAME of a station that this data set has.
@@ -81,11 +81,11 @@ Result<std::vector<std::string>> Level2Collection::station_ids() {
     return ids;
 }
 
-std::optional<RawStation> Level2Collection::placed_by_files(std::string_view id) {
-    const auto stations = files_->stations();
-    if (!stations) return std::nullopt;
-    const auto found = std::ranges::find(*stations, id, &RawStation::icao);
-    return found != stations->end() && found->has_place ? std::optional(*found) : std::nullopt;
+std::vector<RawStation> Level2Collection::placed_by_files() {
+    auto stations = files_->stations();
+    if (!stations) return {};
+    std::erase_if(*stations, [](const RawStation& station) { return !station.has_place; });
+    return *std::move(stations);
 }
 
 Result<std::optional<UtcTime>> Level2Collection::oldest() {
