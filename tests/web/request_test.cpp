@@ -160,6 +160,15 @@ Reading read_through_proxy(Fields headers) {
     return read_request(raw_get("/", headers), identity_of(options));
 }
 
+// 2026-11-28: a proxy whose address of IPv6 was written with zeros or capitals was trusted in vain.
+TEST(ReadRequest, TrustsAProxyHoweverItsAddressIsWritten) {
+    ServerOptions options;
+    options.trusted_proxies = {"2001:DB8:0:0:0:0:0:1"};
+    RawRequest raw = raw_get("/", {{"Host", "localhost"}, {"X-Forwarded-For", "192.0.2.7"}});
+    raw.client = "2001:db8::1";
+    EXPECT_EQ(read_request(raw, identity_of(options)).request.client, "192.0.2.7");
+}
+
 // 2026-11-28: behind nginx, which adds X-Forwarded-For and passes Forwarded on, a client took all
 // streams of events as as many clients, and gave the links of answers another host.
 TEST(ReadRequest, DoesNotBelieveAClientThatAddsTheOtherKindOfForwardedField) {

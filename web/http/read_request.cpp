@@ -148,7 +148,9 @@ Identity identity_of(const ServerOptions& options) {
         identity.names.insert(
             lower_case(is_v6 ? fmt::format("[{}]", listen.address) : listen.address));
     }
-    identity.proxies = {options.trusted_proxies.begin(), options.trusted_proxies.end()};
+    // An address of IPv6 may be written in several ways.
+    for (const std::string& proxy : options.trusted_proxies)
+        identity.proxies.insert(read_address(proxy).value_or(proxy));
     identity.public_address = options.public_address;
     while (identity.public_address.ends_with('/'))
         identity.public_address.pop_back();
