@@ -1,6 +1,8 @@
 // Raw volumes by station and name (docs/web/raw.md).
 #include "web/doors/volumes.h"
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -152,6 +154,45 @@ TEST_F(Volumes, AVolumeThatGrowsIsGivenWithWhatIsThere) {
     EXPECT_TRUE(take(10));
     EXPECT_TRUE(take(20));
     EXPECT_FALSE(take(1000)) << "its last chunk came";
+}
+
+TEST_F(Volumes, JoinedChunksAreKeptWithinBounds) {
+    ServedVolumes served(false);
+    const std::string bytes = served.take_chunks(1000);
+    RawFilesOptions options;
+    options.catalog = served.state() / "catalog";
+    const auto is_kept = [&] {
+        const auto files = RawFiles::open_catalog(options);
+        const auto file = [&] {
+            const auto opened = files->open("KLOT", files->list("KLOT", {})->at(0).name).value();
+            return std::get<FileSlice>(opened.bytes.at(0)).file;
+        };
+        const auto first = file();
+        return file() == first;
+    };
+    EXPECT_TRUE(is_kept());
+    options.most_joined_bytes = bytes.size();
+    EXPECT_TRUE(is_kept());
+    options.most_joined_bytes = bytes.size() - 1;
+    EXPECT_FALSE(is_kept());
+    options.most_joined_bytes = bytes.size();
+    options.most_joined = 0;
+    EXPECT_FALSE(is_kept());
+}
+
+// 2026-11-28: without a directory for temporary files, the first client who asked for a volume of
+// chunks ended the server.
+TEST_F(Volumes, WithoutADirectoryForJoinedChunksTheClientComesBack) {
+    ServedVolumes served(false);
+    (void)served.take_chunks(1000);
+    door_ = std::make_unique<VolumesDoor>(
+        RawFiles::open_catalog({.catalog = served.state() / "catalog", .scratch = {}}));
+    const std::string name = list("/volumes/KLOT/").at("volumes").at(0).at("name");
+    ::setenv("TMPDIR", "/no/such/directory", 1);
+    const Answer answer = get("/volumes/KLOT/" + name);
+    ::unsetenv("TMPDIR");
+    EXPECT_EQ(answer.status, 503U);
+    EXPECT_EQ(body_of(answer).find("/no/such"), std::string::npos);
 }
 
 // 2026-11-28: the raw file of a volume whose chunks pqact had appended again had twice the size.

@@ -65,7 +65,7 @@ class CatalogRawFiles final : public RawFiles {
   public:
     explicit CatalogRawFiles(RawFilesOptions options)
         : options_(std::move(options)),
-          opener_(options_.scratch, options_.most_joined),
+          opener_(options_.scratch, options_.most_joined, options_.most_joined_bytes),
           reader_(options_.reader) {}
 
     Result<std::vector<RawStation>> stations() override;

@@ -84,14 +84,6 @@ struct RawFailure {
 };
 using OpenedOrMissing = tl::expected<OpenedVolume, RawFailure>;
 
-// A volume of a file that somebody named, without a catalog.
-struct GivenVolume {
-    std::string station;
-    UtcTime start{};
-    std::vector<std::filesystem::path> paths;  // one file, or its chunks in order
-    bool is_complete = true;
-};
-
 struct RawFilesOptions {
     std::filesystem::path catalog;
     // The same, if it is open already.
@@ -100,7 +92,8 @@ struct RawFilesOptions {
     std::shared_ptr<Grids> grids = nullptr;
     // Joined chunks stand here, in files without a name. Empty: the system's temporary directory.
     std::filesystem::path scratch;
-    std::size_t most_joined = 16;      // joined volumes kept; each has at most 1 GiB, usually 10 MB
+    std::size_t most_joined = 16;  // joined volumes kept; each has at most 1 GiB, usually 10 MB
+    std::uint64_t most_joined_bytes = std::uint64_t{256} << 20;  // of those
     std::size_t most_open = 64;        // descriptors of volumes kept open, for two seconds
     std::size_t most_databases = 256;  // of the catalog, each with three descriptors
 };
@@ -109,8 +102,6 @@ class RawFiles {
   public:
     // A catalog that does not exist (yet) has no volumes; that is no error.
     static std::shared_ptr<RawFiles> open_catalog(RawFilesOptions options);
-    // The files are opened when they are asked for, through links too, and may change meanwhile.
-    static std::shared_ptr<RawFiles> of_files(std::vector<GivenVolume> volumes);
     virtual ~RawFiles() = default;
 
     // Sorted by ICAO.

@@ -26,7 +26,6 @@ using catalog::FileState;
 constexpr std::size_t most_chunks = 2000;
 constexpr std::size_t most_remembered = 65'536;
 constexpr std::uint64_t most_raw_bytes = std::uint64_t{1} << 30;
-constexpr std::uint64_t most_joined_bytes = std::uint64_t{256} << 20;
 constexpr std::size_t hashed_at_once = std::size_t{1} << 20;
 
 tl::unexpected<RawFailure> missing(RawMissing why, std::string reason) {
@@ -266,7 +265,7 @@ void RawOpener::keep_joined(const std::string& key, const OpenedRaw& joined) {
     std::size_t count = 0;
     std::erase_if(joined_, [&](const auto& one) {
         bytes += one.second.size_bytes;
-        return ++count > most_joined_ || bytes > most_joined_bytes;
+        return ++count > most_joined_ || bytes > most_joined_bytes_;
     });
 }
 

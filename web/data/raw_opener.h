@@ -41,8 +41,11 @@ struct RawFacts {
 
 class RawOpener {
   public:
-    RawOpener(std::filesystem::path scratch, std::size_t most_joined)
-        : scratch_(std::move(scratch)), most_joined_(most_joined) {}
+    RawOpener(std::filesystem::path scratch, std::size_t most_joined,
+              std::uint64_t most_joined_bytes)
+        : scratch_(std::move(scratch)),
+          most_joined_(most_joined),
+          most_joined_bytes_(most_joined_bytes) {}
 
     [[nodiscard]] OpenedRawOrMissing open(const catalog::CatalogReader& catalog,
                                           const catalog::CatalogEntry& entry);
@@ -66,6 +69,7 @@ class RawOpener {
 
     const std::filesystem::path scratch_;
     const std::size_t most_joined_;
+    const std::uint64_t most_joined_bytes_;
     std::mutex mutex_;  // guards what follows
     std::map<State, std::uint64_t> hashes_;
     std::list<std::pair<std::string, OpenedRaw>> joined_;  // the most recently used first
