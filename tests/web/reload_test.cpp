@@ -186,7 +186,9 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
             std::this_thread::yield();
         // The one address is in the way of the other, so the old server must end first.
         setup_.web.listen = {{i % 2 == 0 ? "0.0.0.0" : "127.0.0.1", port_}};
-        (void)service_->reload(setup_);
+        const Status done = service_->reload(setup_);
+        const std::string why = done ? std::string{} : done.error().message;
+        EXPECT_EQ(why.find("Bad file descriptor"), std::string::npos);
         was_deaf = !service_->is_listening();
         if (was_deaf) {
             service_->look_again();

@@ -41,19 +41,19 @@ Result<Descriptor> listen_at(const ListenAddress& where) {
         return fail(ErrorCode::bad_argument, "{}:{} is not an address of a network interface",
                     where.address, where.port);
     }
+    const std::string what = fmt::format("cannot listen on {}:{}", where.address, where.port);
     Descriptor socket(
         ::socket(is_v6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (!socket.is_open()) return system_failure(what, errno);
     const int on = 1;
     ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     // Connections inherit it.
     ::setsockopt(socket.number(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent_bytes,
                  sizeof most_unsent_bytes);
     if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
-    if (!socket.is_open() ||
-        ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
+    if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
         ::listen(socket.number(), 1024) != 0) {
         const int reason = errno;
-        const std::string what = fmt::format("cannot listen on {}:{}", where.address, where.port);
         if (reason == EADDRINUSE) return fail(ErrorCode::busy, "{}: another program does", what);
         return system_failure(what, reason);
     }
