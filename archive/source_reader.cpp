@@ -1,0 +1,54 @@
+// Finds members of archives by their names.
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+
+#include "stormcellar/archive/archive_reader.h"
+#include "stormcellar/base/file_system.h"
+
+namespace stormcellar::archive {
+
+std::optional<MemberName> member_path_of(const std::filesystem::path& path) {
+    std::error_code error;
+    std::vector<MemberName> names = member_names_in(path);
+    if (names.empty() || std::filesystem::exists(path, error)) return std::nullopt;
+    for (MemberName& name : names) {
+        if (std::filesystem::is_regular_file(name.archive, error)) return std::move(name);
+    }
+    return std::nullopt;
+}
+
+std::optional<Member> find_member(int descriptor, const std::string& name, Limits limits) {
+    auto reader = ArchiveReader::open(descriptor, limits);
+    while (reader) {
+        auto member = reader->next();
+        if (!member || member->name == name) return member;
+    }
+    return std::nullopt;
+}
+
+Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& path) {
+    const auto name = member_path_of(path);
+    if (!name) return read_file(path);
+    // Searches on from where the last member was read, and then once from the start.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        if (!reader_ || archive_ != name->archive || attempt > 0) {
+            reader_.reset();
+            archive_ = name->archive;
+            file_ = Descriptor{::open(archive_.c_str(), O_RDONLY | O_CLOEXEC)};
+            reader_ = ArchiveReader::open(file_.number());
+            attempt = 1;
+        }
+        while (reader_) {
+            auto member = reader_->next();
+            if (!member) break;
+            if (member->name == name->member) return std::move(member->bytes);
+        }
+    }
+    reader_.reset();
+    return fail(ErrorCode::not_found, "{}: the archive does not have this member", path.native());
+}
+
+}  // namespace stormcellar::archive
