@@ -24,8 +24,9 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // the most that are named
 // libarchive may read this much for one header, and one block more. The header of a long name has a
-// few kilobytes.
-constexpr std::uint64_t most_header_bytes = std::uint64_t{1} << 20;
+// few kilobytes. Its time matters more than its memory: each entry of an access list is compared
+// with all before.
+constexpr std::uint64_t most_header_bytes = std::uint64_t{128} << 10;
 // A zip's directory is read with its first header: a member takes some 100 bytes.
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{16} << 20;
 
@@ -134,6 +135,7 @@ struct ArchiveReader::Impl {
     std::string inner_name;
     std::vector<std::byte> inner_bytes;
     std::unique_ptr<Impl> inner;
+    std::uint64_t given_before_inner = 0;
 
     // Returns false if it is not an archive. The library may take zeros for an empty archive.
     bool begin(std::span<const std::byte> start, PlainSource::ReadAt read_at) {
@@ -161,11 +163,17 @@ struct ArchiveReader::Impl {
 
     // The data of the member before are passed over first: they are no header.
     int read_header(::archive_entry*& entry, std::uint64_t most) {
+        const auto place = [this] { return archive_filter_bytes(handle.get(), 0); };
+        const la_int64_t start = place();
         header.begin(most);
         const int code = archive_read_next_header(handle.get(), &entry);
         header.end();
-        if (header.is_spent()) entry = nullptr;
-        return code;
+        // Reading a zip jumps; its members have no long headers.
+        if (!is_zip(handle.get()))
+            header.add(static_cast<std::uint64_t>(std::max<la_int64_t>(0, place() - start)));
+        if (!header.is_spent()) return code;
+        entry = nullptr;
+        return ARCHIVE_FATAL;
     }
 
     void leave_out(const std::string& name, std::string reason) {
@@ -204,7 +212,7 @@ struct ArchiveReader::Impl {
     // too long.
     bool end_at_bound() {
         if (header.is_spent() || of_source.is_spent()) {
-            end_with("has a header that is too long: the rest is not read");
+            end_with("has a header that is too long, or too many long ones: the rest is not read");
             return true;
         }
         if (!packed || packed->met_bound() == 0) return false;
@@ -314,6 +322,7 @@ struct ArchiveReader::Impl {
         inner_name = own_name(name);
         inner_bytes = std::move(bytes);
         inner = std::move(reader);
+        given_before_inner = given_bytes;
         return true;
     }
 
@@ -334,8 +343,13 @@ struct ArchiveReader::Impl {
                       std::move(one.reason));
         }
         is_cut = is_cut || inner->is_cut;
+        // What it unpacked only to pass over counts as well.
+        const std::uint64_t unpacked = inner->packed ? inner->packed->unpacked() : 0;
+        given_bytes =
+            std::max(given_bytes, given_before_inner + std::max(unpacked, inner->given_bytes));
         inner.reset();
         inner_bytes = {};
+        if (given_bytes > most_bytes()) end_with("unpacks to too many bytes: the rest is not read");
         return std::nullopt;
     }
 

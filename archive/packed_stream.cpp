@@ -10,7 +10,7 @@
 namespace stormcellar::archive {
 namespace {
 
-constexpr std::size_t unpacked_block_bytes = std::size_t{256} << 10;
+constexpr std::size_t unpacked_block_bytes = std::size_t{16} << 10;
 // A codec may read this much of the source before anything comes out.
 constexpr std::uint64_t most_source_bytes = std::uint64_t{4} << 20;
 constexpr int one_filter = 2;  // libarchive counts the source itself as one
@@ -33,6 +33,13 @@ bool HeaderBudget::take(::archive* handle, std::uint64_t bytes) {
     left_ -= std::min(left_, bytes);
     if (is_spent_) archive_set_error(handle, EFBIG, "a header is too long");
     return !is_spent_;
+}
+
+void HeaderBudget::add(std::uint64_t bytes) {
+    constexpr std::uint64_t usual_bytes = std::uint64_t{8} << 10;
+    constexpr std::uint64_t most_long_bytes = std::uint64_t{4} << 20;
+    long_bytes_ += bytes - std::min(bytes, usual_bytes);
+    is_spent_ = is_spent_ || long_bytes_ > most_long_bytes;
 }
 
 void CloseArchive::operator()(::archive* archive) const {

@@ -20,7 +20,8 @@ namespace stormcellar::archive {
 
 // Counts what libarchive reads while it looks for the next header. It keeps what a header says (the
 // map of a sparse file takes twelve times its size, the directory of a zip three times) before
-// anybody sees it, so this is the only place where that can be bounded.
+// anybody sees it, so this is the only place where that can be bounded. The source gives its bytes
+// in small blocks, because a block counts as a whole.
 class HeaderBudget {
   public:
     void begin(std::uint64_t most) {
@@ -28,12 +29,15 @@ class HeaderBudget {
         counts_ = true;
     }
     void end() { counts_ = false; }
+    // Counts a header that was read. Many long ones take as much time as a longer one.
+    void add(std::uint64_t bytes);
     // Returns false, and sets the handle's error, if a header is longer than it may be.
     [[nodiscard]] bool take(::archive* handle, std::uint64_t bytes);
     [[nodiscard]] bool is_spent() const { return is_spent_; }
 
   private:
     std::uint64_t left_ = 0;
+    std::uint64_t long_bytes_ = 0;  // of all headers, beyond what is usual
     bool counts_ = false;
     bool is_spent_ = false;
 };
@@ -66,6 +70,7 @@ class PackedStream {
     [[nodiscard]] bool feed(::archive* handle, HeaderBudget& header);
     // Returns the bound in bytes if it was reached.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
+    [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
 
   private:
     PackedStream(Handle source, HeaderBudget& of_source, Bound bound);

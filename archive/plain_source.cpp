@@ -10,7 +10,7 @@
 namespace stormcellar::archive {
 namespace {
 
-constexpr std::size_t plain_block_bytes = std::size_t{256} << 10;
+constexpr std::size_t plain_block_bytes = std::size_t{16} << 10;
 
 }  // namespace
 

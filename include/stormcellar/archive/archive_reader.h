@@ -8,7 +8,8 @@
 //
 // The input is hostile, so `Limits` bounds whatever it can claim: at a bound the reader stops and
 // says so. Data that is unpacked only to be passed over counts as well, and so does what one header
-// makes libarchive read (1 MiB; the directory of a zip 16 MiB). Sparse files are left out. From a
+// makes libarchive read (128 KiB, and 4 MiB of long headers together; the directory of a zip 16
+// MiB). Sparse files are left out. From a
 // damaged archive the reader returns the members that are whole. Formats, found by content with
 // libarchive: tar (also compressed by gzip, bzip2, xz, zstd or compress) and zip.
 //
