@@ -42,13 +42,15 @@ TriedFiles::TriedFiles(const std::filesystem::path& file) {
     write();
 }
 
-// Each entry is "ENDS RUNNING SIZE TIME PATH" and a zero. What makes no sense is passed over.
+// Each entry is "ENDS RUNNING SIZE TIME PATH" and a zero; an empty entry ends the list. What makes
+// no sense is passed over.
 void TriedFiles::read(const std::string& text) {
     std::string_view rest = text;
     while (!rest.empty()) {
         const std::size_t end = rest.find('\0');
         if (end == std::string_view::npos) return;
         std::string_view entry = rest.substr(0, end);
+        if (entry.empty()) return;
         rest.remove_prefix(end + 1);
         const auto ends = take_number(entry), running = take_number(entry);
         const auto size = take_number(entry), modified = take_number(entry);
@@ -71,6 +73,8 @@ void TriedFiles::write() {
                             tried.stamp.size_bytes, tried.stamp.modified_ns, path);
         text += '\0';
     }
+    // A process that ends before the file is cut leaves the rest of an older, longer list.
+    text += '\0';
     const ssize_t written = ::pwrite(file_.number(), text.data(), text.size(), 0);
     if (::ftruncate(file_.number(), std::max<ssize_t>(0, written)) != 0) file_ = Descriptor{};
 }

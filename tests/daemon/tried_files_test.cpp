@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "stormcellar/base/file_system.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -58,6 +59,30 @@ TEST_F(TriedFilesTest, AStartBetweenDoesNotCount) {
         EXPECT_THAT(TriedFiles(file()).waits(), ElementsAre(Pair(bomb, seconds{2})));
     fs::remove(bomb);
     EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
+}
+
+// 2026-11-28: the process was killed between writing a list and cutting its file, and the rest of
+// the list before was taken for files that were under way.
+TEST_F(TriedFilesTest, TheRestOfAnOlderListDoesNotCount) {
+    const fs::path first = make("first"), second = make("second");
+    {
+        TriedFiles tried(file());
+        tried.begin(first, stamp(first));
+        tried.begin(second, stamp(second));
+    }
+    const auto older = read_file(file());
+    ASSERT_TRUE(older);
+    fs::remove(file());
+    TriedFiles(file()).begin(first, stamp(first));
+    const auto newer = read_file(file());
+    ASSERT_TRUE(newer);
+    ASSERT_LT(newer->size(), older->size());
+    std::string both;
+    for (const auto* bytes : {&*newer, &*older})
+        both.append(reinterpret_cast<const char*>(bytes->data()) + both.size(),
+                    bytes->size() - both.size());
+    write_file(file(), both);
+    EXPECT_THAT(TriedFiles(file()).waits(), ElementsAre(Pair(first, seconds{2})));
 }
 
 TEST_F(TriedFilesTest, WhatMakesNoSenseIsPassedOver) {
