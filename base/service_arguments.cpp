@@ -2,6 +2,12 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
+
+#include "base/printable.h"
+
 namespace stormcellar {
 
 Result<ServiceArguments> parse_service_arguments(
@@ -30,6 +36,17 @@ Result<ServiceArguments> parse_service_arguments(
     if (!arguments.help && !arguments.version && !arguments.config)
         return fail(ErrorCode::bad_argument, "--config FILE must be given");
     return arguments;
+}
+
+std::string checked_as(std::string_view program, std::string_view service_user) {
+    if (::geteuid() == 0) {
+        return fmt::format(
+            "checked as the user root, who may read everything; as the service: sudo -u {} {} ...",
+            service_user, program);
+    }
+    const passwd* const user = ::getpwuid(::geteuid());
+    return fmt::format("checked as the user {}",
+                       user == nullptr ? fmt::format("{}", ::geteuid()) : printable(user->pw_name));
 }
 
 }  // namespace stormcellar

@@ -1,6 +1,6 @@
 // base/service_arguments.h -- the arguments of a service: --config FILE, and little else.
 //
-// Threads   A pure function.
+// Threads   Functions without state.
 // Errors    bad_argument for anything else, and if there is no file.
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 
 #include "stormcellar/base/result.h"
@@ -24,5 +25,9 @@ struct ServiceArguments {
 // `own_flags` are what this service takes beside, as "--no-loops".
 [[nodiscard]] Result<ServiceArguments> parse_service_arguments(
     int argc, char** argv, std::initializer_list<std::string_view> own_flags = {});
+
+// Returns "checked as the user NAME", for --check-config. Root is told how to check as the service,
+// because it may read everything and so learns nothing of what the service may read.
+[[nodiscard]] std::string checked_as(std::string_view program, std::string_view service_user);
 
 }  // namespace stormcellar

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <pwd.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -85,16 +84,6 @@ std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
         directory = directory.parent_path();
     return std::filesystem::is_directory(directory, error) ? "" : directory;
-}
-
-// Returns the name of the user whose rights this process has. Root learns nothing of what the
-// service may read.
-std::string own_user() {
-    if (::geteuid() == 0)
-        return "root, who may read everything; as the service: sudo -u stormcellar stormcellard "
-               "...";
-    const passwd* user = ::getpwuid(::geteuid());
-    return user == nullptr ? fmt::format("{}", ::geteuid()) : printable(user->pw_name);
 }
 
 // Reports what is valid but may not be intended.
@@ -247,7 +236,7 @@ int run(int argc, char** argv) {
                                                             fine.error().message)});
         }
         print_notes(*config);
-        fmt::print("checked as the user {}\n{}: ok\n", own_user(),
+        fmt::print("{}\n{}: ok\n", checked_as("stormcellard", "stormcellar"),
                    printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }

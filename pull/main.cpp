@@ -117,7 +117,8 @@ int run(int argc, char** argv) {
     const Result<PullConfig> config = load_pull_config(*arguments->config);
     if (!config) return complain(config.error());
     if (!arguments->check) return pull(*config, *arguments->config);
-    fmt::print("{}: ok\n", printable(arguments->config->native()));
+    fmt::print("{}\n{}: ok\n", checked_as("stormcellar-pull", "stormcellar-pull"),
+               printable(arguments->config->native()));
     return EXIT_SUCCESS;
 }
 

@@ -1,0 +1,21 @@
+// What the services say when they have checked a configuration.
+#include "base/service_arguments.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace stormcellar {
+namespace {
+
+// 2026-11-28: stormcellar-pull did not say as whom it checked, and root, who may read everything,
+// was told that all is well.
+TEST(ServiceArguments, TheCheckSaysAsWhom) {
+    const std::string as = checked_as("stormcellar-pull", "stormcellar-pull");
+    EXPECT_THAT(as, ::testing::StartsWith("checked as the user "));
+    if (::geteuid() != 0) return;
+    EXPECT_THAT(as, ::testing::EndsWith("sudo -u stormcellar-pull stormcellar-pull ..."));
+}
+
+}  // namespace
+}  // namespace stormcellar
