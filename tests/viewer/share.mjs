@@ -48,6 +48,13 @@ try {
   await evaluate(`window.copied = undefined; document.getElementById('moment-VEL').click(); document.getElementById('command').click()`);
   check(`while another moment comes there is none: ${await evaluate("document.getElementById('state').textContent")}`, !(await evaluate('window.copied')) && (await evaluate("document.getElementById('state').textContent")).includes('not complete'));
   await page.until("document.documentElement.dataset.drawn?.includes('/VEL/')", 60);
+  // 2026-11-28: the command drew range-folded air as clear.
+  await evaluate('window.copied = undefined');
+  await press('command');
+  check(`a veil has none: ${await evaluate("document.getElementById('state').textContent")}`, !(await evaluate('window.copied')) && (await evaluate("document.getElementById('state').textContent")).includes('veil'));
+  await viewer.show(`domain=${station}&moment=VEL&azimuth=200&tilt=60&zoom=2&folded=0`);
+  await press('command');
+  check('without it there is one', (await page.until('window.copied')).includes('--moment VEL'));
   // What cannot be said is not offered (2026-11-28: of several layers it drew one without a word).
   await viewer.show(link.split('#')[1]);
   await evaluate('window.copied = undefined');

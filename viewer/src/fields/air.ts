@@ -11,11 +11,12 @@ export interface Air {
     size: [number, number, number]; // along x, y, z
     // Of each coarse cell, x fastest: the shares of not seen and of range folded, 0 to 255.
     shares: Uint8Array;
+    hasFolded: boolean; // some of it is range folded
 }
 
 export function airOf(grid: PackedGrid): Air {
     const size: Air['size'] = [Math.ceil(grid.nx / airCellsAcross), Math.ceil(grid.ny / airCellsAcross), Math.ceil(grid.nz / airCellsUp)];
-    const air: Air = { size, shares: new Uint8Array(2 * size[0] * size[1] * size[2]) };
+    const air: Air = { size, shares: new Uint8Array(2 * size[0] * size[1] * size[2]), hasFolded: false };
     const layer = size[0] * size[1];
     const codes = new Uint16Array(grid.nx * grid.ny);
     for (let z = 0; z < size[2]; ++z) {
@@ -34,6 +35,7 @@ export function airOf(grid: PackedGrid): Air {
         }
         for (let i = 0; i < layer; ++i) {
             for (let kind = 0; kind < 2; ++kind) air.shares[2 * (z * layer + i) + kind] = Math.round((255 * counts[3 * i + kind]!) / counts[3 * i + 2]!);
+            air.hasFolded ||= counts[3 * i + 1]! > 0;
         }
     }
     return air;

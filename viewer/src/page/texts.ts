@@ -132,7 +132,6 @@ export const texts = {
     commandReadsCache: 'It reads the cache of this server.',
     commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
     commandFlat: 'It draws the layer as a map of the grid.',
-    commandWithoutFolded: 'It leaves out range-folded air.',
     noCommand: {
         nothing: 'There is no picture yet.',
         coming: 'The picture is not complete yet.',
@@ -145,6 +144,7 @@ export const texts = {
         haze: 'No command draws haze or the veil without the volume.',
         mosaic: 'No command draws a sweep of a mosaic. Choose its radar to copy one.',
         noSweep: 'No sweep is shown.',
+        veil: 'No command draws the veil of range-folded air. Switch it off to copy one.',
         limits: 'No command draws this view: its perspective, height, section or size is beyond the limits.',
         several: 'A command draws one layer. Hide the others to copy one.',
         none: 'No layer is shown.',

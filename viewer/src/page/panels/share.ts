@@ -1,6 +1,6 @@
 // Taking along what is shown: the address, the command that draws the same, the picture, the grid.
 
-import { beyondCommand, veilsFolded } from '../../scene/layers';
+import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
 import { commandOf, isBeyondLimits } from '../../scene/view_state';
 import { LoadedGrid } from '../../renderer/renderer';
@@ -75,6 +75,7 @@ function whyNoCommand(app: App, drawing: Drawing): string {
     if (!state.hasGround) return words.ground;
     const beyond = beyondCommand(state.layers, shown.loaded.grid.sites.length);
     if (beyond) return words[beyond];
+    if (drawing.drawn?.hasFolded && drawing.drawn.air?.hasFolded) return words.veil;
     const size = drawing.geometry();
     if (isBeyondLimits(state, size?.width ?? 0, size?.height ?? 0)) return words.limits;
     return state.layers.sweepDeg !== null && !drawing.layers?.shownCut() ? words.noSweep : '';
@@ -93,7 +94,6 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     const notes = [
         raw ? texts.commandReads(raw) : texts.commandReadsCache,
         state.layers.hasVolume ? '' : texts.commandFlat,
-        state.layers.hasVolume && veilsFolded(state.layers, moment) ? texts.commandWithoutFolded : '',
     ];
     const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', texts.commandCopied);
