@@ -1,6 +1,11 @@
 #include "web/http/connection_watch.h"
 
 #include <gtest/gtest.h>
+#include <linux/tcp.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "stormcellar/base/descriptor.h"
 
 namespace stormcellar::web {
 namespace {
@@ -26,6 +31,27 @@ TEST(ConnectionWatch, AnIpv6NetworkOf64BitsIsOneClient) {
     EXPECT_TRUE(watch.may_open("2001:db8:0:2::2")) << "and takes none of its neighbor's";
     watch.closed(made_connection(1));
     EXPECT_TRUE(watch.may_open("2001:db8::3"));
+}
+
+int most_unsent(int socket) {
+    int bytes = 0;
+    socklen_t size = sizeof bytes;
+    EXPECT_EQ(::getsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &bytes, &size), 0);
+    return bytes;
+}
+
+// 2026-11-28: the kernel held megabytes for each of a thousand slow readers; with little for each
+// client a volume took twice the processor time.
+TEST(ConnectionWatch, TheKernelHoldsLittleOfManyBodies) {
+    const Descriptor first{::socket(AF_INET, SOCK_STREAM, 0)};
+    const Descriptor last{::socket(AF_INET, SOCK_STREAM, 0)};
+    ConnectionWatch watch({}, {});
+    watch.opened(made_connection(1), first.number(), "192.0.2.1");
+    EXPECT_EQ(most_unsent(first.number()), 2 << 20);
+    for (std::uintptr_t other = 2; other <= 128; ++other)
+        watch.opened(made_connection(other), -1, "192.0.2.1");
+    watch.opened(made_connection(129), last.number(), "192.0.2.1");
+    EXPECT_EQ(most_unsent(last.number()), 256 << 10);
 }
 
 }  // namespace

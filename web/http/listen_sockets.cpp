@@ -6,7 +6,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -14,10 +13,6 @@
 
 namespace stormcellar::web {
 namespace {
-
-// So much of an answer waits in the kernel beyond what the client's window takes: without a bound
-// it is megabytes for each client that reads slowly.
-constexpr int most_unsent_bytes = 256 * 1024;
 
 Result<Descriptor> listen_at(const ListenAddress& where) {
     const bool is_v6 = where.address.find(':') != std::string::npos;
@@ -48,8 +43,6 @@ Result<Descriptor> listen_at(const ListenAddress& where) {
     const int on = 1;
     ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     // Connections inherit it.
-    ::setsockopt(socket.number(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent_bytes,
-                 sizeof most_unsent_bytes);
     if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
     if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
         ::listen(socket.number(), 1024) != 0) {
