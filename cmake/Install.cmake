@@ -24,7 +24,8 @@ install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
   DESTINATION ${STORMCELLAR_CMAKE_DIR} COMPONENT development)
 # Every document, so that each link from one to another leads somewhere
 # (tests/repository/documents_test.cpp).
-install(FILES README.md CONTRIBUTING.md GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md GLOSSARY.md SECURITY.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES bunzip/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/bunzip)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The Debian package says it in its copyright file.
