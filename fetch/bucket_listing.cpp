@@ -57,6 +57,8 @@ Result<ListingPage> parse_listing(std::span<const std::byte> xml) {
         if (!object) return fail(ErrorCode::corrupt, "the listing names an object without a size");
         page.objects.push_back(std::move(*object));
     }
+    for (const pugi::xml_node& node : root.children("CommonPrefixes"))
+        page.folders.emplace_back(node.child_value("Prefix"));
     if (std::string_view{root.child_value("IsTruncated")} != "true") return page;
     page.next_token = root.child_value("NextContinuationToken");
     if (page.next_token.empty()) {
@@ -70,6 +72,16 @@ std::string listing_url(std::string_view source, std::string_view prefix, std::s
     std::string url = fmt::format("{}/?list-type=2&prefix={}", without_slash(source),
                                   percent_encoded(prefix, false));
     if (!token.empty()) url += "&continuation-token=" + percent_encoded(token, false);
+    return url;
+}
+
+std::string listing_url(std::string_view source, const ListingQuestion& question) {
+    std::string url = listing_url(source, question.prefix, question.token);
+    if (!question.start_after.empty())
+        url += "&start-after=" + percent_encoded(question.start_after, false);
+    if (question.by_folders) url += "&delimiter=%2F";
+    if (question.most_keys != ListingQuestion{}.most_keys)
+        url += fmt::format("&max-keys={}", question.most_keys);
     return url;
 }
 

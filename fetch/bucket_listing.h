@@ -29,7 +29,16 @@ struct BucketObject {
 
 struct ListingPage {
     std::vector<BucketObject> objects;
-    std::string next_token;  // empty: this is the last page
+    std::vector<std::string> folders;  // prefixes that a listing by folders names, with a last '/'
+    std::string next_token;            // empty: this is the last page
+};
+
+struct ListingQuestion {
+    std::string prefix;
+    std::string start_after = {};  // only keys behind this one; empty: all
+    bool by_folders = false;       // name the folders below the prefix instead of their objects
+    int most_keys = 1000;          // of a page
+    std::string token = {};        // of the last page; empty: the first page is wanted
 };
 
 // Parses a page. Errors: corrupt if the text is not a listing, or says that it continues and not
@@ -39,6 +48,7 @@ struct ListingPage {
 // `source` is the address of the bucket, "https://HOST" or "https://HOST/BUCKET".
 [[nodiscard]] std::string listing_url(std::string_view source, std::string_view prefix,
                                       std::string_view token);
+[[nodiscard]] std::string listing_url(std::string_view source, const ListingQuestion& question);
 [[nodiscard]] std::string object_url(std::string_view source, std::string_view key);
 
 // Returns "2017/01/01/KTLX/" for each day from `from` to `to` and each station. The day before

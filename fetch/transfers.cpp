@@ -11,7 +11,6 @@ namespace {
 
 constexpr int longest_poll_ms = 100;  // how often the flag is checked
 constexpr long connect_timeout_s = 20;
-constexpr long most_redirects = 5;
 constexpr long http_ok = 200;
 constexpr long http_partial = 206;
 constexpr long http_range = 416;
@@ -19,6 +18,7 @@ constexpr long http_changed = 412;
 constexpr long http_too_many = 429;
 constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
+constexpr std::chrono::hours most_retry_after{24};
 
 // Forbidden, not found, gone.
 bool is_for_good(long status) {
@@ -132,14 +132,18 @@ bool Transfers::start(Transfer transfer) {
     if (running->easy == nullptr) return false;
     CURL* const easy = running->easy;
     const std::string range = fmt::format("{}-", running->transfer.from_byte);
-    const std::string agent = fmt::format("stormcellar/{}", software_version);
+    const std::string agent = fmt::format("{}/{}", options_.agent, software_version);
     curl_easy_setopt(easy, CURLOPT_URL, running->transfer.url.c_str());
     curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
     // A request over https must not be redirected to http.
     const bool is_safe = running->transfer.url.starts_with("https");
     curl_easy_setopt(easy, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
-    curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 1L);
-    curl_easy_setopt(easy, CURLOPT_MAXREDIRS, most_redirects);
+    curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, options_.most_redirects > 0 ? 1L : 0L);
+    curl_easy_setopt(easy, CURLOPT_MAXREDIRS, options_.most_redirects);
+    if (options_.is_direct || !options_.proxy.empty())
+        curl_easy_setopt(easy, CURLOPT_PROXY, options_.proxy.c_str());
+    if (!options_.ca_file.empty()) curl_easy_setopt(easy, CURLOPT_CAINFO, options_.ca_file.c_str());
+    curl_easy_setopt(easy, CURLOPT_TIMEOUT, static_cast<long>(options_.longest.count()));
     curl_easy_setopt(easy, CURLOPT_USERAGENT, agent.c_str());
     curl_easy_setopt(easy, CURLOPT_NOSIGNAL, 1L);
     curl_easy_setopt(easy, CURLOPT_FILETIME, 1L);
@@ -197,6 +201,11 @@ void Transfers::finish_done() {
         curl_off_t modified = -1;
         curl_easy_getinfo(running->easy, CURLINFO_FILETIME_T, &modified);
         if (modified >= 0) outcome.modified = UtcTime{std::chrono::seconds{modified}};
+        outcome.status = status;
+        curl_off_t wait_s = 0;
+        curl_easy_getinfo(running->easy, CURLINFO_RETRY_AFTER, &wait_s);
+        outcome.retry_after =
+            std::clamp<std::chrono::seconds>(std::chrono::seconds{wait_s}, {}, most_retry_after);
         if (!outcome.good) {
             outcome.may_be_tried_again =
                 !running->was_refused && (is_passing(code, status) || status == http_range ||

@@ -1,6 +1,6 @@
 // fetch/transfers.h -- HTTP GETs, several at a time, with libcurl.
 //
-// This is used only inside the module stormcellar_fetch.
+// The module stormcellar_fetch and the program stormcellar-feed use this; both bring libcurl.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -41,8 +41,10 @@ struct Transfer {
         bool may_be_tried_again = false;
         // it cannot continue at from_byte; only the whole object can be had
         bool part_is_useless = false;
-        bool is_refused = false;  // the server answered, and will not give it
-        std::string reason;       // set if it is not good
+        bool is_refused = false;              // the server answered, and will not give it
+        std::string reason;                   // set if it is not good
+        long status = 0;                      // of HTTP; 0: no answer
+        std::chrono::seconds retry_after{0};  // how long the server asks to wait
         std::optional<UtcTime> modified;
     };
     // May add further transfers, including this one with another from_byte.
@@ -51,7 +53,13 @@ struct Transfer {
 
 struct TransferOptions {
     int parallel = 8;
-    std::chrono::seconds stall{30};
+    std::chrono::seconds stall{30};   // a transfer without a byte for so long fails
+    std::chrono::seconds longest{0};  // a whole transfer; 0: any time
+    long most_redirects = 5;
+    std::string proxy = {};             // an address; empty: as the environment says, or as below
+    bool is_direct = false;             // without a proxy, whatever the environment says
+    std::string ca_file = {};           // certificates to trust; empty: those of the system
+    std::string agent = "stormcellar";  // the program's name for the server
 };
 
 class Transfers {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <system_error>
 
-#include "base/byte_size.h"
 #include "base/printable.h"
+#include "base/service_keys.h"
 #include "base/toml_file.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
@@ -16,36 +16,11 @@ namespace {
 constexpr std::size_t most_sources = 32;  // each has a thread
 constexpr std::size_t most_domains = 64;
 constexpr std::size_t most_stations = 1024;
-constexpr std::size_t longest_url = 512;
 
 // tests/pull/pull_config_test.cpp reads the shipped file, which has all of them.
 constexpr const char* tables_of_others[] = {"paths",  "ingest",  "cache", "domain",
                                             "loop",   "catalog", "watch", "partials",
-                                            "status", "station", "web"};
-
-// A scheme that is spoken, a host, and nothing that a request or a log should not hold.
-bool is_address(std::string_view url) {
-    const std::string_view scheme = url.starts_with("https://") ? "https://" : "http://";
-    if (!url.starts_with(scheme) || url.size() > longest_url) return false;
-    const std::string_view rest = url.substr(scheme.size());
-    const auto is_plain = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string_view{".-_~:/[]%"}.find(c) != std::string_view::npos;
-    };
-    return !rest.empty() && rest.front() != '/' && rest.front() != ':' &&
-           std::ranges::all_of(rest, is_plain);
-}
-
-void read_bytes(TomlTable& pull, std::uint64_t& bytes) {
-    if (pull.is_text("bytes")) {
-        const auto size = parse_byte_size(*pull.text("bytes"));
-        if (size && *size >= 1'000'000) bytes = *size;
-        if (!size) pull.complain("bytes", size.error().message);
-        if (size && *size < 1'000'000) pull.complain("bytes", "must be at least 1 MB");
-    } else if (const auto number = pull.number("bytes", {1e6, 9e18})) {
-        bytes = static_cast<std::uint64_t>(*number);
-    }
-}
+                                            "status", "station", "web",   "feed"};
 
 void read_domains(TomlTable& from, PullSource& source) {
     const auto domains = from.texts("domains");
@@ -82,7 +57,7 @@ void read_source(TomlTable from, std::vector<PullSource>& sources) {
         from.complain("name", "must be letters, digits, _ and -: it is a directory");
     } else if (std::ranges::any_of(sources, is_taken)) {
         from.complain("name", fmt::format("{} is named twice", source.name));
-    } else if (!is_address(source.url)) {
+    } else if (!is_web_address(source.url)) {
         from.complain("url", "must be an address such as http://north.example.org:8090");
     }
     read_domains(from, source);
@@ -103,7 +78,7 @@ void read_pull(TomlTable pull, const std::filesystem::path& file, PullConfig& co
         config.age = std::chrono::seconds{std::llround(*hours * 3600)};
     if (const auto seconds = pull.whole_number("stall_seconds", {1, 600}))
         config.stall = std::chrono::seconds{*seconds};
-    read_bytes(pull, config.bytes_a_source);
+    read_bytes(pull, "bytes", config.bytes_a_source);
     const auto tables = pull.tables("from");
     if (tables.size() > most_sources) pull.complain("from", "names too many machines");
     for (const TomlTable& from : tables)
@@ -118,13 +93,7 @@ Result<PullConfig> load_pull_config(const std::filesystem::path& file) {
     TomlTable root = toml->root();
     PullConfig config;
     read_pull(root.section("pull"), file, config);
-    TomlTable log = root.section("log");
-    if (const auto level = log.text("level")) {
-        const bool is_known =
-            *level == "debug" || *level == "info" || *level == "warning" || *level == "error";
-        if (is_known) config.log_level = *level;
-        if (!is_known) log.complain("level", "must be one of debug, info, warning, error");
-    }
+    read_log_level(root, config.log_level);
     for (const char* const table : tables_of_others)
         root.leave(table);
     if (const Status read = toml->finish(); !read) return pass_on(read);

@@ -59,8 +59,8 @@ ScriptedServer::ScriptedServer(std::function<Reply(const Asked&)> answer)
 ScriptedServer::~ScriptedServer() {
     stop_ = true;
     thread_.join();
-    for (std::thread& one : answering_)
-        one.join();
+    for (Answering& one : answering_)
+        one.thread.join();
     ::close(listener_);
 }
 
@@ -84,11 +84,23 @@ void ScriptedServer::serve() {
         if (::poll(&ready, 1, 20) != 1) continue;
         const int connection = ::accept(listener_, nullptr, nullptr);
         if (connection < 0) continue;
-        answering_.emplace_back([this, connection] {
+        join_done();
+        Answering& one = answering_.emplace_back();
+        one.thread = std::thread([this, &one, connection] {
             answer(connection);
             ::close(connection);
+            one.is_done = true;
         });
     }
+}
+
+// A test may ask thousands of times, and each thread that is not joined keeps its stack.
+void ScriptedServer::join_done() {
+    answering_.remove_if([](Answering& one) {
+        const bool is_done = one.is_done;
+        if (is_done) one.thread.join();
+        return is_done;
+    });
 }
 
 void ScriptedServer::answer(int connection) {

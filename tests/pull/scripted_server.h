@@ -42,8 +42,13 @@ class ScriptedServer {
     void forget_asked();
 
   private:
+    struct Answering {
+        std::atomic<bool> is_done{false};
+        std::thread thread;
+    };
     void serve();
     void answer(int connection);
+    void join_done();
 
     const std::function<Reply(const Asked&)> answer_;
     int listener_ = -1;
@@ -51,7 +56,7 @@ class ScriptedServer {
     std::atomic<bool> stop_{false};
     mutable std::mutex mutex_;  // guards asked_
     std::vector<Asked> asked_;
-    std::list<std::thread> answering_;
+    std::list<Answering> answering_;
     std::thread thread_;
 };
 

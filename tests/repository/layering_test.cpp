@@ -42,6 +42,7 @@ const std::map<std::string, Rooms> allowed = {
      {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache", "render", "export",
       "pipeline"}},
     {"pull", {"base", "cache", "grid", "level2"}},
+    {"feed", {"base", "fetch", "level2"}},
     {"cli",
      {"base", "accuracy", "archive", "batch", "bunzip", "fetch", "level2", "catalog", "grid",
       "cache", "render", "synth", "export", "pipeline", "web"}},

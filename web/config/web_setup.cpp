@@ -12,8 +12,8 @@ namespace stormcellar::web {
 namespace {
 
 // tests/web/web_setup_test.cpp reads the shipped file, which has all of them.
-constexpr std::array<std::string_view, 9> tables_of_others = {
-    "ingest", "cache", "domain", "partials", "loop", "catalog", "watch", "status", "pull"};
+constexpr std::array<std::string_view, 10> tables_of_others = {
+    "ingest", "cache", "domain", "partials", "loop", "catalog", "watch", "status", "pull", "feed"};
 
 void read_directory(TomlTable& paths, std::string_view key, const std::filesystem::path& file,
                     std::filesystem::path& directory) {
