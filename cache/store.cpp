@@ -6,10 +6,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/unsynced_files.h"
 #include "cache/directories.h"
 #include "cache/leftover_watch.h"
 #include "cache/roller.h"
-#include "cache/unsynced_files.h"
 
 namespace stormcellar::cache {
 namespace {

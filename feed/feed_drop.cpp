@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/unsynced_files.h"
 #include "stormcellar/base/station_table.h"
 
 namespace stormcellar::feed {
@@ -54,6 +55,10 @@ Status FeedDrop::read_volumes(const fs::path& directory, const std::string& pref
         std::error_code gone;
         const std::uint64_t size = key ? fs::file_size(directory / name, gone) : 0;
         if (!key || gone) continue;
+        if (size == 0) {
+            if (Status removed = file_system_->remove(directory / name); !removed) return removed;
+            continue;
+        }
         volumes_[{key->volume, key->station}] += size;
         bytes_ += size;
     }
@@ -74,10 +79,12 @@ Status FeedDrop::write(const ChunkKey& key, std::span<const std::byte> bytes) {
         return fail(error == std::errc::no_space_on_device ? ErrorCode::no_space : ErrorCode::io,
                     "{}: {}", path.parent_path().native(), error.message());
     }
-    if (Status written = write_file_atomically(*file_system_, path, bytes); !written)
-        return written;
-    volumes_[{key.volume, key.station}] += bytes.size();
-    bytes_ += bytes.size();
+    const std::uint64_t replaced = fs::file_size(path, error);
+    UnsyncedFiles unsynced(*file_system_);
+    if (Status written = write_file_atomically(unsynced, path, bytes); !written) return written;
+    const std::uint64_t more = bytes.size() - (error ? 0 : replaced);
+    volumes_[{key.volume, key.station}] += more;
+    bytes_ += more;
     return {};
 }
 

@@ -1,11 +1,13 @@
 // feed/feed_drop.h -- the directory into which chunks are written, with LDM's names.
 //
-// A chunk lies at SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E, as its key says. It appears there whole
-// and synced, or not at all; while it is written it has a temporary name, which stormcellard passes
-// over. The directory itself says what was written: there is no other record of it.
-// Volumes are removed when they are older than the limit, and the oldest when all of them take more
-// than the limit of bytes. Only files with names of chunks are removed, and what a killed writer
-// left. One process writes to a directory.
+// A chunk lies at SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E, as its key says. It appears there whole,
+// or not at all; while it is written it has a temporary name, which stormcellard passes over.
+// Nothing waits for the disk, because thirty chunks may come in a second and the bucket has them
+// for hours: a power cut may lose the last ones, or leave them empty, and open() removes empty
+// ones, so that they are fetched again. The directory itself says what was written; there is no
+// other record of it. Volumes are removed when they are older than the limit, and the oldest when
+// all of them take more than the limit of bytes. Only files with names of chunks are removed, and
+// what a killed writer left. One process writes to a directory.
 //
 // Units     Sizes are in bytes.
 // Threads   One thread at a time.
@@ -34,7 +36,7 @@ struct DropLimits {
 
 class FeedDrop {
   public:
-    // Creates the directory if it is missing, and reads what is in it.
+    // Creates the directory if it is missing, reads what is in it, and sweeps up.
     static Result<FeedDrop> open(FileSystem& file_system, std::filesystem::path directory,
                                  DropLimits limits, UtcTime now);
 

@@ -21,14 +21,13 @@ void PollPace::count(SteadyTime now) {
 void PollPace::note_news(SteadyTime now, milliseconds between_chunks) {
     news_ = now;
     between_chunks_ = between_chunks;
-    in_vain_ = silent_turns_ = failures_ = 0;
+    silent_turns_ = failures_ = 0;
 }
 
 void PollPace::note_nothing(SteadyTime now) {
     count(now);
     failures_ = 0;
     between_chunks_ = milliseconds{0};
-    ++in_vain_;
     if (is_silent(now)) ++silent_turns_;
 }
 

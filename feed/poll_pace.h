@@ -30,7 +30,6 @@ class PollPace {
     void note_nothing(SteadyTime now);
     void note_failure(SteadyTime now, std::chrono::seconds retry_after);
     [[nodiscard]] bool is_silent(SteadyTime now) const { return now - news_ >= silent_after; }
-    [[nodiscard]] int in_vain() const { return in_vain_; }  // listings since the last news
     // `is_urgent`: the answer only led to the next question, so it follows at once.
     [[nodiscard]] std::chrono::milliseconds pause(SteadyTime now, bool is_urgent = false);
 
@@ -42,7 +41,7 @@ class PollPace {
     std::minstd_rand chance_;
     SteadyTime news_ = steady_now();
     std::chrono::milliseconds between_chunks_{0}, asked_pause_{0};
-    int in_vain_ = 0, silent_turns_ = 0, failures_ = 0;
+    int silent_turns_ = 0, failures_ = 0;
     std::deque<SteadyTime> counted_;  // listings that brought nothing, the last most_in_vain_
 };
 

@@ -43,7 +43,7 @@ StationStatus StationFeed::status() const {
 void StationFeed::ask(std::chrono::milliseconds wait) {
     ++status_.listings;
     const SteadyTime now = steady_now();
-    tools_.client.list(follower_.question(now, pace_.is_silent(now), pace_.in_vain()), wait,
+    tools_.client.list(follower_.question(now, pace_.is_silent(now)), wait,
                        [this](Result<fetch::ListingPage> answer) { take(std::move(answer)); });
 }
 

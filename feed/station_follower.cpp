@@ -64,7 +64,7 @@ void StationFollower::leave_previous() {
     previous_.reset();
 }
 
-fetch::ListingQuestion StationFollower::question(SteadyTime now, bool is_silent, int in_vain) {
+fetch::ListingQuestion StationFollower::question(SteadyTime now, bool is_silent) {
     if (previous_ && (previous_->chunks.is_whole() || now >= previous_->until)) leave_previous();
     const bool is_open = current_ && !current_->chunks.is_whole();
     if (search_) {
@@ -74,7 +74,7 @@ fetch::ListingQuestion StationFollower::question(SteadyTime now, bool is_silent,
         previous_->next_look = now + between_looks;
         asked_ = Asked::previous;
         question_ = question_of(*previous_);
-    } else if (is_open && (in_vain % every_fourth == every_fourth - 1) == is_silent) {
+    } else if (is_open && (in_vain_ % every_fourth == every_fourth - 1) == is_silent) {
         asked_ = Asked::current;
         question_ = question_of(*current_);
     } else {
@@ -150,6 +150,13 @@ std::vector<StationFollower::Chunk> StationFollower::chunks_in(const fetch::List
 StationFollower::News StationFollower::take(const fetch::ListingPage& answer, UtcTime utc,
                                             SteadyTime now) {
     if (asked_ == Asked::search) return take_search(answer, utc);
+    News news = new_in(answer, utc, now);
+    in_vain_ = news.chunks.empty() ? in_vain_ + 1 : 0;
+    return news;
+}
+
+StationFollower::News StationFollower::new_in(const fetch::ListingPage& answer, UtcTime utc,
+                                              SteadyTime now) {
     const std::vector<Chunk> listed = chunks_in(answer, utc);
     News news;
     const auto add_new_of = [&](const Followed& volume) {

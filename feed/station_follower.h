@@ -51,8 +51,7 @@ class StationFollower {
     // searched.
     StationFollower(std::string station, const std::vector<VolumeId>& written, SteadyTime now);
 
-    // `in_vain`: how many listings in a row brought nothing.
-    [[nodiscard]] fetch::ListingQuestion question(SteadyTime now, bool is_silent, int in_vain);
+    [[nodiscard]] fetch::ListingQuestion question(SteadyTime now, bool is_silent);
 
     struct Chunk {
         ChunkKey key;
@@ -83,6 +82,7 @@ class StationFollower {
     [[nodiscard]] fetch::ListingQuestion question_of(const Followed& volume) const;
     [[nodiscard]] fetch::ListingQuestion question_of_directory(bool is_silent);
     [[nodiscard]] int next_directory(bool is_silent);
+    [[nodiscard]] News new_in(const fetch::ListingPage& answer, UtcTime utc, SteadyTime now);
     [[nodiscard]] News take_search(const fetch::ListingPage& answer, UtcTime utc);
     [[nodiscard]] std::vector<Chunk> chunks_in(const fetch::ListingPage& answer, UtcTime utc) const;
     void begin(const VolumeId& id, SteadyTime now);
@@ -94,7 +94,8 @@ class StationFollower {
     std::optional<Followed> current_, previous_;
     Asked asked_ = Asked::search;
     fetch::ListingQuestion question_;
-    int probes_ = 0;  // of a silent station
+    int in_vain_ = 0;  // answers in a row that had nothing new
+    int probes_ = 0;   // of a silent station
     std::uint64_t missing_ = 0;
 };
 

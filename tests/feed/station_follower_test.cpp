@@ -25,15 +25,13 @@ class Following : public ::testing::Test {
     std::vector<std::string> turns(int turns) {
         std::vector<std::string> came;
         for (int i = 0; i < turns; ++i) {
-            const auto question =
-                follower_->question(steady_, steady_ - news_ >= seconds{60}, in_vain_);
+            const auto question = follower_->question(steady_, steady_ - news_ >= seconds{60});
             questions_.push_back(question.prefix);
             auto news = follower_->take(listed(keys_, question), start + elapsed_, steady_);
             for (const auto& chunk : news.chunks) {
                 came.push_back(to_string(chunk.key));
                 follower_->note_done(chunk.key);
             }
-            in_vain_ = news.chunks.empty() ? in_vain_ + 1 : 0;
             if (!news.chunks.empty()) news_ = steady_;
             if (news.is_urgent) continue;
             steady_ += seconds{4};
@@ -63,7 +61,6 @@ class Following : public ::testing::Test {
     std::unique_ptr<StationFollower> follower_;
     SteadyTime steady_ = steady_now(), news_ = steady_;
     seconds elapsed_{0};
-    int in_vain_ = 0;
 };
 
 TEST_F(Following, BeginsWithTheVolumeBeforeTheNewestAndGoesOn) {
@@ -207,7 +204,7 @@ TEST_F(Following, JunkIsLeftOut) {
 
 TEST_F(Following, WhatWasNotAskedIsLeftOut) {
     begin({{start, 494}});
-    const auto question = follower_->question(steady_, false, 0);
+    const auto question = follower_->question(steady_, false);
     fetch::ListingPage lies;
     for (const char* text : {"KFDR/494/20261128-120000-001-S", "KTLX/493/20261128-120000-001-S",
                              "KTLX/494/20261128-115959-001-S"})

@@ -1,5 +1,5 @@
-// cache/unsynced_files.h -- a file system that does not wait for the disk. Used only inside the
-// cache room.
+// base/unsynced_files.h -- a file system that does not wait for the disk, for files that can be had
+// again.
 //
 // Threads   Those of the file system behind it.
 #pragma once
@@ -11,7 +11,7 @@
 
 #include "stormcellar/base/file_system.h"
 
-namespace stormcellar::cache {
+namespace stormcellar {
 
 class UnsyncedFiles final : public FileSystem {
   public:
@@ -39,4 +39,4 @@ class UnsyncedFiles final : public FileSystem {
     FileSystem& inner_;
 };
 
-}  // namespace stormcellar::cache
+}  // namespace stormcellar
