@@ -69,20 +69,18 @@ void add_latencies(Row& row, const std::string& name, const std::vector<double>&
     row.emplace_back(name + "_max_s", Cell{quantile(seconds, 1), 2});
 }
 
-// Makes a chunk visible and waits until the feed and the daemon have made of it what they will.
-void play(ChunkBucket& bucket, const std::string& key, std::string contents, const fs::path& drop,
-          const GridWatch& watch, Latencies& latencies) {
+// Makes a chunk visible and watches what becomes of it, for `rest_s` longer than that may take.
+void play(ChunkBucket& bucket, const std::string& key, const std::string& contents,
+          const fs::path& drop, const GridWatch& watch, double rest_s, Latencies& latencies) {
     const auto visible = Clock::now();
-    bucket.put(key, std::move(contents));
+    bucket.put(key, contents);
     std::optional<double> file_s, grid_s;
-    while (seconds_from(visible) < longest_wait_s &&
-           (!file_s || seconds_from(visible) < *file_s + settle_s)) {
+    while (seconds_from(visible) < file_s.value_or(longest_wait_s) + settle_s + rest_s) {
         watch.wait(0.005);
         if (!file_s && fs::exists(drop / key)) file_s = seconds_from(visible);
         watch.read([&](std::string_view) {
             if (!grid_s) grid_s = seconds_from(visible);
         });
-        if (grid_s) break;
     }
     if (file_s) latencies.file_s.push_back(*file_s);
     if (grid_s) latencies.grid_s.push_back(*grid_s);
@@ -113,10 +111,9 @@ Result<Latencies> measure_set(const fs::path& set, const std::string& station,
     Latencies latencies;
     std::mt19937 chance(1);
     std::uniform_real_distribution<double> wait(0, every_s);
-    for (auto one = std::next(chunks.begin()); one != chunks.end(); ++one) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(wait(chance)));
-        play(bucket, station + "/7/" + one->first, one->second, daemon.drop(), watch, latencies);
-    }
+    for (auto one = std::next(chunks.begin()); one != chunks.end(); ++one)
+        play(bucket, station + "/7/" + one->first, one->second, daemon.drop(), watch, wait(chance),
+             latencies);
     if (!process->stop() || !daemon.stop())
         return fail(ErrorCode::io, "a program did not end well");
     return latencies;

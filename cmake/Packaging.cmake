@@ -23,10 +23,10 @@ set(CPACK_INSTALL_CMAKE_PROJECTS
   "${PROJECT_BINARY_DIR};stormcellar;debian;/")
 set(CPACK_STRIP_FILES ON)
 
-# Fonts and time zones are files that no shared library asks for; adduser is for machines without
+# Fonts, time zones and certificates are files that no shared library asks for; adduser is for machines without
 # systemd-sysusers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "adduser, fonts-dejavu-core, tzdata")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "adduser, ca-certificates, fonts-dejavu-core, tzdata")
 set(debian ${PROJECT_SOURCE_DIR}/packaging/debian)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/postinst ${debian}/prerm ${debian}/postrm
   ${debian}/conffiles)

@@ -11,6 +11,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t least_counted = std::uint64_t{16} << 10;
+constexpr std::size_t most_removed = 200;
+
+std::uint64_t counted_bytes(std::uint64_t size) {
+    return std::max(size, least_counted);
+}
+
 // Names below a directory; none if it cannot be read. Links are not followed.
 std::vector<std::string> names_in(const fs::path& directory, fs::file_type type) {
     std::vector<std::string> names;
@@ -59,8 +66,8 @@ Status FeedDrop::read_volumes(const fs::path& directory, const std::string& pref
             if (Status removed = file_system_->remove(directory / name); !removed) return removed;
             continue;
         }
-        volumes_[{key->volume, key->station}] += size;
-        bytes_ += size;
+        volumes_[{key->volume, key->station}] += counted_bytes(size);
+        bytes_ += counted_bytes(size);
     }
     return {};
 }
@@ -82,7 +89,7 @@ Status FeedDrop::write(const ChunkKey& key, std::span<const std::byte> bytes) {
     const std::uint64_t replaced = fs::file_size(path, error);
     UnsyncedFiles unsynced(*file_system_);
     if (Status written = write_file_atomically(unsynced, path, bytes); !written) return written;
-    const std::uint64_t more = bytes.size() - (error ? 0 : replaced);
+    const std::uint64_t more = counted_bytes(bytes.size()) - (error ? 0 : counted_bytes(replaced));
     volumes_[{key.volume, key.station}] += more;
     bytes_ += more;
     return {};
@@ -97,7 +104,7 @@ std::vector<VolumeId> FeedDrop::newest_of(const std::string& station, std::size_
 
 std::size_t FeedDrop::prune(UtcTime now) {
     std::size_t removed = 0;
-    while (!volumes_.empty()) {
+    while (!volumes_.empty() && removed < most_removed) {
         const UtcTime newest = std::min(now, volumes_.rbegin()->first.first.time);
         const Volume oldest = volumes_.begin()->first;
         if (oldest.first.time >= newest - limits_.age && bytes_ <= limits_.bytes) break;

@@ -9,7 +9,8 @@
 // all of them take more than the limit of bytes. Only files with names of chunks are removed, and
 // what a killed writer left. One process writes to a directory.
 //
-// Units     Sizes are in bytes.
+// Units     Sizes are in bytes. A chunk counts for 16 KiB at least, so that a limit of bytes also
+//           bounds the number of files.
 // Threads   One thread at a time.
 // Errors    Those of files.
 #pragma once
@@ -43,7 +44,7 @@ class FeedDrop {
     // Returns true if the chunk is there with this size.
     [[nodiscard]] bool has(const ChunkKey& key, std::uint64_t size) const;
     Status write(const ChunkKey& key, std::span<const std::byte> bytes);
-    // Removes what is beyond the limits. Returns the number of volumes that were removed.
+    // Removes what is beyond the limits, 200 volumes at a time. Returns how many were removed.
     std::size_t prune(UtcTime now);
 
     // Returns the newest volumes of the station, at most `most`, oldest first.

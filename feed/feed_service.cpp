@@ -12,7 +12,7 @@ namespace stormcellar::feed {
 namespace {
 
 constexpr std::chrono::minutes gone_on_with{20};
-constexpr std::chrono::seconds between_prunes{60};
+constexpr std::chrono::seconds between_prunes{20};
 constexpr std::size_t volumes_gone_on_with = 2;
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST_F(Dropping, WhatWasWrittenIsKnownAgain) {
         write(drop, key("KFDR", 3, drop_now + hours{1}, 1));
     }
     FeedDrop drop = open();
-    EXPECT_EQ(drop.bytes(), 500U);
+    EXPECT_EQ(drop.bytes(), 5U * 16'384);
     EXPECT_EQ(drop.newest_of("KTLX", 2),
               (std::vector<VolumeId>{{drop_now + minutes{10}, 999}, {drop_now + minutes{15}, 1}}));
     EXPECT_TRUE(drop.newest_of("KVNX", 2).empty());
@@ -72,7 +72,7 @@ TEST_F(Dropping, OldVolumesAreRemovedAndNothingElse) {
     write(drop, key("KTLX", 2, drop_now, 1));
     std::ofstream(root() / "KTLX/1/notes.txt") << "mine";
     EXPECT_EQ(drop.prune(drop_now), 2U);
-    EXPECT_EQ(drop.bytes(), 200U);
+    EXPECT_EQ(drop.bytes(), 2U * 16'384);
     std::vector<std::string> left;
     for (const auto& [name, contents] : files_below(root()))
         left.push_back(name);
@@ -82,13 +82,21 @@ TEST_F(Dropping, OldVolumesAreRemovedAndNothingElse) {
 }
 
 TEST_F(Dropping, TheOldestGiveWayToTheLimitOfBytes) {
-    FeedDrop drop = open({hours{6}, 1000});
+    FeedDrop drop = open({hours{6}, 100'000});
     for (int i = 0; i < 5; ++i)
-        write(drop, key("KTLX", 10 + i, drop_now + minutes{i}, 1), 300);
+        write(drop, key("KTLX", 10 + i, drop_now + minutes{i}, 1), 30'000);
     EXPECT_EQ(drop.prune(drop_now), 2U);
-    EXPECT_EQ(drop.bytes(), 900U);
+    EXPECT_EQ(drop.bytes(), 90'000U);
     EXPECT_FALSE(fs::exists(root() / "KTLX/11"));
     EXPECT_TRUE(fs::exists(root() / "KTLX/12"));
+}
+
+TEST_F(Dropping, ChunksOfOneByteAreBoundedToo) {
+    FeedDrop drop = open({hours{6}, 100'000});
+    for (int i = 1; i <= 20; ++i)
+        write(drop, key("KTLX", i, drop_now + minutes{i}, 1), 1);
+    EXPECT_EQ(drop.prune(drop_now + minutes{20}), 14U);
+    EXPECT_EQ(files_below(root()).size(), 6U);
 }
 
 TEST_F(Dropping, AWrongClockRemovesNothing) {
@@ -122,9 +130,9 @@ TEST_F(Dropping, AfterAPowerCutNoChunkIsThereInPart) {
 
 TEST_F(Dropping, AChunkThatIsWrittenAgainIsCountedOnce) {
     FeedDrop drop = open();
-    write(drop, key("KTLX", 494, drop_now, 1), 300);
-    write(drop, key("KTLX", 494, drop_now, 1), 200);
-    EXPECT_EQ(drop.bytes(), 200U);
+    write(drop, key("KTLX", 494, drop_now, 1), 30'000);
+    write(drop, key("KTLX", 494, drop_now, 1), 20'000);
+    EXPECT_EQ(drop.bytes(), 20'000U);
 }
 
 TEST_F(Dropping, LinksAreNotFollowed) {
