@@ -10,7 +10,7 @@ namespace stormcellar::feed {
 namespace {
 
 // Connections at a time. Each costs memory, most of it for certificates.
-constexpr int parallel = 16;
+constexpr int parallel = 12;
 constexpr std::chrono::seconds longest_transfer{60};
 constexpr std::uint64_t most_page_bytes = std::uint64_t{1} << 20;
 // A directory holds at most 999 chunks of each round of the ring, and a page 1,000.

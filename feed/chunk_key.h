@@ -6,7 +6,7 @@
 //
 // Units     Times are those of the radar: the start of the volume.
 // Threads   Plain values and pure functions.
-// Errors    None; a key of another form gives none.
+// Errors    None; a key of another form gives std::nullopt.
 #pragma once
 
 #include <chrono>

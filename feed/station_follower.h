@@ -1,14 +1,14 @@
 // feed/station_follower.h -- decides what to list next for a station, and what is new in an answer.
 //
-// It follows one volume: it lists the keys behind the last chunk without a gap before it, so a late
-// chunk is seen as well as the next. When the volume is whole, or nothing came four times in a row,
-// it lists the directory of the next number, from an hour before this volume on; what is older
-// there is of an earlier round of the ring. A later volume in the same directory is followed as
-// well. A volume that is left with gaps or without its end is looked at again every 15 s for a
-// minute. When a station is silent, it also looks for newer chunks where the station may have gone
-// on: one number further, at number 1, and in steps around the whole ring.
+// It follows one volume. It lists the keys behind the last chunk without a gap before it, so it
+// sees a late chunk as well as the next one. When the volume is whole, and at each fourth listing
+// in vain, it lists the directory of the next number instead, from an hour before this volume on;
+// older keys belong to an earlier round of the ring. It also follows a later volume in the same
+// directory. It looks again every 15 s, for a minute, at a volume that it left with gaps or without
+// its end. When a station is silent, it also looks where the station may have gone on: one number
+// further, at number 1, and in steps around the whole ring.
 //
-// It knows neither the bucket nor the disk, and no clock but the ones it is given.
+// The caller asks the bucket, writes the chunks and passes the time.
 //
 // Threads   Plain data: one thread at a time.
 #pragma once
@@ -26,7 +26,7 @@
 
 namespace stormcellar::feed {
 
-// Which chunks of a volume were dealt with.
+// The chunks of a volume that were written or given up.
 class VolumeChunks {
   public:
     [[nodiscard]] bool has(int number) const {

@@ -111,7 +111,7 @@ Result<std::unique_ptr<Transfers>> Transfers::make(TransferOptions options) {
     transfers->multi_ = curl_multi_init();
     if (transfers->multi_ == nullptr)
         return fail(ErrorCode::exhausted, "libcurl cannot be started");
-    // Connections that stay open cost 3 MB each over TLS, most of it for certificates.
+    // Connections that stay open cost 4 MB each over TLS, most of it for certificates.
     curl_multi_setopt(transfers->multi_, CURLMOPT_MAXCONNECTS, static_cast<long>(options.parallel));
     return transfers;
 }

@@ -1,6 +1,9 @@
 // Which keys are chunks, and that nothing else becomes a path.
 #include "feed/chunk_key.h"
 
+#include <algorithm>
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace stormcellar::feed {
@@ -56,6 +59,38 @@ TEST(ChunkKey, NothingElseIsTaken) {
                             "KTLX/494/L2-BZIP2_KTLX_20220317000842_494_1_S_V06_0",
                             "KTLX/494/19700101-000842-001-S"})
         EXPECT_FALSE(parse_chunk_key(key, now)) << key;
+}
+
+// Whatever a bucket names, what is taken is a path of three parts without anything odd in it.
+TEST(ChunkKey, OfChangedKeysOnlySuchAreTakenThatAreWrittenTheSame) {
+    std::mt19937 chance(1);
+    const std::string good = "KTLX/494/20220317-000842-001-S";
+    const std::string letters = "0123456789-/.SIEKX_ %\\\n";
+    int taken = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        std::string text = good;
+        for (int changes = static_cast<int>(chance() % 3); changes >= 0; --changes) {
+            const std::size_t at = chance() % text.size();
+            const char letter = letters[chance() % letters.size()];
+            switch (chance() % 3) {
+                case 0:
+                    text[at] = letter;
+                    break;
+                case 1:
+                    text.insert(at, 1, letter);
+                    break;
+                default:
+                    text.erase(at, 1);
+            }
+        }
+        const auto key = parse_chunk_key(text, now);
+        if (!key) continue;
+        ++taken;
+        ASSERT_EQ(to_string(*key), text);
+        ASSERT_EQ(std::ranges::count(text, '/'), 2) << text;
+        ASSERT_EQ(text.find(".."), std::string::npos) << text;
+    }
+    EXPECT_GT(taken, 1000);
 }
 
 TEST(ChunkKey, OneOfTheFutureIsNotTaken) {
