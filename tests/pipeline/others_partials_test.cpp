@@ -197,6 +197,19 @@ TEST_F(OthersPartials, FramesThatAKilledDaemonDidNotMakeAreMade) {
     EXPECT_EQ(mended(*again), 0) << "what is as it should be stays";
 }
 
+// 2026-11-28: forged parts kept the thread for three minutes without a beat.
+TEST_F(OthersPartials, EachFrameOfAPartIsABeat) {
+    const auto merging = node("merging");
+    take(*merging, "a", first);
+    auto partial = brought("a", third);
+    std::size_t beats = 0;
+    partial.beat = [&] { ++beats; };
+    const auto kept = merging->mosaics.take_partial(partial, 1);
+    ASSERT_TRUE(kept) << kept.error().message;
+    EXPECT_GT(kept->frames.size(), 1U);
+    EXPECT_GE(beats, kept->frames.size());
+}
+
 TEST_F(OthersPartials, AFrameWhosePartsLeftTheCacheStays) {
     const auto one = node("one");
     for (const auto& partial : {first, other_first, second, other_second, third, other_third})

@@ -215,11 +215,14 @@ TEST_F(Pulling, AMachineOfJunkIsLeftAloneAndLeavesNothing) {
         return Reply{200, std::string(200, 'j'), "ETag: \"j\"\r\n", Reply::Way::whole};
     };
     const auto north = puller();
+    ::testing::internal::CaptureStderr();
     for (int i = 0; i < 3; ++i) {
         const Status done = north->turn();
         ASSERT_FALSE(done);
         EXPECT_THAT(done.error().message, HasSubstr("16 grids in a row were refused"));
     }
+    const std::string log = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::ranges::count(log, '\n'), 20) << "lines of a minute";
     EXPECT_EQ(north->status().refused, 48U);
     EXPECT_EQ(north->remembered(), 16U) << "what is no longer listed is forgotten";
     EXPECT_EQ(north->pause(), std::chrono::milliseconds{4000});
