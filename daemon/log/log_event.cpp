@@ -59,6 +59,7 @@ constexpr std::array<std::string_view, event_count> names = {
     "loop_failed",
     "partial_taken",
     "partial_refused",
+    "partial_replaced",
     "frame_problem",
     "machine_late",
     "machine_back",

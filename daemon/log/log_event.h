@@ -74,6 +74,7 @@ enum class Event {
     // about other machines
     partial_taken,
     partial_refused,
+    partial_replaced,
     frame_problem,
     machine_late,
     machine_back,

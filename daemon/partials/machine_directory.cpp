@@ -70,6 +70,11 @@ void MachineDirectory::refuse(const cache::GridName& name) {
     if (seen != seen_.end()) seen->second.is_refused = true;
 }
 
+bool MachineDirectory::has(const cache::GridName& name) const {
+    const auto seen = seen_.find(name);
+    return seen != seen_.end() && !seen->second.is_refused;
+}
+
 std::vector<cache::GridName> MachineDirectory::known() const {
     std::vector<cache::GridName> names;
     for (const auto& [name, seen] : seen_)

@@ -40,6 +40,8 @@ class MachineDirectory final : public WatchListener {
     void forget(const cache::GridName& name) { seen_.erase(name); }
     // Leaves a partial alone until its file is another one.
     void refuse(const cache::GridName& name);
+    // Returns true if the machine has the partial, and it was not refused.
+    [[nodiscard]] bool has(const cache::GridName& name) const;
     // The partials that were seen, are not news and were not refused.
     [[nodiscard]] std::vector<cache::GridName> known() const;
 

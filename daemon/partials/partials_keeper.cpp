@@ -201,10 +201,29 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
         log_warning({Event::frame_problem}, "a frame of parts: {}", printable(problem));
     machine.last_news = steady_now();
     machine.facts.arrived = now_utc();
+    if (kept->won) note_rival(machine, name, *kept->won);
     if (kept->partials.empty()) return;
     ++machine.facts.taken;
     log_debug(about, "partial of {}: {} {}, {} frames, in {:.0f} ms", machine.facts.name,
               name.domain, format_utc(name.time), kept->frames.size(), 1000 * seconds_since(start));
+}
+
+// Machines with the same files bring the same partials, so two partials of a whole volume differ
+// only if the files do, or if a machine lies.
+void PartialsKeeper::note_rival(Machine& machine, const cache::GridName& name, bool won) {
+    for (Machine& other : machines_) {
+        if (&other == &machine || !other.directory->has(name)) continue;
+        Machine &winner = won ? machine : other, &loser = won ? other : machine;
+        ++winner.facts.replaced;
+        const About about{.event = Event::partial_replaced,
+                          .volume = name.time,
+                          .file = winner.directory->path() / cache::relative_path(name),
+                          .domain = name.domain};
+        return log_warning(about,
+                           "partial of {}: {} {} takes the place of another one, of {}; name the "
+                           "stations of each machine in [partials.stations]",
+                           winner.facts.name, name.domain, format_utc(name.time), loser.facts.name);
+    }
 }
 
 void PartialsKeeper::refuse(Machine& machine, const cache::GridName& name, const Error& why) {
@@ -223,7 +242,9 @@ void PartialsKeeper::refuse(Machine& machine, const cache::GridName& name, const
 void PartialsKeeper::judge() {
     std::optional<UtcTime> newest;
     for (Machine& machine : machines_) {
+        // A volume of the future makes no other machine late.
         machine.facts.newest = of_.sources->newest_of(machine.facts.name);
+        if (machine.facts.newest) machine.facts.newest = std::min(*machine.facts.newest, now_utc());
         if (machine.facts.newest)
             newest = std::max(newest.value_or(UtcTime{}), *machine.facts.newest);
     }

@@ -7,7 +7,9 @@
 // that the cache had already are looked at, and made again if they lack one.
 //
 // Stations that the configuration lists for a machine ([partials.stations]) come from the machines
-// that list them, and from no other.
+// that list them, and from no other. Of other stations, the better of two different partials of a
+// volume counts, whoever brought it, so that the frames do not depend on which came first. If a
+// partial takes the place of that of another machine, the log and the status say so.
 //
 // A machine is late while it has brought nothing for the allowed time, or while its newest volume
 // is that much older than the newest of any machine. The frames themselves decide for each instant
@@ -72,6 +74,7 @@ class PartialsKeeper {
     bool mend_one();
     [[nodiscard]] bool is_wanted(const cache::GridName& name) const;
     void take(Machine& machine, const cache::GridName& name);
+    void note_rival(Machine& machine, const cache::GridName& name, bool won);
     void refuse(Machine& machine, const cache::GridName& name, const Error& why);
     void judge();
     void publish();

@@ -19,6 +19,7 @@ struct MachineFacts {
     std::optional<UtcTime> arrived = {};  // when it last brought something
     std::uint64_t taken = 0;              // partials that are in the cache since the start
     std::uint64_t refused = 0;            // files that are no partial of a mosaic, or damaged
+    std::uint64_t replaced = 0;           // partials of others that its own took the place of
     bool is_late = false;
     std::string why = {};           // it is late; empty: it is not
     std::string last_problem = {};  // with its directory or a file; empty: there was none

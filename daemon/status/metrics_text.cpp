@@ -269,6 +269,9 @@ void write_machines(MetricsWriter& out, const StatusFacts& facts, UtcTime now) {
     all("stormcellar_machine_refused_total", Type::counter,
         "Files of the machine that are damaged, or no parts of a mosaic.",
         [](const MachineFacts& machine) { return machine.refused; });
+    all("stormcellar_machine_replaced_total", Type::counter,
+        "Parts of other machines that parts of the machine took the place of.",
+        [](const MachineFacts& machine) { return machine.replaced; });
     ages("stormcellar_machine_last_arrival_age_seconds",
          "Time since the machine last brought something.", &MachineFacts::arrived);
     ages("stormcellar_machine_newest_volume_age_seconds",

@@ -116,6 +116,7 @@ Json json_of(const MachineFacts& machine, UtcTime now) {
             {"arrived_age_s", age_or_null(machine.arrived, now)},
             {"taken", machine.taken},
             {"refused", machine.refused},
+            {"replaced", machine.replaced},
             {"last_problem", text_or_null(machine.last_problem)}};
 }
 

@@ -69,6 +69,9 @@ struct Kept {
     std::vector<std::filesystem::path> partials, frames;
     std::size_t updated = 0;            // frames of which unchanged bricks were copied
     std::vector<std::string> problems;  // what was left out, and why
+    // The cache had another partial of the same volume, both are of whole volumes, and this one
+    // took its place (true) or yielded to it (false).
+    std::optional<bool> won = {};
 };
 
 // A frame that was made and now exists.

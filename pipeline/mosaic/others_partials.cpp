@@ -114,7 +114,11 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
         note_frames(*domain, partial, view.middle());
         return kept;
     }
+    const bool are_rivals =
+        stands && !stands->description().provenance.partial && !grid.provenance.partial;
+    if (are_rivals) kept.won = false;
     if (reason_to_keep(*path, {grid, view.view, true})) return kept;
+    if (are_rivals) kept.won = true;
     const auto committed = store_->commit(partial.name.domain, grid, view.view);
     if (!committed) return of_storing(committed.error());
     // Zeros are read where a map was cut meanwhile.

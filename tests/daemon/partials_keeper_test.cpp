@@ -147,6 +147,65 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     EXPECT_EQ(south().refused, 1U);
 }
 
+// 2026-11-28: an empty part with the time of an honest one and a later end took its place in every
+// frame, and nothing was logged.
+TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
+    start();
+    bring("north", early);
+    bring("north", later);
+    ASSERT_TRUE(comes([&] { return north().taken == 2; }));
+    InventedPartial forged = early;
+    forged.longer_ms = 1;
+    std::string log;
+    {
+        ::testing::internal::CaptureStdout();
+        bring("south", forged);
+        EXPECT_TRUE(comes([&] { return south().replaced == 1; }));
+        bring("north", early);
+        keeper_.reset();
+        log = ::testing::internal::GetCapturedStdout();
+    }
+    EXPECT_THAT(log,
+                HasSubstr("partial of south: north.KBGM 2005-08-22T02:44:00Z takes the place of "
+                          "another one, of north"));
+}
+
+TEST_F(PartialsKeeperTest, APartThatCameBeforeThatOfAnotherMachineIsNamedToo) {
+    InventedPartial forged = early;
+    forged.longer_ms = 1;
+    start();
+    bring("south", forged);
+    ASSERT_TRUE(comes([&] { return south().taken == 1; }));
+    bring("north", early);
+    EXPECT_TRUE(comes([&] { return south().replaced == 1; }));
+    EXPECT_EQ(north().replaced, 0U);
+}
+
+TEST_F(PartialsKeeperTest, TheSamePartOfTwoMachinesReplacesNothing) {
+    start();
+    bring("north", early);
+    ASSERT_TRUE(comes([&] { return north().taken == 1; }));
+    bring("south", early);
+    bring("south", later);
+    ASSERT_TRUE(comes([&] { return south().taken == 1; }));
+    bring("south", later);
+    std::this_thread::sleep_for(milliseconds{700});
+    EXPECT_EQ(north().replaced + south().replaced, 0U);
+}
+
+TEST_F(PartialsKeeperTest, AVolumeOfTheFutureMakesNoOtherMachineLate) {
+    const auto now =
+        std::chrono::duration_cast<std::chrono::minutes>(now_utc() - pipeline::minute(0));
+    const int minute = static_cast<int>(now.count());
+    start(std::chrono::seconds{600});
+    bring("north", {"KBGM", minute - 7, 0, 20});
+    bring("south", {"KOKX", minute + 5, 48, 35});
+    EXPECT_TRUE(comes([&] { return north().taken == 1 && south().taken == 1; }));
+    EXPECT_TRUE(comes([&] { return south().newest.has_value(); }));
+    std::this_thread::sleep_for(milliseconds{1200});
+    EXPECT_FALSE(north().is_late) << north().why;
+}
+
 TEST_F(PartialsKeeperTest, AfterAStartFramesThatLackAPartAreMade) {
     bring("north", early);
     bring("north", later);

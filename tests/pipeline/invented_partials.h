@@ -23,6 +23,7 @@ struct InventedPartial {
     int minute = 0;
     int column = 0;
     float value = 20;
+    int longer_ms = 0;
 };
 
 inline grid::Grid grid_of(const InventedPartial& wanted) {
@@ -30,7 +31,8 @@ inline grid::Grid grid_of(const InventedPartial& wanted) {
     made.spec = grid::window_spec(small_domain().spec, {wanted.column, 0, 32, 32});
     made.moment = level2::Moment::ref;
     made.time = made.start_time = minute(wanted.minute);
-    made.end_time = made.time + std::chrono::minutes{4};
+    made.end_time =
+        made.time + std::chrono::minutes{4} + std::chrono::milliseconds{wanted.longer_ms};
     made.sites = {{wanted.station, 42.2 - wanted.column * 0.01, -75.9, 400}};
     made.provenance.source_files = {level2::volume_name(wanted.station, made.time)};
     made.provenance.stations = {wanted.station};
