@@ -117,7 +117,6 @@ TEST_F(PartialsKeeperTest, AFileThatIsBeingWrittenIsTakenOnceItIsWhole) {
 }
 
 TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
-    start();
     auto [bytes, place] = made(early);
     const fs::path path = directory_ / "north" / place;
     auto damaged = bytes;
@@ -125,6 +124,7 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     write(path, damaged);
     // As if it had been written an hour ago.
     fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours{1});
+    start();
     EXPECT_TRUE(comes([&] { return north().refused == 1; }));
     EXPECT_THAT(north().last_problem, HasSubstr("1 of"));
     std::this_thread::sleep_for(milliseconds{3200});
