@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array documents = {"CHANGELOG.md",      "CITATION.cff",    "CMakeLists.txt",
-                                  "CMakePresets.json", "CONTRIBUTING.md", "GLOSSARY.md",
-                                  "LICENSE",           "README.md",       "SECURITY.md"};
-constexpr std::array hidden = {".ci", ".clang-format", ".clang-tidy", ".git", ".gitignore"};
+constexpr std::array root_documents = {"CHANGELOG.md",      "CITATION.cff",    "CMakeLists.txt",
+                                       "CMakePresets.json", "CONTRIBUTING.md", "GLOSSARY.md",
+                                       "LICENSE",           "README.md",       "SECURITY.md"};
+constexpr std::array hidden_names = {".ci", ".clang-format", ".clang-tidy", ".git", ".gitignore"};
 // Folders without a CMakeLists.txt.
 constexpr std::array other_folders = {"cmake", "docs", "include", "scenes", "scripts"};
 
@@ -44,7 +44,7 @@ TEST(Root, HoldsRoomsAndKnownDocumentsAlone) {
     for (const auto& entry : fs::directory_iterator(root)) {
         const std::string name = entry.path().filename();
         const bool is_room = entry.is_directory() && fs::exists(entry.path() / "CMakeLists.txt");
-        EXPECT_TRUE(is_room || is_one_of(documents, name) || is_one_of(hidden, name) ||
+        EXPECT_TRUE(is_room || is_one_of(root_documents, name) || is_one_of(hidden_names, name) ||
                     is_one_of(other_folders, name) || is_ignored(name))
             << name << " stands in the root of the tree";
     }
