@@ -138,6 +138,7 @@ struct Server::Impl {
     void take_budget(Exchange& exchange);
     MHD_Result send(MHD_Connection* connection, Exchange& exchange);
     void stop();
+    void wait_until_idle(std::chrono::milliseconds most) const;
 
     static void* first_line(void* self, const char* uri, MHD_Connection* connection);
     static MHD_Result request(void* self, MHD_Connection* connection, const char* url,
@@ -397,6 +398,12 @@ Status Server::Impl::listen(const ListenSocket& socket) {
     return {};
 }
 
+void Server::Impl::wait_until_idle(std::chrono::milliseconds most) const {
+    const auto until = SteadyClock::now() + most;
+    while (SteadyClock::now() < until && !watch.is_idle())
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+}
+
 // libmicrohttpd must not be stopped while a connection is held still.
 void Server::Impl::stop() {
     is_stopping = true;
@@ -404,20 +411,18 @@ void Server::Impl::stop() {
         const int socket = MHD_quiesce_daemon(listener.daemon);
         if (socket >= 0) ::close(socket);
     }
-    queue.stop();
-    for (const auto& workers : doors->workers())
-        workers->stop();
     {
         const std::scoped_lock lock(feeds_mutex);
         for (const auto& feed : feeds)
             feed->end();
     }
-    // What is on its way gets a moment to arrive.
-    const auto until = SteadyClock::now() + std::chrono::seconds{2};
-    while (SteadyClock::now() < until) {
-        if (watch.is_idle()) break;
-        std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    }
+    // Who has asked, or is about to, is answered, and what is on its way gets a moment to arrive.
+    wait_until_idle(std::chrono::seconds{2});
+    // What still waits is told to come back.
+    queue.stop();
+    for (const auto& workers : doors->workers())
+        workers->stop();
+    wait_until_idle(std::chrono::milliseconds{200});
     for (const Listener& listener : listeners)
         MHD_stop_daemon(listener.daemon);
     listeners.clear();
