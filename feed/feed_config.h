@@ -28,8 +28,10 @@ struct FeedConfig {
     std::string proxy;               // empty: none
     std::string ca_file;             // empty: the certificates of the system
     std::string log_level = "info";  // debug, info, warning or error
-    // Not in the file: listings of a station within a minute that bring nothing.
+    // Not in the file: listings of a station within a minute that bring nothing, and when a station
+    // is called silent.
     std::size_t most_in_vain = 20;
+    std::chrono::milliseconds silent_after = std::chrono::minutes{10};
     bool operator==(const FeedConfig&) const = default;
 };
 

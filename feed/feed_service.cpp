@@ -44,8 +44,7 @@ FeedService::FeedService(FileSystem& file_system, const FeedConfig& config, Feed
         std::erase_if(written,
                       [&](const VolumeId& volume) { return volume.time < now - gone_on_with; });
         stations_.push_back(std::make_unique<StationFeed>(
-            station, written,
-            FeedTools{*client_, drop_, lines_, config_.every, config_.most_in_vain}, chance()));
+            station, written, FeedTools{*client_, drop_, lines_, config_}, chance()));
     }
     // Not all at once.
     std::uniform_int_distribution<std::chrono::milliseconds::rep> some(0, config_.every.count());

@@ -11,7 +11,6 @@ namespace {
 // Chunks have 20 to 300 kB.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{4} << 20;
 constexpr int most_bad_tries = 3, most_tries = 8;
-constexpr std::chrono::minutes silence{10};
 constexpr std::chrono::milliseconds longest_between_chunks{60'000};
 
 // The server answers, but this chunk is no good.
@@ -26,7 +25,7 @@ StationFeed::StationFeed(std::string station, const std::vector<VolumeId>& writt
                          unsigned seed)
     : station_(std::move(station)),
       tools_(tools),
-      pace_(tools.every, tools.most_in_vain, seed),
+      pace_(tools.config.every, tools.config.most_in_vain, seed),
       follower_(station_, written, steady_now()) {
     status_.station = station_;
 }
@@ -151,7 +150,7 @@ void StationFeed::fail_turn(const Error& why) {
 
 void StationFeed::note_silence() {
     const SteadyTime now = steady_now();
-    if (status_.is_silent || now - last_news_ < silence) return;
+    if (status_.is_silent || now - last_news_ < tools_.config.silent_after) return;
     status_.is_silent = true;
     if (!tools_.lines.allow(now)) return;
     say(LogLevel::warning, "{}: {}", station_,

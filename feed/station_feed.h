@@ -28,8 +28,7 @@ struct FeedTools {
     BucketClient& client;
     FeedDrop& drop;
     RateLimit& lines;  // of the log
-    std::chrono::milliseconds every;
-    std::size_t most_in_vain;  // as in FeedConfig
+    const FeedConfig& config;
 };
 
 class StationFeed {

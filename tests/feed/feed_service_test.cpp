@@ -224,6 +224,21 @@ TEST_F(FeedingFrom, OneStationThatFailsHoldsUpNoOther) {
     EXPECT_TRUE(feed_.station(2).is_searching) << "the bucket has nothing of KVNX";
 }
 
+TEST_F(FeedingFrom, AStationThatFallsSilentIsNamedUntilItSendsAgain) {
+    feed_.config.silent_after = std::chrono::milliseconds{500};
+    feed_.config.stations = {"KTLX", "KVNX"};
+    put_two_volumes();
+    feed_.start();
+    ASSERT_TRUE(feed_.wait_for_files(12));
+    ASSERT_TRUE(RunningFeed::wait_for(
+        [&] { return feed_.station(0).is_silent && feed_.station(1).is_silent; }));
+    EXPECT_EQ(feed_.station(0).error, "") << "that is no failure";
+    bucket_.put_volume("KTLX", 495, recent + minutes{30}, 3, false);
+    ASSERT_TRUE(feed_.wait_for_files(15));
+    ASSERT_TRUE(RunningFeed::wait_for([&] { return !feed_.station(0).is_silent; }));
+    EXPECT_TRUE(feed_.station(1).is_silent) << "which the bucket does not have";
+}
+
 TEST_F(FeedingFrom, AFullDiskIsNamedAndLosesNothing) {
     testing::PowerCutFileSystem disk;
     disk.set_space(100);
