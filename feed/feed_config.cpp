@@ -71,7 +71,7 @@ void read_feed(TomlTable feed, const fs::path& file, FeedConfig& config) {
     read_path(feed, "state", file, config.state);
     if (const auto seconds = feed.number("every_seconds", {4, 60}))
         config.every = std::chrono::milliseconds{std::llround(*seconds * 1000)};
-    if (const auto hours = feed.number("keep_hours", {0.5, 1000}))
+    if (const auto hours = feed.number("keep_hours", {0.5, 1e6}))
         config.keep = std::chrono::seconds{std::llround(*hours * 3600)};
     if (const auto seconds = feed.whole_number("stall_seconds", {1, 120}))
         config.stall = std::chrono::seconds{*seconds};

@@ -43,16 +43,22 @@ std::string key_of(const std::string& station, int volume, UtcTime time, int num
     return fmt::format("{}/{}/{}-{:03}-{}", station, volume, dashed_time(time), number, kind);
 }
 
+// Another process may write, rename and remove files there meanwhile; then it is read again.
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory) {
     std::map<std::string, std::string> files;
-    std::error_code none;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(directory, none)) {
-        if (!entry.is_regular_file()) continue;
-        std::ifstream file(entry.path(), std::ios::binary);
-        files[entry.path().lexically_relative(directory).native()] = {
-            std::istreambuf_iterator<char>(file), {}};
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator one(directory, error);
+    while (!error && one != std::filesystem::recursive_directory_iterator{}) {
+        std::error_code gone;
+        if (one->is_regular_file(gone)) {
+            std::ifstream file(one->path(), std::ios::binary);
+            files[one->path().lexically_relative(directory).native()] = {
+                std::istreambuf_iterator<char>(file), {}};
+        }
+        one.increment(error);
     }
-    return files;
+    const bool is_there = std::filesystem::exists(directory);
+    return error && is_there ? files_below(directory) : files;
 }
 
 void ChunkBucket::put(const std::string& key, std::string contents) {

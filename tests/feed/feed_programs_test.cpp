@@ -45,7 +45,8 @@ class FeedPrograms : public ::testing::Test {
         const fs::path file = daemon_.root() / "feed.toml";
         std::ofstream(file) << "[paths]\ndrop = \"drop\"\n[feed]\ndrop = \"drop\"\nstate = "
                                "\"feed\"\nstations = "
-                            << stations << "\nbucket = \"" << bucket_.url() << "\"\n";
+                            << stations << "\nbucket = \"" << bucket_.url()
+                            << "\"\nkeep_hours = 1000000\n[log]\nlevel = \"debug\"\n";
         feed_.emplace(STORMCELLAR_FEED, std::vector<std::string>{"--config", file.native()});
     }
     [[nodiscard]] bool wait_for_files(std::size_t count) const {
