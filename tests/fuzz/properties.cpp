@@ -89,6 +89,13 @@ void require_well_formed(const Sweep& sweep, const SweepMoment& moment) {
     require(std::isfinite(moment.scale) && std::isfinite(moment.offset), "scale or offset");
 }
 
+// Of these one is kept; the note begins with their number.
+std::uint64_t radials_that_came_twice(const DecodeReport& report) {
+    for (const level2::Problem& problem : report.problems)
+        if (problem.code == "radials_came_twice") return std::stoull(problem.message);
+    return 0;
+}
+
 void require_well_formed(const Decoded& decoded) {
     std::uint64_t radials = 0;
     for (const Sweep& sweep : decoded.volume.sweeps) {
@@ -106,7 +113,9 @@ void require_well_formed(const Decoded& decoded) {
     std::uint64_t counted = 0;
     for (const auto& [type, count] : decoded.report.message_counts)
         counted += type == 1 || type == 31 ? count : 0;
-    require(counted == radials, "{} radials of {} counted", radials, counted);
+    const std::uint64_t twice = radials_that_came_twice(decoded.report);
+    require(counted == radials + twice, "{} radials and {} twice of {} counted", radials, twice,
+            counted);
 }
 
 void require_well_formed_report(const Decoded& decoded) {
