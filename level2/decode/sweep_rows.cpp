@@ -211,7 +211,8 @@ Sweep part_of(Sweep& sweep, std::size_t first, std::size_t end) {
         if (row < end - first) kinds.emplace_back(row, &moment);
     }
     std::ranges::stable_sort(kinds, {}, [](const auto& kind) { return kind.first; });
-    for (const auto& [row, moment] : kinds) {
+    for (const auto& kind : kinds) {
+        const SweepMoment* const moment = kind.second;
         SweepMoment& own = part.moments.emplace_back(empty_like(*moment));
         own.gate_counts = rows_of(moment->gate_counts, first, end, 1);
         with_codes(own, [&](auto& codes) {
