@@ -87,9 +87,10 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     add("/own", [&](const Request&) { return answer_with_text(text_of(std::string(large, 'o'))); });
     start();
     std::vector<std::unique_ptr<RawClient>> slow;
-    const auto take_slowly = [&](std::string_view path, const std::string& from) {
+    const auto take_slowly = [&](std::string_view path, const std::string& from,
+                                 const std::string& verb = "GET ") {
         slow.push_back(std::make_unique<RawClient>(port_, 4096, from));
-        slow.back()->send("GET " + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        slow.back()->send(verb + std::string(path) + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
         return status_in(slow.back()->read_until("\r\n\r\n"));
     };
     for (int i = 0; i < 8; ++i)
@@ -98,6 +99,8 @@ TEST_F(WebServer, AnswersOnTheirWayHaveABudget) {
     EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 200);
     EXPECT_EQ(take_slowly("/own", "127.0.0.2"), 503) << "more than half of it for one client";
     EXPECT_EQ(take_slowly("/own", "127.0.0.3"), 503) << "no room";
+    // 2026-11-28: twelve clients that read nothing of their HEADs held 447 MB that did not count.
+    EXPECT_EQ(take_slowly("/own", "127.0.0.4", "HEAD "), 503) << "the answer to HEAD is held, too";
     EXPECT_EQ(status_in(get("/")), 200) << "small answers pass";
     slow.clear();
     EXPECT_TRUE(wait_for([&] { return server_->facts().answer_bytes == 0; }));

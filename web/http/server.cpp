@@ -329,10 +329,10 @@ void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchan
     }
 }
 
-// An answer without a body that is sent, such as that to HEAD, takes nothing.
+// The answer to HEAD counts, too: who asks for many and reads nothing holds all of them.
 void Server::Impl::take_budget(Exchange& exchange) {
     const auto* pieces = std::get_if<Pieces>(&exchange.answer->body);
-    if (pieces == nullptr || exchange.request.verb == Verb::head) return;
+    if (pieces == nullptr) return;
     exchange.holds_budget = budget.take(exchange.counts_as, *pieces);
     if (exchange.holds_budget) return;
     watch.memory_is_short();
