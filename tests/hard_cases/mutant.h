@@ -39,8 +39,10 @@ struct Mutant {
 // What comes late or twice is returned once, where it belongs.
 inline void put_in_order(std::vector<ExpectedRadial>& expected) {
     std::ranges::sort(expected, {}, &ExpectedRadial::radial);
-    const auto again = std::ranges::unique(expected, {}, &ExpectedRadial::radial);
-    expected.erase(again.begin(), again.end());
+    const auto is_same = [](const ExpectedRadial& a, const ExpectedRadial& b) {
+        return a.radial == b.radial;
+    };
+    expected.erase(std::unique(expected.begin(), expected.end(), is_same), expected.end());
 }
 
 // Returns a whole number below `limit`; 0 if there is none.
