@@ -193,6 +193,9 @@ void main() {
     vec3 start = rayStart(), along = rayStep();
     vec2 depths = depthsInBox(start, along);
     float enter = depths.x, leave = depths.y;
+    color = vec4(0.0);
+    // Beside the grid a ray along an axis has depths beyond all whole numbers.
+    if (!(enter < leave)) return;
     float whole = slices * stepM, each = whole / float(steps);
     vec2 way = vec2(0.0);
     int first = int(max(0.0, floor((enter - near) / each)));
@@ -206,7 +209,6 @@ void main() {
         way += texture(air, (at + 0.5) / size3).rg;
     }
     way = 0.6 * (1.0 - exp(-way * each * length(along) / (0.2 * whole)));
-    color = vec4(0.0);
 ${variant.hasHaze ? '    color = vec4(hazeColor, 1.0) * way.x;' : ''}
 ${variant.hasFolded ? '    color = vec4(foldedColor, 1.0) * way.y + (1.0 - way.y) * color;' : ''}
 }`;
