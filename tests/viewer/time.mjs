@@ -54,7 +54,11 @@ try {
   // Frames between volumes.
   await press('loop-all');
   const before = await count();
+  const kept = await shown();
   await choose('between', 60);
+  await page.until(`Number(document.getElementById('times').max) + 1 > ${3 * before}`);
+  check('the volume that is shown stays', (await shown()) === kept);
+  await press('later');
   // The server makes it first.
   await page.until("document.getElementById('title').textContent.includes('made between volumes')", 60).catch(() => undefined);
   const after = await count();
@@ -65,6 +69,21 @@ try {
   // 2026-11-28: it said that there was no volume of the time of one.
   const notice = await evaluate("document.getElementById('notice').textContent");
   check(`nothing is missing${notice}`, notice === '');
+
+  // ---- A link to a volume among frames in between, and a pause before anything else was shown (2026-11-28: "no volume
+  // of" a time of which there is one; the oldest volume took the place of the newest)
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&tilt=0&field-of-view=0&time=${times[1]}&between=60`);
+  const noticeOf = () => evaluate("document.getElementById('notice').textContent");
+  check(`the volume of a link is there${await noticeOf()}`, (await shown()).endsWith(times[1]) && (await noticeOf()) === '');
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&tilt=0&field-of-view=0`);
+  await page.until(`Number(document.getElementById('times').max) + 1 >= ${times.length}`);
+  await press('play');
+  await press('play');
+  await evaluate("document.getElementById('moment-VEL').click()");
+  await page.until("document.documentElement.dataset.drawn.includes('/VEL/')", 30);
+  check(`who paused stays at the newest: ${await shown()}${await noticeOf()}`, (await shown()).endsWith(times.at(-1)) && (await noticeOf()) === '');
 
   // ---- A link to a time between two volumes (2026-11-28: the later one was called the nearest)
   const wanted = new Date(Date.parse(times[1]) + 60_000).toISOString();

@@ -8,7 +8,13 @@ const at = (minute: number) => `2026-11-28T10:${String(minute).padStart(2, '0')}
 test('a grid that was made again is old also of a moment that is not shown (2026-11-28: the kept one was shown later)', () => {
     const isOld = outdatedBy('KTLX/VEL', at(10), [], 'KTLX/REF');
     assert.ok(isOld(`KTLX/VEL/${at(10)}`));
-    for (const key of [`KTLX/VEL/${at(5)}`, `KTLX/REF/${at(10)}`, `KTL/VEL/${at(10)}`]) assert.ok(!isOld(key), key);
+    for (const key of [`KTLX/REF/${at(10)}`, `KTL/VEL/${at(10)}`]) assert.ok(!isOld(key), key);
+});
+
+test('frames between of a moment that is not shown are old as far as they may reach', () => {
+    const isOld = outdatedBy('KTLX/VEL', at(31), [], 'KTLX/REF');
+    for (const minute of [2, 30, 59]) assert.ok(isOld(`KTLX/VEL/${at(minute)}`), `${minute}`);
+    assert.ok(!isOld(`KTLX/VEL/${at(0)}`));
 });
 
 test('frames between it and its neighbors are old, and so are regions that are not shown', () => {

@@ -76,6 +76,7 @@ export class App {
     private addressTimer = 0;
     private addressAt = 0; // when it was written
     private turn = 0; // of what is to be shown
+    private choices = 0; // of domains and moments
     private unreadTime = timeThatIsNone(); // of the address
 
     constructor(readonly loader: Loader) {}
@@ -217,8 +218,10 @@ export class App {
         await this.findDomains();
         this.tell('choices');
         const { state, shown } = this;
-        this.loader.forgetAll(key => key !== shown?.key);
+        this.loader.forgetAll(() => true);
         if (this.isOnMap || !shown) return;
+        // What was asked for while there was no answer.
+        if (shown.domain !== state.domain || shown.moment !== state.moment) return this.choose(state.domain, state.moment);
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
         await this.takeNews(state.domain, state.moment, shown.time);
     }
@@ -268,12 +271,16 @@ export class App {
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
         if (isRegion(domain) && !this.domains.some(one => one.domain === domain)) {
+            const choice = ++this.choices;
             try {
                 await this.findRegion(domain);
             } catch (error) {
+                if (choice !== this.choices) return;
+                if (this.shown) this.state = { ...this.state, domain: this.shown.domain, moment: this.shown.moment };
                 this.miss(error instanceof Error ? error.message : '');
                 return this.fail(error);
             }
+            if (choice !== this.choices) return;
         }
         const isThere = domain === '' || this.domains.some(one => one.domain === domain);
         if (!isThere && this.domains.length > 1) {
@@ -298,8 +305,11 @@ export class App {
         this.tell('choices');
         this.say(texts.loading);
         this.missing.clear();
+        this.stayWhoPaused();
+        const choice = ++this.choices;
         try {
             const soon = await times(this.state.domain, this.state.moment, soonTimes);
+            if (choice !== this.choices) return;
             this.player = { ...this.player, times: [], at: -1 };
             this.takeTimes(soon.times);
             const { time } = this.state;
@@ -310,8 +320,15 @@ export class App {
             await this.showTime();
             if (soon.more && !isOlder) await this.findOlder();
         } catch (error) {
-            this.fail(error);
+            if (choice === this.choices) this.fail(error);
         }
+    }
+    // Who does not follow any more, and was shown no other time yet, stays where the player is.
+    private stayWhoPaused(): void {
+        if (this.player.follows || this.state.time !== 'latest') return;
+        const now = this.player.times[this.player.at];
+        if (now === undefined) this.player = { ...this.player, follows: true };
+        else this.state.time = now;
     }
 
     private takeTimes(stored: string[]): void {
@@ -487,10 +504,15 @@ export class App {
     // Of a region, any instant near the volume may have become another one; near none: any at all.
     private async takeNewsOfSite(volume: string | undefined): Promise<void> {
         const { domain, moment } = this.state;
+        const isLeft = () => domain !== this.state.domain || moment !== this.state.moment;
         await this.findRegion(domain);
+        if (isLeft()) return;
         const isNear = (time: string) => volume === undefined || Math.abs(Date.parse(time) - Date.parse(volume)) <= farthestMadeMs;
-        for (const time of this.stored) if (isNear(time)) this.loader.forget(Loader.key(domain, moment, time));
-        this.takeTimes((await times(domain, moment, soonTimes)).times);
+        const of = `${domain}/${moment}/`;
+        this.loader.forgetAll(key => key.startsWith(of) && isNear(key.slice(of.length)));
+        const stored = (await times(domain, moment, soonTimes)).times;
+        if (isLeft()) return;
+        this.takeTimes(stored);
         await this.showTime();
     }
 
@@ -507,7 +529,8 @@ export class App {
             this.tell('choices');
         }
         const isOfShown = domain === this.state.domain && moment === this.state.moment;
-        if (changedTime) this.loader.forgetAll(outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.stored : [], `${this.state.domain}/${this.state.moment}`));
+        const isOld = changedTime ? outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.stored : [], `${this.state.domain}/${this.state.moment}`) : () => false;
+        this.loader.forgetAll(isOld);
         // A surface may be that of another moment.
         const isOfSurface = moment !== undefined && moment === this.state.layers.surface?.moment;
         if (!this.isPartOfShown(domain) || (moment !== this.state.moment && !isOfSurface)) return;
@@ -515,9 +538,12 @@ export class App {
         if (moment !== this.state.moment) return changedTime === this.shown?.time ? this.showTime() : undefined;
         const before = this.player.times[this.player.at];
         const newest = (await times(domain, moment, soonTimes)).times;
+        if (domain !== this.state.domain || moment !== this.state.moment) return;
         this.takeTimes([...this.stored.filter(time => newest.length === 0 || time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
-        if (now !== before || now === changedTime) await this.showTime();
+        const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
+        // After a failure another time than that of the picture may be waited for.
+        if (now !== before || now !== this.shown?.time || isOfNow || now === changedTime) await this.showTime();
         else this.tell('time');
     }
 }

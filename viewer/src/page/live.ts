@@ -65,9 +65,10 @@ export class Live {
     }
 
     private connected(answer: Response): void {
+        const wasCutOff = this.app.isCutOff;
         this.app.takeServer(true, Date.parse(answer.headers.get('Date') ?? ''));
-        // Lists that came before the stream may lack what came between the two.
-        this.isBehind = this.isBehind || (this.last === '' && this.app.hasLists);
+        // What was asked for meanwhile got no answer. Lists that came before the stream may lack what came between.
+        this.isBehind = this.isBehind || wasCutOff || (this.last === '' && this.app.hasLists);
         void this.begun.then(() => this.askSilences()).catch(() => undefined);
     }
     // Of who fell silent before, there are no news.

@@ -2,10 +2,15 @@
 //
 // Their keys are DOMAIN/MOMENT/TIME, and times are rising texts of ISO 8601.
 
-// Old are the grid of `of` (DOMAIN/MOMENT) at the time, frames between it and its neighbors among `times`, and regions,
-// which are merged of it. Of the region that is shown (`shown`) the page knows which of its instants are new.
+import { longestBridgeMs } from './between';
+
+// Old are the grid of `of` (DOMAIN/MOMENT) at the time, frames between it and its neighbors among `times` (without
+// times: as far as frames are made), and regions, which are merged of it. Of the region that is shown (`shown`) the page
+// knows which of its instants are new.
 export function outdatedBy(of: string, time: string, times: string[], shown: string): (key: string) => boolean {
-    const [before, after] = [times.filter(one => one < time).pop() ?? time, times.find(one => one > time) ?? time];
+    const far = (ms: number) => (times.length > 0 ? time : new Date(Date.parse(time) + ms).toISOString());
+    const before = times.filter(one => one < time).pop() ?? far(-longestBridgeMs);
+    const after = times.find(one => one > time) ?? far(longestBridgeMs);
     return key => {
         const at = key.slice(of.length + 1);
         if (key.startsWith(`${of}/`)) return at === time || (at > before && at < after);
