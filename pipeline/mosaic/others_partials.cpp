@@ -3,10 +3,12 @@
 #include <chrono>
 #include <string_view>
 
+#include "grid/place/site_extent.h"
 #include "pipeline/keep/keep_rule.h"
 #include "pipeline/keep/site_grids.h"
 #include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_view.h"
 #include "stormcellar/grid/grid_window.h"
 
 namespace stormcellar::pipeline {
@@ -84,6 +86,26 @@ Status check(const OthersPartial& partial, const cache::GridDescription& grid,
     return {};
 }
 
+// Checks what a merge demands of each part: it refuses the whole frame for one that is not like the
+// others.
+Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
+                   const Domain& domain) {
+    const cache::GridDescription& grid = file.description();
+    if (Status good = grid::check_on_earth(grid.sites.front()); !good)
+        return fail(ErrorCode::corrupt, "{}: {}", partial.file.native(), good.error().message);
+    if (!(file.view().quantization == grid::default_quantization(grid.moment))) {
+        return fail(ErrorCode::bad_argument,
+                    "{}: its codes are not those of {}; both machines must have the same version",
+                    partial.file.native(), level2::moment_name(grid.moment));
+    }
+    const auto window = grid::window_of(domain.spec, grid.spec);
+    if (!window || !grid::is_whole_bricks(domain.spec, *window)) {
+        return fail(ErrorCode::corrupt, "{}: its columns are not whole bricks of the domain {}",
+                    partial.file.native(), domain.name);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads) {
@@ -98,6 +120,7 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     }
     const cache::GridDescription& grid = file->description();
     if (Status good = check(partial, grid, *domain); !good) return pass_on(good);
+    if (Status good = check_cells(partial, *file, *domain); !good) return pass_on(good);
     if (Status sound = file->verify(); !sound) return pass_on(sound);
 
     const PartialView view{&grid, file->view(), nullptr};

@@ -133,6 +133,18 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_TRUE(comes([&] { return is_kept(early); }));
 }
 
+// 2026-11-28: one part with other codes ended all frames near its time, and the log named honest
+// stations.
+TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
+    start();
+    InventedPartial other_codes = early;
+    other_codes.has_other_codes = true;
+    bring("south", other_codes);
+    EXPECT_TRUE(comes([&] { return south().refused == 1; }));
+    EXPECT_THAT(south().last_problem, HasSubstr("its codes are not those of REF"));
+    EXPECT_FALSE(is_kept(early));
+}
+
 // 2026-11-28: any machine could replace the parts of another one's stations.
 TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
     stations_ = {{"north", {"KBGM"}}};

@@ -24,6 +24,7 @@ struct InventedPartial {
     int column = 0;
     float value = 20;
     int longer_ms = 0;
+    bool has_other_codes = false;
 };
 
 inline grid::Grid grid_of(const InventedPartial& wanted) {
@@ -46,8 +47,10 @@ inline grid::Grid grid_of(const InventedPartial& wanted) {
 }
 
 inline std::filesystem::path commit(cache::StoreWriter& store, const std::string& station,
-                                    const grid::Grid& grid) {
-    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+                                    const grid::Grid& grid, bool has_other_codes = false) {
+    grid::Quantization codes = grid::default_quantization(grid.moment);
+    if (has_other_codes) codes.first_value += 0.5F;
+    const auto bricks = grid::BrickGrid::from(grid, codes);
     const auto path = store.commit("north." + station, cache::describe(grid), bricks.view());
     EXPECT_TRUE(path) << path.error().message;
     return path ? *path : std::filesystem::path{};
@@ -55,7 +58,7 @@ inline std::filesystem::path commit(cache::StoreWriter& store, const std::string
 
 // Returns the path of the partial "north.STATION".
 inline std::filesystem::path commit(cache::StoreWriter& store, const InventedPartial& wanted) {
-    return commit(store, wanted.station, grid_of(wanted));
+    return commit(store, wanted.station, grid_of(wanted), wanted.has_other_codes);
 }
 
 }  // namespace stormcellar::pipeline
