@@ -72,6 +72,7 @@ Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> 
     });
     const auto repeated = std::ranges::unique(grids);
     grids.erase(repeated.begin(), repeated.end());
+    if (grids.size() > most_listed) grids.resize(most_listed);
     return grids;
 }
 

@@ -42,6 +42,19 @@ TEST(GridList, HasThePartsOfTheDomainsNewestFirst) {
         << "all domains";
 }
 
+// 2026-11-28: four megabytes of a list hold 67,000 names, and each was kept.
+TEST(GridList, HasTheNewestOfMoreThanAnyMachineHas) {
+    std::string entries;
+    for (std::size_t i = 0; i <= most_listed; ++i) {
+        const UtcTime time = now - std::chrono::milliseconds{100 * (most_listed - i)};
+        entries += (i == 0 ? "" : ",") + entry("us.KTLX", "REF", format_utc(time));
+    }
+    const auto grids = parsed("{\"grids\":[" + entries + "]}");
+    ASSERT_TRUE(grids) << grids.error().message;
+    ASSERT_EQ(grids->size(), most_listed);
+    EXPECT_EQ(grids->front().time, now);
+}
+
 TEST(GridList, LeavesOutWhatMakesNoSense) {
     for (const std::string& one :
          {entry("../../etc.KTLX", "REF", "2026-11-27T11:50:00Z"),
