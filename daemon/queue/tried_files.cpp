@@ -19,6 +19,9 @@ namespace {
 
 constexpr std::uint64_t most_tried_bytes = std::uint64_t{1} << 20;
 
+// Files that ran together wait for each other, so that the one that ends the process does so alone.
+constexpr std::chrono::seconds apart{10};
+
 // Takes a number and the blank behind it.
 std::optional<std::int64_t> take_number(std::string_view& text) {
     std::int64_t number = 0;
@@ -82,8 +85,11 @@ void TriedFiles::write() {
 std::map<std::filesystem::path, std::chrono::seconds> TriedFiles::waits() const {
     const std::scoped_lock lock(mutex_);
     std::map<std::filesystem::path, std::chrono::seconds> waits;
-    for (const auto& [path, tried] : tried_)
-        if (tried.ends < most_ends) waits[path] = wait_after(tried.ends);
+    std::map<int, int> before;  // by the number of ends
+    for (const auto& [path, tried] : tried_) {
+        if (tried.ends < most_ends)
+            waits[path] = wait_after(tried.ends) + apart * before[tried.ends]++;
+    }
     return waits;
 }
 

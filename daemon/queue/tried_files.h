@@ -3,8 +3,9 @@
 // A file that kills the process (it takes all memory, or finds a fault) would be met again at each
 // start, until systemd starts the service no more. So a path is written down before the file is
 // opened, and taken out when that has ended. After a start, the paths that are still there wait for
-// others, longer after each time in a row: 2 s, 8 s, 32 s and so on to 512 s. After `most_ends`
-// times the file is not opened again until it is another one (its size or its time has changed).
+// others, longer after each time in a row: 2 s, 8 s, 32 s and so on to 512 s. Files that ran
+// together wait 10 s more, one after the other. After `most_ends` times the file is not opened
+// again until it is another one (its size or its time has changed).
 //
 // The list need not survive a power cut, so no write waits for the disk. Each ingested file costs
 // two writes of some hundred bytes. If the list is missing, no file is held back.

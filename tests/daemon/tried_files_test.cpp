@@ -52,6 +52,19 @@ TEST_F(TriedFilesTest, WhatWasUnderWayWaitsLongerEachTimeAndIsGivenUp) {
     EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
 }
 
+// 2026-11-28: files that ran together when one of them ended the process waited equally long, so
+// they ran together again, and all were given up.
+TEST_F(TriedFilesTest, WhatRanTogetherIsTriedApart) {
+    const fs::path bomb = make("bomb"), good = make("good");
+    {
+        TriedFiles tried(file());
+        tried.begin(bomb, stamp(bomb));
+        tried.begin(good, stamp(good));
+    }  // the process ends
+    EXPECT_THAT(TriedFiles(file()).waits(),
+                ElementsAre(Pair(bomb, seconds{2}), Pair(good, seconds{12})));
+}
+
 TEST_F(TriedFilesTest, AStartBetweenDoesNotCount) {
     const fs::path bomb = make("bomb");
     TriedFiles(file()).begin(bomb, stamp(bomb));
