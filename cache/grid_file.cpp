@@ -214,8 +214,14 @@ Status unpack_all(std::span<const std::byte> packed, const grid::BrickView& view
     return {};
 }
 
+std::uint64_t unpacked_bytes(const grid::BrickView& view) {
+    const auto stored = static_cast<std::uint64_t>(
+        std::ranges::count(view.bricks, grid::BrickKind::stored, &BrickEntry::kind));
+    return stored * grid::brick_cells * static_cast<std::uint64_t>(view.quantization.code_bytes);
+}
+
 Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
-                       const grid::BrickView& view) {
+                       const grid::BrickView& view, std::uint64_t most_unpacked_bytes) {
     const format::Layout& at = metadata.at;
     Codes codes;
     if (!is_packed(metadata.header)) {
@@ -227,6 +233,10 @@ Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
     }
     if (packed_size(view.bricks) != at.codes_size) {
         return fail(ErrorCode::corrupt, "the table and the header differ in the codes' size");
+    }
+    if (const std::uint64_t bytes = unpacked_bytes(view); bytes > most_unpacked_bytes) {
+        return fail(ErrorCode::unsupported, "its codes unpack to {} bytes, more than {}", bytes,
+                    most_unpacked_bytes);
     }
     std::vector<std::byte> packed(at.codes_size);
     if (Status read = read_at(file, at.codes_offset, packed); !read) return pass_on(read);
@@ -241,7 +251,8 @@ Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
 
 }  // namespace
 
-Result<GridFile> GridFile::open(const std::filesystem::path& path) {
+Result<GridFile> GridFile::open(const std::filesystem::path& path,
+                                std::uint64_t most_unpacked_bytes) {
     const auto failure = [&](const Error& error) { return with_path(path, error); };
     Result<Descriptor> file = open_for_reading(path);
     if (!file) return failure(file.error());
@@ -257,7 +268,7 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path) {
     Status good = check_description(*description, view.quantization);
     if (good) good = check_bricks(view.bricks, view.states, view.quantization, packing);
     if (!good) return failure(good.error());
-    auto codes = codes_of(*file, *metadata, view);
+    auto codes = codes_of(*file, *metadata, view, most_unpacked_bytes);
     if (!codes) return failure(codes.error());
     view.codes = codes->view;
 

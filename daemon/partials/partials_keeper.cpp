@@ -18,8 +18,8 @@ namespace {
 constexpr std::chrono::milliseconds longest_poll{1000};
 // A file that is not whole may still be written to: it is complained of when it is older.
 constexpr std::chrono::seconds settled_after{30};
-// After a frame could not be made again.
-constexpr std::chrono::seconds mending_pause{5};
+// After a frame could not be made again, or there was no memory.
+constexpr std::chrono::milliseconds pause_after_failure{5000};
 
 bool is_unsettled(const std::filesystem::path& file) {
     const FileFound found = look_at(file, {});
@@ -70,15 +70,21 @@ std::vector<MachineFacts> PartialsKeeper::facts() const {
 
 void PartialsKeeper::run() {
     ::pthread_setname_np(::pthread_self(), "partials");
-    try {
-        while (!stopping_) {
+    while (!stopping_) {
+        try {
             turn();
-            wait();
+        } catch (const std::exception& error) {  // no memory; a scan finds what was left
+            log_error({Event::partial_refused},
+                      "cannot take partials of other machines: {}; the service tries again",
+                      error.what());
+            for (Machine& machine : machines_)
+                machine.next_scan = {};
+            pulse_.rest();
+            pollfd stop = {wake_up_.descriptor(), POLLIN, 0};
+            ::poll(&stop, 1, static_cast<int>(pause_after_failure.count()));
+            continue;
         }
-    } catch (const std::exception& error) {
-        log_error({Event::partial_refused},
-                  "the service no longer takes partials of other machines: {}; restart it",
-                  error.what());
+        wait();
     }
     pulse_.rest();
 }
@@ -153,7 +159,7 @@ bool PartialsKeeper::mend_one() {
     if (!looked) {
         log_warning({Event::frame_problem}, "a frame of parts cannot be made again: {}",
                     printable(looked.error().message));
-        next_mending_ = steady_now() + mending_pause;
+        next_mending_ = steady_now() + pause_after_failure;
         return false;
     }
     if (!*looked) return false;

@@ -86,6 +86,11 @@ Status check(const OthersPartial& partial, const cache::GridDescription& grid,
     return {};
 }
 
+bool is_within(const grid::GridWindow& one, const grid::GridWindow& other) {
+    return one.first_x >= other.first_x && one.first_y >= other.first_y &&
+           one.end_x() <= other.end_x() && one.end_y() <= other.end_y();
+}
+
 // Checks what a merge demands of each part: it refuses the whole frame for one that is not like the
 // others.
 Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
@@ -99,9 +104,15 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
                     partial.file.native(), level2::moment_name(grid.moment));
     }
     const auto window = grid::window_of(domain.spec, grid.spec);
+    const auto reach = grid::site_window(domain.spec, grid.sites.front());
     if (!window || !grid::is_whole_bricks(domain.spec, *window)) {
         return fail(ErrorCode::corrupt, "{}: its columns are not whole bricks of the domain {}",
                     partial.file.native(), domain.name);
+    }
+    // What a merge keeps of a window and a position is as large as the window.
+    if (!reach || !is_within(*window, *reach)) {
+        return fail(ErrorCode::corrupt, "{}: its columns are further than {} reaches",
+                    partial.file.native(), grid.sites.front().icao);
     }
     return {};
 }
@@ -109,7 +120,7 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
 }  // namespace
 
 Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads) {
-    const auto file = cache::GridFile::open(partial.file);
+    const auto file = cache::GridFile::open(partial.file, cache::GridFile::most_bytes_of_site);
     if (!file) return pass_on(file);
     const Domain* const domain =
         is_idle() ? nullptr : find(cache::group_of(partial.name.domain), partial.name.moment);

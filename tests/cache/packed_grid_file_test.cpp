@@ -55,6 +55,21 @@ TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
     }
 }
 
+// 2026-11-28: a file of 70 MB from another machine took 8 GiB as it was opened.
+TEST_F(PackedGridFile, TakesNoMoreMemoryThanItsReaderAllows) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const grid::BrickGrid made = bricks(1);
+    const auto stored =
+        std::ranges::count(made.view().bricks, grid::BrickKind::stored, &grid::BrickEntry::kind);
+    ASSERT_GT(stored, 0);
+    const auto bytes = static_cast<std::uint64_t>(stored) * grid::brick_cells;
+    EXPECT_TRUE(GridFile::open(path_, bytes));
+    const auto refused = GridFile::open(path_, bytes - 1);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+    EXPECT_NE(refused.error().message.find("its codes unpack to"), std::string::npos);
+}
+
 TEST_F(PackedGridFile, IsInMemoryWhenItsFileIsCut) {
     ASSERT_TRUE(pack(real_file_system()));
     const auto file = GridFile::open(path_);

@@ -133,16 +133,27 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_TRUE(comes([&] { return is_kept(early); }));
 }
 
-// 2026-11-28: one part with other codes ended all frames near its time, and the log named honest
-// stations.
+// 2026-11-28: one part with other codes, or of a place that the earth does not have, ended all
+// frames near its time, and the log named honest stations.
 TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
-    start();
-    InventedPartial other_codes = early;
-    other_codes.has_other_codes = true;
-    bring("south", other_codes);
-    EXPECT_TRUE(comes([&] { return south().refused == 1; }));
-    EXPECT_THAT(south().last_problem, HasSubstr("its codes are not those of REF"));
-    EXPECT_FALSE(is_kept(early));
+    std::vector<std::pair<InventedPartial, std::string>> parts(
+        4, {{.minute = 44}, "its codes are not those of REF"});
+    parts[0].first.has_other_codes = true;
+    parts[1] = {{.minute = 44, .latitude_deg = 95}, "is not on the earth"};
+    parts[2] = {{.minute = 44, .columns = 24}, "its columns are not whole bricks"};
+    parts[3] = {{.minute = 44, .latitude_deg = 20}, "its columns are further than KBGM reaches"};
+    for (const auto& [part, why] : parts) {
+        bring("south", part);
+        const fs::path file = directory_ / "south" / made(part).second;
+        // What is younger may still be coming.
+        fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours{1});
+        start();
+        EXPECT_TRUE(comes([&] { return south().refused == 1; })) << why;
+        EXPECT_THAT(south().last_problem, HasSubstr(why));
+        EXPECT_FALSE(is_kept(part)) << why;
+        keeper_.reset();
+        fs::remove(file);
+    }
 }
 
 // 2026-11-28: any machine could replace the parts of another one's stations.

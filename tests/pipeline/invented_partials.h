@@ -16,7 +16,7 @@ inline UtcTime minute(int minutes) {
     return *parse_utc("2005-08-22T02:00:00Z", UtcTime{}) + std::chrono::minutes{minutes};
 }
 
-// A station that sees a square of 32 x 32 columns of the small domain at a corner of its own, from
+// A station that sees 32 x 32 columns of the small domain, if nothing else is said, from
 // the minute on for four minutes, so that its middle is two minutes later.
 struct InventedPartial {
     std::string station = "KBGM";
@@ -25,16 +25,18 @@ struct InventedPartial {
     float value = 20;
     int longer_ms = 0;
     bool has_other_codes = false;
+    int columns = 32;
+    double latitude_deg = 42.2;
 };
 
 inline grid::Grid grid_of(const InventedPartial& wanted) {
     grid::Grid made;
-    made.spec = grid::window_spec(small_domain().spec, {wanted.column, 0, 32, 32});
+    made.spec = grid::window_spec(small_domain().spec, {wanted.column, 0, wanted.columns, 32});
     made.moment = level2::Moment::ref;
     made.time = made.start_time = minute(wanted.minute);
     made.end_time =
         made.time + std::chrono::minutes{4} + std::chrono::milliseconds{wanted.longer_ms};
-    made.sites = {{wanted.station, 42.2 - wanted.column * 0.01, -75.9, 400}};
+    made.sites = {{wanted.station, wanted.latitude_deg - wanted.column * 0.01, -75.9, 400}};
     made.provenance.source_files = {level2::volume_name(wanted.station, made.time)};
     made.provenance.stations = {wanted.station};
     made.provenance.method = "column-linear";

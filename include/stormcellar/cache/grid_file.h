@@ -62,9 +62,16 @@ struct GridDescription {
 
 class GridFile {
   public:
-    // Opens a file. Errors: not_found, io, truncated, corrupt (checksum, impossible sizes) or
-    // unsupported (a later version). Every message begins with the path.
-    static Result<GridFile> open(const std::filesystem::path& path);
+    // Opens a file. Packed bricks take memory many times their size in the file, so the caller
+    // bounds what those of a stranger's file may take. Errors: not_found, io, truncated, corrupt
+    // (checksum, impossible sizes) or unsupported (a later version, or more than
+    // `most_unpacked_bytes`). Every message begins with the path.
+    static Result<GridFile> open(const std::filesystem::path& path,
+                                 std::uint64_t most_unpacked_bytes = any_bytes);
+    static constexpr std::uint64_t any_bytes = ~std::uint64_t{0};
+    // More than the grid of any site takes: one of a WSR-88D with cells of 500 m on 33 levels takes
+    // 220 MB if every brick is stored.
+    static constexpr std::uint64_t most_bytes_of_site = std::uint64_t{512} << 20U;
 
     GridFile(GridFile&&) noexcept;
     GridFile& operator=(GridFile&&) noexcept;
