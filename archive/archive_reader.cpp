@@ -343,7 +343,7 @@ struct ArchiveReader::Impl {
                       std::move(one.reason));
         }
         is_cut = is_cut || inner->is_cut;
-        // What it unpacked only to pass over counts as well.
+        // Bytes that the inner archive unpacked and passed over count as well.
         const std::uint64_t unpacked = inner->packed ? inner->packed->unpacked() : 0;
         given_bytes =
             std::max(given_bytes, given_before_inner + std::max(unpacked, inner->given_bytes));

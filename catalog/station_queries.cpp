@@ -1,4 +1,4 @@
-// What a station's database answers to those who list its volumes.
+// Lists and counts the volumes of one station's database.
 #include <algorithm>
 #include <limits>
 #include <string>

@@ -50,7 +50,7 @@ class BucketClient {
     // Runs until the flag is set or nothing is left to ask. Calls `turn` often.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
 
-    // How long the server asked to wait with the answer that is being taken.
+    // Returns how long the server asked to wait, in the answer that is being taken.
     [[nodiscard]] std::chrono::seconds retry_after() const { return retry_after_; }
 
   private:

@@ -23,14 +23,15 @@ class NewestSearch {
   public:
     explicit NewestSearch(std::string station) : station_(std::move(station)) {}
 
-    // What to ask next, until is_done().
+    // Returns the next question, until is_done().
     [[nodiscard]] fetch::ListingQuestion question() const;
     // Takes the answer to question().
     void take(const fetch::ListingPage& answer, UtcTime now);
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
-    // Where to begin: the directory before the newest one, so that a whole volume comes first, or
-    // the newest itself, and a time: what is older there is of an earlier round of the ring.
+    // The follower begins with the directory before the newest one, so that a whole volume comes
+    // first, or with the newest itself. Chunks older than `from` are of an earlier round of the
+    // ring.
     struct Start {
         int number = 0;
         UtcTime from;

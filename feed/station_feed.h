@@ -23,7 +23,7 @@
 
 namespace stormcellar::feed {
 
-// What all stations share. It must outlive them.
+// All stations share these. They must outlive the stations.
 struct FeedTools {
     BucketClient& client;
     FeedDrop& drop;

@@ -1,4 +1,4 @@
-// What the services say when they have checked a configuration.
+// A check of the configuration says as which user it was made.
 #include "base/service_arguments.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Which keys are chunks, and that nothing else becomes a path.
+// Keys of chunks become paths, and nothing else does.
 #include "feed/chunk_key.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The real programs: the bucket plays real volumes, stormcellar-feed writes their chunks, and
-// stormcellard makes of them what it makes of LDM's.
+// stormcellard makes the same grids of them as of LDM's.
 #include <csignal>
 #include <filesystem>
 #include <fstream>

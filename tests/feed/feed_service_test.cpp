@@ -1,4 +1,4 @@
-// The bucket over HTTP: what it has arrives whole, and what it does wrong harms nothing.
+// The bucket over HTTP: its chunks arrive whole, and its faults harm nothing.
 #include "feed/feed_service.h"
 
 #include <fstream>

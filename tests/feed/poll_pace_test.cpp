@@ -1,4 +1,4 @@
-// How often the bucket is asked: a made clock, no waiting.
+// The bucket is asked at the right times: a made clock, no waiting.
 #include "feed/poll_pace.h"
 
 #include <vector>
