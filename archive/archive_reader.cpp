@@ -51,15 +51,6 @@ bool is_tar_header(std::span<const std::byte> bytes) {
     return claimed == sum;
 }
 
-bool is_packed(std::span<const std::byte> start) {
-    using namespace std::string_view_literals;
-    constexpr std::array<std::string_view, 5> magics = {"\x1F\x8B"sv, "BZh"sv,
-                                                        "\xFD"
-                                                        "7zXZ"sv,
-                                                        "\x28\xB5\x2F\xFD"sv, "\x1F\x9D"sv};
-    return std::ranges::any_of(magics, [&](std::string_view m) { return begins_with(start, m); });
-}
-
 // Returns true if the first 512 bytes may begin an archive. A packed archive must be unpacked to
 // know.
 bool may_be_archive(std::span<const std::byte> start) {
@@ -149,9 +140,9 @@ struct ArchiveReader::Impl {
         plain = std::make_unique<PlainSource>(std::move(read_at), source_bytes,
                                               packs ? of_source : header);
         if (packs) {
-            packed = PackedStream::open([this](::archive* of) { return plain->feed(of); },
-                                        of_source, limits.small_codecs,
-                                        [this](std::uint64_t read) { return most_bytes(read); });
+            packed = PackedStream::open(
+                start, [this](::archive* of) { return plain->feed(of); }, of_source,
+                limits.small_codecs, [this](std::uint64_t read) { return most_bytes(read); });
         }
         if (packs ? !packed || !packed->feed(handle.get(), header) : !plain->feed(handle.get()))
             return false;
@@ -368,13 +359,15 @@ struct ArchiveReader::Impl {
             }
             const std::string name = name_of(entry);
             if (archive_entry_filetype(entry) == AE_IFDIR) continue;
+            // To pass over such a member, the library may have to unpack it.
+            if (limits.small_codecs && !is_small_codec(handle.get())) {
+                end_with(fmt::format(
+                    "{} is packed in a way that may take much memory: the rest is not read", name));
+                return std::nullopt;
+            }
             if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {
                 leave_out(name, std::string{refusal});
                 if (archive_entry_is_encrypted(entry) == 0) pass_over(name);
-                continue;
-            }
-            if (limits.small_codecs && !is_small_codec(handle.get())) {
-                leave_out(name, "is packed in a way that may take much memory");
                 continue;
             }
             std::optional<UtcTime> modified;

@@ -1,7 +1,10 @@
 #include "archive/packed_stream.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstring>
+#include <string_view>
 #include <utility>
 
 #include <archive.h>
@@ -13,19 +16,37 @@ namespace {
 constexpr std::size_t unpacked_block_bytes = std::size_t{16} << 10;
 // A codec may read this much of the source before anything comes out.
 constexpr std::uint64_t most_source_bytes = std::uint64_t{4} << 20;
-constexpr int one_filter = 2;  // libarchive counts the source itself as one
 
-// None of these filters starts another program.
-bool support_filters(::archive* handle, bool small_codecs) {
-    const auto support = [&](auto function) { return function(handle) >= ARCHIVE_WARN; };
-    const bool small = support(archive_read_support_filter_gzip) &&
-                       support(archive_read_support_filter_bzip2) &&
-                       support(archive_read_support_filter_compress);
-    return small && (small_codecs || (support(archive_read_support_filter_xz) &&
-                                      support(archive_read_support_filter_zstd)));
+struct Codec {
+    std::string_view magic;
+    int filter;
+    bool is_small;
+};
+// libarchive has all of them built in, so none starts another program.
+using namespace std::string_view_literals;
+constexpr std::array<Codec, 5> codecs = {{
+    {"\x1F\x8B"sv, ARCHIVE_FILTER_GZIP, true},
+    {"BZh"sv, ARCHIVE_FILTER_BZIP2, true},
+    {"\x1F\x9D"sv, ARCHIVE_FILTER_COMPRESS, true},
+    {"\xFD"
+     "7zXZ"sv,
+     ARCHIVE_FILTER_XZ, false},
+    {"\x28\xB5\x2F\xFD"sv, ARCHIVE_FILTER_ZSTD, false},
+}};
+
+const Codec* codec_of(std::span<const std::byte> start) {
+    const auto found = std::ranges::find_if(codecs, [&](const Codec& codec) {
+        return start.size() >= codec.magic.size() &&
+               std::memcmp(start.data(), codec.magic.data(), codec.magic.size()) == 0;
+    });
+    return found == codecs.end() ? nullptr : &*found;
 }
 
 }  // namespace
+
+bool is_packed(std::span<const std::byte> start) {
+    return codec_of(start) != nullptr;
+}
 
 bool HeaderBudget::take(::archive* handle, std::uint64_t bytes) {
     if (!counts_) return true;
@@ -57,14 +78,19 @@ PackedStream::PackedStream(Handle source, HeaderBudget& of_source, Bound bound)
       bound_(std::move(bound)),
       block_(unpacked_block_bytes) {}
 
-std::unique_ptr<PackedStream> PackedStream::open(const OpenSource& source, HeaderBudget& of_source,
+// The filter is chosen here: libarchive's own choice looks for further filters behind the first
+// one, and what it unpacks meanwhile counts nowhere.
+std::unique_ptr<PackedStream> PackedStream::open(std::span<const std::byte> start,
+                                                 const OpenSource& source, HeaderBudget& of_source,
                                                  bool small_codecs, Bound bound) {
+    const Codec* const codec = codec_of(start);
+    if (codec == nullptr || (small_codecs && !codec->is_small)) return nullptr;
     of_source.begin(most_source_bytes);
     Handle handle{archive_read_new()};
-    const bool ready = handle && support_filters(handle.get(), small_codecs) &&
-                       archive_read_support_format_raw(handle.get()) >= ARCHIVE_WARN &&
-                       source(handle.get());
-    if (!ready || archive_filter_count(handle.get()) != one_filter) return nullptr;
+    const bool ready =
+        handle && archive_read_append_filter(handle.get(), codec->filter) >= ARCHIVE_WARN &&
+        archive_read_support_format_raw(handle.get()) >= ARCHIVE_WARN && source(handle.get());
+    if (!ready) return nullptr;
     ::archive_entry* whole = nullptr;
     if (archive_read_next_header(handle.get(), &whole) < ARCHIVE_WARN) return nullptr;
     return std::unique_ptr<PackedStream>(

@@ -2,7 +2,7 @@
 //
 // This is used only inside the archive room. libarchive skips members by unpacking them and counts
 // nothing meanwhile; here every unpacked byte is checked against a bound. An archive that is packed
-// twice is refused, because nothing would count the bytes between the two layers.
+// twice is none: only one layer is unpacked.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -50,6 +50,9 @@ using Handle = std::unique_ptr<::archive, CloseArchive>;
 // Returns libarchive's own words for what is wrong.
 [[nodiscard]] std::string error_text_of(::archive* handle);
 
+// Returns true if these first bytes are those of a known codec.
+[[nodiscard]] bool is_packed(std::span<const std::byte> start);
+
 class PackedStream {
   public:
     // Opens a reader on the packed bytes. It is closed with the stream.
@@ -57,12 +60,13 @@ class PackedStream {
     // Returns how many bytes may come out when this many bytes of the source were read.
     using Bound = std::function<std::uint64_t(std::uint64_t source_bytes)>;
 
-    // Opens a stream. Returns none if the source is not packed exactly once by a known filter.
-    // `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory whatever
-    // the input says; without it, xz and zstd are allowed too (up to 1 GiB).
-    // `of_source`, which must outlive the object, counts what is read of the source at a time: the
-    // header of a gzip file may have a name without an end.
-    [[nodiscard]] static std::unique_ptr<PackedStream> open(const OpenSource& source,
+    // Opens a stream on a source with this start. Returns none if it is not packed by a known
+    // codec. `small_codecs` allows gzip, bzip2 and compress, which take a few megabytes of memory
+    // whatever the input says; without it, xz and zstd are allowed too (up to 1 GiB). `of_source`,
+    // which must outlive the object, counts what is read of the source at a time: the header of a
+    // gzip file may have a name without an end.
+    [[nodiscard]] static std::unique_ptr<PackedStream> open(std::span<const std::byte> start,
+                                                            const OpenSource& source,
                                                             HeaderBudget& of_source,
                                                             bool small_codecs, Bound bound);
     // Lets `handle`, which must end before this object, read the unpacked bytes.

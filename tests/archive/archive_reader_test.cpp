@@ -364,6 +364,47 @@ TEST(ArchiveReader, ANameOfGzipWithoutAnEndTakesNoMemory) {
     EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
 }
 
+// 2026-11-28: libarchive looked for a second filter behind the first one, and kept as much of the
+// unpacked bytes as a name took that has no end: gigabytes, of a file of some kilobytes.
+TEST(ArchiveReader, ANameOfGzipInABzip2TakesNoMemory) {
+    std::vector<std::byte> name(std::size_t{8} << 20, std::byte{'n'});
+    const auto more = packed(Kind::tar_bz2, name);
+    std::ranges::copy(bytes_of(std::string("\x1F\x8B\x08\x08", 4)), name.begin());
+    auto bomb = packed(Kind::tar_bz2, name);
+    for (int i = 0; i < 15; ++i)
+        bomb.insert(bomb.end(), more.begin(), more.end());
+    const std::size_t before = peak_bytes();
+    EXPECT_FALSE(ArchiveReader::open(bomb));
+    EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
+}
+
+// A member that is packed with LZMA, whose header asks for a dictionary of 1 GiB and whose length
+// stands behind it.
+std::vector<std::byte> zip_of_lzma() {
+    std::string zip("PK\x03\x04\x3F\0\x08\0\x0E\0", 10);
+    zip += std::string(16, '\0') + std::string("\x01\0\0\0x", 5);
+    zip += std::string("\x10\x02\x05\0\x5D\0\0\0\x40", 9) + std::string(100'000, '\0');
+    return bytes_of(zip);
+}
+
+// 2026-11-28: to pass over such a member of a zip that is read from its start, libarchive unpacked
+// it, with all the memory that the member's header asked for.
+TEST(ArchiveReader, SmallCodecsAloneEndAtAMemberOfAnotherCodec) {
+    Limits limits;
+    limits.small_codecs = true;
+    const auto zip = zip_of_lzma();
+    for (const auto& bytes : {zip, packed(Kind::tar_gz, zip)}) {
+        const std::size_t before = peak_bytes();
+        auto reader = ArchiveReader::open(bytes, limits);
+        ASSERT_TRUE(reader);
+        EXPECT_THAT(names_of(*reader), IsEmpty());
+        ASSERT_EQ(reader->left_out().size(), 1U);
+        EXPECT_THAT(reader->left_out().at(0).reason,
+                    HasSubstr("x is packed in a way that may take much memory"));
+        EXPECT_LT(peak_bytes() - before, std::size_t{24} << 20);
+    }
+}
+
 TEST(ArchiveReader, ASparseFileIsLeftOut) {
     const auto tar = sparse_tar(2);
     auto reader = ArchiveReader::open(tar);
