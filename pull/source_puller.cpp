@@ -146,6 +146,11 @@ bool SourcePuller::may_fetch() const {
     return !stop_ && fetched_ < most_of_a_turn;
 }
 
+// The oldest grids are removed at the end of a turn.
+bool SourcePuller::is_full() const {
+    return grids_.bytes() > config_.bytes_a_source;
+}
+
 void SourcePuller::complain(const Error& why) {
     if (lines_.allow(steady_now())) say(LogLevel::warning, "{}: {}", source_.name, why.message);
 }
@@ -156,7 +161,7 @@ Status SourcePuller::fetch_missing() {
         if (grids_.has(name)) continue;
         if (Status fetched = fetch(name); !fetched) return fetched;
         // Of a machine that was away for long, the newest count: the limits hold meanwhile.
-        if (grids_.bytes() > config_.bytes_a_source) return {};
+        if (is_full()) return {};
     }
     return {};
 }
@@ -168,6 +173,7 @@ Status SourcePuller::ask_again(UtcTime now) {
         const bool is_due = asked == asked_.end() || steady_now() >= asked->second + between_asking;
         if (!grids_.has(name) || !is_due) continue;
         if (Status fetched = fetch(name); !fetched) return fetched;
+        if (is_full()) return {};  // they were made again, and larger
     }
     return {};
 }

@@ -38,6 +38,10 @@ class OtherMachine {
     [[nodiscard]] std::string file(std::size_t number) const {
         return text_of(store_.directory() / cache::relative_path(name(number)));
     }
+    void add(std::chrono::minutes age, int shift) {
+        names_.push_back({"us.KBGM", level2::Moment::ref, now_utc() - age});
+        write(names_.back(), shift);
+    }
     // Makes grid `number` again with other cells.
     void make_again(std::size_t number) { write(names_.at(number), 5); }
     // Changes each answer to a request for a file.
@@ -46,10 +50,6 @@ class OtherMachine {
     std::function<Reply(Reply)> of_missing = [](Reply reply) { return reply; };
 
   private:
-    void add(std::chrono::minutes age, int shift) {
-        names_.push_back({"us.KBGM", level2::Moment::ref, now_utc() - age});
-        write(names_.back(), shift);
-    }
     void write(const cache::GridName& name, int shift) {
         grid::Grid grid = testing::small_grid();
         grid.time = grid.start_time = name.time;
@@ -152,6 +152,19 @@ TEST_F(Pulling, AYoungGridThatWasMadeAgainComesAgain) {
     ASSERT_TRUE(puller()->turn());
     EXPECT_FALSE(pulled(1) == before);
     EXPECT_TRUE(pulled(1) == other_.file(1));
+}
+
+// 2026-11-28: young grids were fetched again, up to 1,000 in a turn, and nothing looked at their
+// bytes meanwhile: a machine that made them anew, and larger, filled the disk.
+TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
+    other_.add(std::chrono::minutes{5}, 2);
+    ASSERT_TRUE(puller()->turn());
+    ASSERT_EQ(files().size(), 3U);
+    config_.bytes_a_source = 1;
+    other_.server().forget_asked();
+    ASSERT_TRUE(puller()->turn());
+    const auto is_file = [](const Asked& asked) { return asked.path.ends_with("/file"); };
+    EXPECT_EQ(std::ranges::count_if(other_.server().asked(), is_file), 1) << "of two young ones";
 }
 
 TEST_F(Pulling, WhatComesCutOrChangedIsRefusedAndComesLater) {
