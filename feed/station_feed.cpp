@@ -48,8 +48,11 @@ void StationFeed::ask(std::chrono::milliseconds wait) {
 
 void StationFeed::take(Result<fetch::ListingPage> answer) {
     if (!answer) return fail_turn(answer.error());
-    if (!status_.error.empty() && tools_.lines.allow(steady_now()))
-        say(LogLevel::info, "{}: the bucket answers again", station_);
+    if (!status_.error.empty()) {
+        quiet_since_ = steady_now();
+        if (tools_.lines.allow(quiet_since_))
+            say(LogLevel::info, "{}: the bucket answers again", station_);
+    }
     status_.error.clear();
     status_.next_try.reset();
     status_.answered = now_utc();
@@ -128,7 +131,7 @@ void StationFeed::finish_turn() {
         if (status_.is_silent && tools_.lines.allow(now))
             say(LogLevel::info, "{}: chunks come again", station_);
         status_.is_silent = false;
-        last_news_ = now;
+        quiet_since_ = now;
         pace_.note_news(now, between_chunks_);
     } else {
         pace_.note_nothing(now);
@@ -150,7 +153,7 @@ void StationFeed::fail_turn(const Error& why) {
 
 void StationFeed::note_silence() {
     const SteadyTime now = steady_now();
-    if (status_.is_silent || now - last_news_ < tools_.config.silent_after) return;
+    if (status_.is_silent || now - quiet_since_ < tools_.config.silent_after) return;
     status_.is_silent = true;
     if (!tools_.lines.allow(now)) return;
     say(LogLevel::warning, "{}: {}", station_,

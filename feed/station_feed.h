@@ -66,7 +66,8 @@ class StationFeed {
     ChunkKey tried_;
     std::optional<UtcTime> modified_;  // of the last chunk
     std::chrono::milliseconds between_chunks_{0};
-    SteadyTime last_news_ = steady_now();
+    // The last chunk came then, or the bucket has answered since then without one.
+    SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };
 

@@ -239,6 +239,22 @@ TEST_F(FeedingFrom, AStationThatFallsSilentIsNamedUntilItSendsAgain) {
     EXPECT_TRUE(feed_.station(1).is_silent) << "which the bucket does not have";
 }
 
+// 2026-11-28: after an outage, the first answer of a search made the feed say that the bucket has
+// no volume of the station.
+TEST_F(FeedingFrom, AnOutageIsNoSilenceOfAStation) {
+    feed_.config.silent_after = std::chrono::seconds{3};
+    std::atomic<bool> is_down{true};
+    bucket_.change = [&](const std::string&, Reply reply) {
+        return is_down ? Reply{503, "down", "", Reply::Way::whole} : reply;
+    };
+    feed_.start();
+    const SteadyTime until = steady_now() + feed_.config.silent_after;
+    ASSERT_TRUE(RunningFeed::wait_for([&] { return steady_now() > until; }));
+    is_down = false;
+    ASSERT_TRUE(RunningFeed::wait_for([&] { return feed_.station().error.empty(); }));
+    EXPECT_FALSE(feed_.station().is_silent);
+}
+
 TEST_F(FeedingFrom, AFullDiskIsNamedAndLosesNothing) {
     testing::PowerCutFileSystem disk;
     disk.set_space(100);
