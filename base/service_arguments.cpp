@@ -10,8 +10,8 @@
 
 namespace stormcellar {
 
-Result<ServiceArguments> parse_service_arguments(
-    int argc, char** argv, std::initializer_list<std::string_view> own_flags) {
+Result<ServiceArguments> parse_service_arguments(int argc, char** argv,
+                                                 const std::vector<std::string_view>& own_flags) {
     ServiceArguments arguments;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
@@ -26,7 +26,11 @@ Result<ServiceArguments> parse_service_arguments(
         } else if (word == "--help" || word == "-h") {
             arguments.help = true;
         } else if (std::ranges::find(own_flags, word) != own_flags.end()) {
-            arguments.flags.insert(word);
+            if (!arguments.flag.empty() && arguments.flag != word) {
+                return fail(ErrorCode::bad_argument, "{} and {} cannot be given together",
+                            arguments.flag, word);
+            }
+            arguments.flag = word;
         } else if (word == "--config") {
             return fail(ErrorCode::bad_argument, "--config: give a file");
         } else {

@@ -5,11 +5,10 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "stormcellar/base/result.h"
 
@@ -20,11 +19,11 @@ struct ServiceArguments {
     bool check = false;
     bool help = false;
     bool version = false;
-    std::set<std::string_view> flags;  // those of the service's own that were given
+    std::string_view flag;  // the one of the service's own that was given; empty: none was
 };
-// `own_flags` are what this service takes beside, as "--no-loops".
+// `own_flags` are what this service takes beside, as "--no-loops"; at most one of them is given.
 [[nodiscard]] Result<ServiceArguments> parse_service_arguments(
-    int argc, char** argv, std::initializer_list<std::string_view> own_flags = {});
+    int argc, char** argv, const std::vector<std::string_view>& own_flags = {});
 
 // Returns "checked as the user NAME", for --check-config. Root is told how to check as the service,
 // because it may read everything and so learns nothing of what the service may read.

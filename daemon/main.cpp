@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -14,7 +13,7 @@
 #include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/service_arguments.h"
+#include "base/service_program.h"
 #include "cache/map_guard.h"
 #include "daemon/care/caretaker.h"
 #include "daemon/care/state_keeper.h"
@@ -34,8 +33,8 @@
 namespace stormcellar::daemon {
 namespace {
 
+constexpr std::string_view program = "stormcellard";
 constexpr int exit_failed = 1;
-constexpr int exit_bad_usage = 2;
 constexpr std::string_view no_loops = "--no-loops", loops_only = "--loops-only";
 
 constexpr std::string_view usage =
@@ -46,15 +45,6 @@ constexpr std::string_view usage =
     "  --check-config   check FILE and, without --no-loops, its loops' scenes, and exit\n"
     "  --version, --help\n";
 
-// Errors: bad_argument for invalid arguments.
-Result<ServiceArguments> parse(int argc, char** argv) {
-    auto arguments = parse_service_arguments(argc, argv, {no_loops, loops_only});
-    if (arguments && arguments->flags.size() > 1)
-        return fail(ErrorCode::bad_argument,
-                    "--no-loops and --loops-only cannot be given together");
-    return arguments;
-}
-
 // Growing volumes and databases of all stations take some 1,000 descriptors, which is the usual
 // soft limit for the sake of old programs. If the limit cannot be raised, the error appears where a
 // descriptor is missing.
@@ -63,11 +53,6 @@ void raise_descriptor_limit() {
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
     limit.rlim_cur = std::max<rlim_t>(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 16'384));
     (void)::setrlimit(RLIMIT_NOFILE, &limit);
-}
-
-int complain(const Error& error) {
-    fmt::print(stderr, "stormcellard: {}\n", printable(error.message));
-    return exit_failed;
 }
 
 Status make_directory(const std::filesystem::path& path) {
@@ -126,11 +111,12 @@ std::unique_ptr<EventSource> open_events() {
 int serve_loops(const Config& config, const std::filesystem::path& file) {
     set_up_logging(config.reloadable.log_level, usual_outlet());
     const std::filesystem::path directory = LoopsService::directory(config);
-    if (const Status ready = make_directory(directory); !ready) return complain(ready.error());
+    if (const Status ready = make_directory(directory); !ready)
+        return complain(program, ready.error());
     const auto lock = pipeline::InstanceLock::acquire(directory);
-    if (!lock) return complain(lock.error());
+    if (!lock) return complain(program, lock.error());
     const Result<Signals> signals = Signals::open();
-    if (!signals) return complain(signals.error());
+    if (!signals) return complain(program, signals.error());
     SystemdNotifier notifier;
     LoopsService(config, file, {notifier, real_file_system(), &*signals}).run();
     return EXIT_SUCCESS;
@@ -162,11 +148,11 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
     const FixedConfig& fixed = config.fixed;
     StateKeeper state(fixed.paths.state);
     const Status ready = make_directory(fixed.paths.cache).and_then([&] { return state.hold(); });
-    if (!ready) return complain(ready.error());
+    if (!ready) return complain(program, ready.error());
     const Result<Signals> signals = Signals::open();
-    if (!signals) return complain(signals.error());
+    if (!signals) return complain(program, signals.error());
     const Result<std::unique_ptr<IngestSink>> sink = IngestSink::open(config);
-    if (!sink) return complain(sink.error());
+    if (!sink) return complain(program, sink.error());
 
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
@@ -209,51 +195,36 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
     return exit_failed;
 }
 
-int run(int argc, char** argv) {
-    const Result<ServiceArguments> arguments = parse(argc, argv);
-    if (!arguments) {
-        (void)complain(arguments.error());
-        fmt::print(stderr, "{}", usage);
-        return exit_bad_usage;
-    }
-    if (arguments->help || arguments->version) {
-        fmt::print("{}", arguments->help ? std::string{usage}
-                                         : fmt::format("stormcellard {}\n", software_version));
-        return EXIT_SUCCESS;
-    }
-    const Result<Config> config =
-        load_config(*arguments->config, arguments->check && !arguments->flags.contains(no_loops)
-                                            ? SceneFiles::must_exist
-                                            : SceneFiles::as_named);
-    if (!config) return complain(config.error());
-    if (arguments->check) {
-        if (arguments->flags.contains(no_loops)) {
+int run(const ServiceArguments& arguments) {
+    const Result<Config> config = load_config(
+        *arguments.config, arguments.check && arguments.flag != no_loops ? SceneFiles::must_exist
+                                                                         : SceneFiles::as_named);
+    if (!config) return complain(program, config.error());
+    if (arguments.check) {
+        if (arguments.flag == no_loops) {
             // The loops are another service's.
         } else if (const Status fine =
                        check_loops(config->reloadable.loops, config->fixed.paths.cache);
                    !fine) {
-            return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
-                                                            fine.error().message)});
+            return complain(
+                program, {fine.error().code,
+                          fmt::format("{}: {}", arguments.config->native(), fine.error().message)});
         }
         print_notes(*config);
-        fmt::print("{}\n{}: ok\n", checked_as("stormcellard", "stormcellar"),
-                   printable(arguments->config->native()));
+        fmt::print("{}\n{}: ok\n", checked_as(program, "stormcellar"),
+                   printable(arguments.config->native()));
         return EXIT_SUCCESS;
     }
     set_added_stations(config->fixed.ingest.added_stations);
     if (const auto path = config->fixed.ingest.bunzip) bunzip::set_usual_path(*path);
-    if (arguments->flags.contains(loops_only)) return serve_loops(*config, *arguments->config);
-    return serve(*config, *arguments->config, !arguments->flags.contains(no_loops));
+    if (arguments.flag == loops_only) return serve_loops(*config, *arguments.config);
+    return serve(*config, *arguments.config, arguments.flag != no_loops);
 }
 
 }  // namespace
 }  // namespace stormcellar::daemon
 
 int main(int argc, char** argv) {
-    try {
-        return stormcellar::daemon::run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stormcellard: {}\n", stormcellar::printable(error.what()));
-        return 1;
-    }
+    using namespace stormcellar::daemon;
+    return stormcellar::run_service({program, usage, {no_loops, loops_only}, run}, argc, argv);
 }

@@ -1,8 +1,5 @@
 // stormcellar-feed: follows the public chunk bucket for some stations. Its usage is the text below.
-#include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <exception>
 #include <filesystem>
 #include <string_view>
 
@@ -12,8 +9,8 @@
 
 #include "base/counted.h"
 #include "base/printable.h"
-#include "base/service_arguments.h"
 #include "base/service_log.h"
+#include "base/service_program.h"
 #include "base/waited_signals.h"
 #include "feed/feed_service.h"
 #include "stormcellar/base/version.h"
@@ -21,9 +18,8 @@
 namespace stormcellar::feed {
 namespace {
 
-constexpr int exit_failed = 1;
-constexpr int exit_bad_usage = 2;
-// How often signals are looked for, and the status is written and the watchdog fed.
+constexpr std::string_view program = "stormcellar-feed";
+// The program looks for signals, and writes the status and feeds the watchdog, as often as this.
 constexpr std::chrono::milliseconds between_looks{100}, between_reports{2000};
 
 constexpr std::string_view usage =
@@ -32,21 +28,9 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-int complain(const Error& error) {
-    fmt::print(stderr, "stormcellar-feed: {}\n", printable(error.message));
-    return exit_failed;
-}
-
 // Tells systemd. Without it, nothing happens.
 void notify(const std::string& state) {
     (void)::sd_notify(0, state.c_str());
-}
-
-std::string reloading_state() {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
-                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
 }
 
 Result<FeedConfig> load_with_stations(const std::filesystem::path& file) {
@@ -106,7 +90,7 @@ int feed(const FeedConfig& config, const std::filesystem::path& file) {
     set_log_level(config.log_level);
     const WaitedSignals signals;
     auto opened = FeedService::open(real_file_system(), config);
-    if (!opened) return complain(opened.error());
+    if (!opened) return complain(program, opened.error());
     std::unique_ptr<FeedService> service = std::move(*opened);
     say(LogLevel::info, "stormcellar-feed {}: following {} of {}, whose chunks go to {}",
         software_version, counted(config.stations.size(), "station"), config.bucket,
@@ -126,23 +110,12 @@ int feed(const FeedConfig& config, const std::filesystem::path& file) {
     return EXIT_SUCCESS;
 }
 
-int run(int argc, char** argv) {
-    const Result<ServiceArguments> arguments = parse_service_arguments(argc, argv);
-    if (!arguments) {
-        (void)complain(arguments.error());
-        fmt::print(stderr, "{}", usage);
-        return exit_bad_usage;
-    }
-    if (arguments->help || arguments->version) {
-        fmt::print("{}", arguments->help ? std::string{usage}
-                                         : fmt::format("stormcellar-feed {}\n", software_version));
-        return EXIT_SUCCESS;
-    }
-    const auto config = arguments->check ? load_feed_config(*arguments->config)
-                                         : load_with_stations(*arguments->config);
-    if (!config) return complain(config.error());
-    if (!arguments->check) return feed(*config, *arguments->config);
-    fmt::print("{}: ok\n", printable(arguments->config->native()));
+int run(const ServiceArguments& arguments) {
+    const auto config = arguments.check ? load_feed_config(*arguments.config)
+                                        : load_with_stations(*arguments.config);
+    if (!config) return complain(program, config.error());
+    if (!arguments.check) return feed(*config, *arguments.config);
+    fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
     return EXIT_SUCCESS;
 }
 
@@ -150,10 +123,6 @@ int run(int argc, char** argv) {
 }  // namespace stormcellar::feed
 
 int main(int argc, char** argv) {
-    try {
-        return stormcellar::feed::run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stormcellar-feed: {}\n", stormcellar::printable(error.what()));
-        return 1;
-    }
+    using namespace stormcellar::feed;
+    return stormcellar::run_service({program, usage, {}, run}, argc, argv);
 }

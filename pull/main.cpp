@@ -1,9 +1,6 @@
 // stormcellar-pull: fetches grids from the data servers of other machines. Its usage is the text
 // below.
-#include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -13,8 +10,8 @@
 
 #include "base/counted.h"
 #include "base/printable.h"
-#include "base/service_arguments.h"
 #include "base/service_log.h"
+#include "base/service_program.h"
 #include "base/waited_signals.h"
 #include "pull/pull_service.h"
 #include "stormcellar/base/version.h"
@@ -22,8 +19,7 @@
 namespace stormcellar::pull {
 namespace {
 
-constexpr int exit_failed = 1;
-constexpr int exit_bad_usage = 2;
+constexpr std::string_view program = "stormcellar-pull";
 // How often the status is written, and the watchdog fed.
 constexpr std::chrono::milliseconds turn{1000};
 // A transfer is given up before that; a thread that is silent for so long is stuck.
@@ -35,21 +31,9 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-int complain(const Error& error) {
-    fmt::print(stderr, "stormcellar-pull: {}\n", printable(error.message));
-    return exit_failed;
-}
-
 // Tells systemd. Without it, nothing happens.
 void notify(const std::string& state) {
     (void)::sd_notify(0, state.c_str());
-}
-
-std::string reloading_state() {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
-                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
 }
 
 void publish(PullService& service) {
@@ -80,7 +64,7 @@ int pull(const PullConfig& config, const std::filesystem::path& file) {
     set_log_level(config.log_level);
     const WaitedSignals signals;
     auto opened = PullService::open(real_file_system(), config);
-    if (!opened) return complain(opened.error());
+    if (!opened) return complain(program, opened.error());
     std::unique_ptr<PullService> service = std::move(*opened);
     say(LogLevel::info, "stormcellar-pull {}: asking {} for grids, which go to {}",
         software_version, counted(config.sources.size(), "machine"), config.directory.native());
@@ -95,30 +79,18 @@ int pull(const PullConfig& config, const std::filesystem::path& file) {
             break;
         }
         reload(service, file);
-        if (service == nullptr) return exit_failed;
+        if (service == nullptr) return EXIT_FAILURE;
     }
     notify("STOPPING=1");
     service.reset();
     return EXIT_SUCCESS;
 }
 
-int run(int argc, char** argv) {
-    const Result<ServiceArguments> arguments = parse_service_arguments(argc, argv);
-    if (!arguments) {
-        (void)complain(arguments.error());
-        fmt::print(stderr, "{}", usage);
-        return exit_bad_usage;
-    }
-    if (arguments->help || arguments->version) {
-        fmt::print("{}", arguments->help ? std::string{usage}
-                                         : fmt::format("stormcellar-pull {}\n", software_version));
-        return EXIT_SUCCESS;
-    }
-    const Result<PullConfig> config = load_pull_config(*arguments->config);
-    if (!config) return complain(config.error());
-    if (!arguments->check) return pull(*config, *arguments->config);
-    fmt::print("{}\n{}: ok\n", checked_as("stormcellar-pull", "stormcellar-pull"),
-               printable(arguments->config->native()));
+int run(const ServiceArguments& arguments) {
+    const Result<PullConfig> config = load_pull_config(*arguments.config);
+    if (!config) return complain(program, config.error());
+    if (!arguments.check) return pull(*config, *arguments.config);
+    fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
     return EXIT_SUCCESS;
 }
 
@@ -126,10 +98,6 @@ int run(int argc, char** argv) {
 }  // namespace stormcellar::pull
 
 int main(int argc, char** argv) {
-    try {
-        return stormcellar::pull::run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stormcellar-pull: {}\n", stormcellar::printable(error.what()));
-        return 1;
-    }
+    using namespace stormcellar::pull;
+    return stormcellar::run_service({program, usage, {}, run}, argc, argv);
 }

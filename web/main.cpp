@@ -1,8 +1,6 @@
 // stormcellar-web: the data server as a service. Its usage is the text below.
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <optional>
@@ -16,8 +14,8 @@
 #include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/service_arguments.h"
 #include "base/service_log.h"
+#include "base/service_program.h"
 #include "base/steady_time.h"
 #include "base/waited_signals.h"
 #include "cache/map_guard.h"
@@ -30,8 +28,7 @@
 namespace stormcellar::web {
 namespace {
 
-constexpr int exit_failed = 1;
-constexpr int exit_bad_usage = 2;
+constexpr std::string_view program = "stormcellar-web";
 // How often the program looks whether there is a catalog, and whether the watchdog is due.
 constexpr std::chrono::milliseconds turn{1000};
 
@@ -40,11 +37,6 @@ constexpr std::string_view usage =
     "  --config FILE    read the configuration from FILE (TOML), that of stormcellard\n"
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
-
-int complain(const Error& error) {
-    fmt::print(stderr, "stormcellar-web: {}\n", printable(error.message));
-    return exit_failed;
-}
 
 // Each connection, open grid and raw file takes a descriptor, and 1,024 is the usual soft limit for
 // the sake of old programs.
@@ -58,13 +50,6 @@ void raise_descriptor_limit() {
 // Tells systemd. Without it, nothing happens.
 void notify(const std::string& state) {
     (void)::sd_notify(0, state.c_str());
-}
-
-std::string reloading_state() {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
-                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
 }
 
 Watchdog systemd_watchdog() {
@@ -126,7 +111,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     set_added_stations(setup.added_stations);
     const WaitedSignals signals;
     auto service = WebService::open(setup);
-    if (!service) return complain(service.error());
+    if (!service) return complain(program, service.error());
     say(LogLevel::info, "stormcellar-web {}: listening on {}", software_version,
         fmt::join((*service)->addresses(), " "));
     if (!(*service)->has_catalog())
@@ -149,25 +134,14 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     return EXIT_SUCCESS;
 }
 
-int run(int argc, char** argv) {
-    const Result<ServiceArguments> arguments = parse_service_arguments(argc, argv);
-    if (!arguments) {
-        (void)complain(arguments.error());
-        fmt::print(stderr, "{}", usage);
-        return exit_bad_usage;
-    }
-    if (arguments->help || arguments->version) {
-        fmt::print("{}", arguments->help ? std::string{usage}
-                                         : fmt::format("stormcellar-web {}\n", software_version));
-        return EXIT_SUCCESS;
-    }
-    Result<WebSetup> setup = load_web_setup(*arguments->config);
-    if (!setup) return complain(setup.error());
+int run(const ServiceArguments& arguments) {
+    Result<WebSetup> setup = load_web_setup(*arguments.config);
+    if (!setup) return complain(program, setup.error());
     // The unit's StateDirectory.
     if (const char* state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state == '/')
         setup->numbers = std::filesystem::path(state) / "times";
-    if (!arguments->check) return serve(*setup, *arguments->config);
-    fmt::print("{}: ok\n", printable(arguments->config->native()));
+    if (!arguments.check) return serve(*setup, *arguments.config);
+    fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
     return EXIT_SUCCESS;
 }
 
@@ -175,10 +149,6 @@ int run(int argc, char** argv) {
 }  // namespace stormcellar::web
 
 int main(int argc, char** argv) {
-    try {
-        return stormcellar::web::run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stormcellar-web: {}\n", stormcellar::printable(error.what()));
-        return 1;
-    }
+    using namespace stormcellar::web;
+    return stormcellar::run_service({program, usage, {}, run}, argc, argv);
 }

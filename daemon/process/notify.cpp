@@ -1,7 +1,6 @@
 #include "daemon/process/notify.h"
 
 #include <cstdint>
-#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,13 +20,6 @@ std::optional<std::chrono::microseconds> SystemdNotifier::watchdog() const {
     std::uint64_t period_us = 0;
     if (sd_watchdog_enabled(0, &period_us) <= 0) return std::nullopt;
     return std::chrono::microseconds{period_us};
-}
-
-std::string reloading_state() {
-    struct timespec now {};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
-                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
 }
 
 bool WatchdogFeed::hangs(SteadyTime now, const std::optional<Step>& oldest) const {

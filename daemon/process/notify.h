@@ -34,9 +34,6 @@ class SystemdNotifier final : public Notifier {
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
-// Returns "RELOADING=1" with the monotonic time that systemd requires.
-[[nodiscard]] std::string reloading_state();
-
 // Decides when the watchdog is fed: four times a period, and only while no thread has been at one
 // step (pulse.h) for longer than a whole period. So a stuck thread is not hidden by the main loop,
 // which still runs. Such a step is logged once, with or without a watchdog.

@@ -10,6 +10,7 @@
 #include "base/counted.h"
 #include "base/memory.h"
 #include "base/printable.h"
+#include "base/service_program.h"
 #include "daemon/log/log.h"
 
 namespace stormcellar::daemon {

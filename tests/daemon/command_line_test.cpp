@@ -1,4 +1,4 @@
-// What stormcellard says to arguments and to configurations.
+// stormcellard answers wrong arguments and configurations clearly.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
     refused({"--bogus", "--config", "x"}, "--bogus: is not an option");
     refused({"--no-loops"}, "--config FILE must be given");
     refused({"--config", "x", "--loops-only", "--no-loops"},
-            "--no-loops and --loops-only cannot be given together");
+            "--loops-only and --no-loops cannot be given together");
     EXPECT_EQ(testing::run_program(STORMCELLARD, {"--help"}).status, 0);
     EXPECT_TRUE(testing::run_program(STORMCELLARD, {"--version"}).out.starts_with("stormcellard "));
     EXPECT_TRUE(

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "base/service_program.h"
 #include "tests/daemon/notify_socket.h"
 #include "tests/daemon/steady_start.h"
 #include "tests/testing/temporary_directory.h"
