@@ -44,6 +44,8 @@ class FeedDrop {
     // Returns true if the chunk is there with this size.
     [[nodiscard]] bool has(const ChunkKey& key, std::uint64_t size) const;
     Status write(const ChunkKey& key, std::span<const std::byte> bytes);
+    // Returns true if there are more bytes than the limit allows.
+    [[nodiscard]] bool is_full() const { return bytes_ > limits_.bytes; }
     // Removes what is beyond the limits, 200 volumes at a time. Returns how many were removed.
     std::size_t prune(UtcTime now);
 

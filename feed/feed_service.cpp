@@ -54,6 +54,7 @@ FeedService::FeedService(FileSystem& file_system, const FeedConfig& config, Feed
 
 void FeedService::run(const std::atomic<bool>& stop, const std::function<void()>& turn) {
     client_->run(stop, [&] {
+        if (drop_.is_full()) removed_ += drop_.prune(now_utc());
         if (steady_now() >= next_prune_) prune();
         turn();
     });

@@ -49,8 +49,8 @@ void StationFeed::ask(std::chrono::milliseconds wait) {
 void StationFeed::take(Result<fetch::ListingPage> answer) {
     if (!answer) return fail_turn(answer.error());
     if (!status_.error.empty()) {
-        quiet_since_ = steady_now();
-        if (tools_.lines.allow(quiet_since_))
+        quiet_since_ += steady_now() - failing_since_;  // nobody knows what it had meanwhile
+        if (tools_.lines.allow(steady_now()))
             say(LogLevel::info, "{}: the bucket answers again", station_);
     }
     status_.error.clear();
@@ -135,13 +135,17 @@ void StationFeed::finish_turn() {
         pace_.note_news(now, between_chunks_);
     } else {
         pace_.note_nothing(now);
+        note_silence();
     }
     ask(pace_.pause(now));
 }
 
 void StationFeed::fail_turn(const Error& why) {
     ++status_.failures;
-    if (status_.error.empty()) complain(why);
+    if (status_.error.empty()) {
+        failing_since_ = steady_now();
+        complain(why);
+    }
     status_.error = why.message;
     wanted_.clear();
     const SteadyTime now = steady_now();

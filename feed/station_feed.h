@@ -66,7 +66,8 @@ class StationFeed {
     ChunkKey tried_;
     std::optional<UtcTime> modified_;  // of the last chunk
     std::chrono::milliseconds between_chunks_{0};
-    // The last chunk came then, or the bucket has answered since then without one.
+    SteadyTime failing_since_{};
+    // The last chunk came then, or later by the time in which the bucket did not answer.
     SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };

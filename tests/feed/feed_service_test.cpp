@@ -239,8 +239,8 @@ TEST_F(FeedingFrom, AStationThatFallsSilentIsNamedUntilItSendsAgain) {
     EXPECT_TRUE(feed_.station(1).is_silent) << "which the bucket does not have";
 }
 
-// 2026-11-28: after an outage, the first answer of a search made the feed say that the bucket has
-// no volume of the station.
+// 2026-11-28: after an outage at the start, the first answer of a search made the feed say that the
+// bucket has no volume of the station.
 TEST_F(FeedingFrom, AnOutageIsNoSilenceOfAStation) {
     feed_.config.silent_after = std::chrono::seconds{3};
     std::atomic<bool> is_down{true};
@@ -253,6 +253,19 @@ TEST_F(FeedingFrom, AnOutageIsNoSilenceOfAStation) {
     is_down = false;
     ASSERT_TRUE(RunningFeed::wait_for([&] { return feed_.station().error.empty(); }));
     EXPECT_FALSE(feed_.station().is_silent);
+}
+
+// 2026-11-28: the bytes were looked at every 20 s alone, and a bucket that names new volumes all
+// the time brought three times what the limit allows.
+TEST_F(FeedingFrom, TheLimitOfBytesHoldsBetweenTwoLooksAtAges) {
+    feed_.config.bytes = 8 * 16'384;
+    feed_.start();
+    ASSERT_TRUE(RunningFeed::wait_for([&] { return feed_.station().listings > 0; }));
+    put_two_volumes();
+    const SteadyTime began = steady_now();
+    ASSERT_TRUE(RunningFeed::wait_for(
+        [&] { return feed_.station().written == 12 && feed_.files().size() <= 6; }));
+    EXPECT_LT(steady_now() - began, std::chrono::seconds{15});
 }
 
 TEST_F(FeedingFrom, AFullDiskIsNamedAndLosesNothing) {
