@@ -15,6 +15,7 @@
 
 #include "archive/packed_stream.h"
 #include "archive/plain_source.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::archive {
 namespace {
@@ -106,7 +107,7 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
 
 struct ArchiveReader::Impl {
     Limits limits;
-    HeaderBudget header, of_source;        // of the tar or zip, and of what it is packed in
+    ReadBudget header, of_source;          // of the tar or zip, and of what it is packed in
     std::unique_ptr<PlainSource> plain;    // the bytes of the archive
     std::unique_ptr<PackedStream> packed;  // null: the archive is not packed
     Handle handle;                         // must end before what it reads from
@@ -127,6 +128,13 @@ struct ArchiveReader::Impl {
     std::vector<std::byte> inner_bytes;
     std::unique_ptr<Impl> inner;
     std::uint64_t given_before_inner = 0;
+    SteadyTime deadline = SteadyTime::max();
+
+    void set_deadline(SteadyTime time) {
+        deadline = time;
+        header.set_deadline(time);
+        of_source.set_deadline(time);
+    }
 
     // Returns false if it is not an archive. The library may take zeros for an empty archive.
     bool begin(std::span<const std::byte> start, PlainSource::ReadAt read_at) {
@@ -199,11 +207,15 @@ struct ArchiveReader::Impl {
         return nullptr;
     }
 
-    // Returns true if reading ended because too much came out of a packed archive, or a header was
-    // too long.
+    // Returns true if reading ended because too much came out of a packed archive, a header was too
+    // long, or it was time.
     bool end_at_bound() {
         if (header.is_spent() || of_source.is_spent()) {
             end_with("has a header that is too long, or too many long ones: the rest is not read");
+            return true;
+        }
+        if (header.is_late() || of_source.is_late()) {
+            end_with("takes too long to read: the rest is not read");
             return true;
         }
         if (!packed || packed->met_bound() == 0) return false;
@@ -215,11 +227,17 @@ struct ArchiveReader::Impl {
     // A zip ends with its directory, whose last record has 22 bytes and maybe a comment.
     [[nodiscard]] bool may_have_its_end() const {
         if (at_end && !is_cut) return true;
-        if (!is_zip(handle.get())) return has_its_end();
-        if (!tail) return true;
+        return is_zip(handle.get()) ? !tail || has_directory() : has_its_end();
+    }
+    [[nodiscard]] bool has_directory() const {
+        if (!tail) return false;
         const std::vector<std::byte> last = tail();
         const std::string_view text{reinterpret_cast<const char*>(last.data()), last.size()};
         return text.find("PK\x05\x06") != std::string_view::npos;
+    }
+    // Returns true if a member's end may be known only when the member is unpacked.
+    [[nodiscard]] bool is_streamed_zip() const {
+        return is_zip(handle.get()) && (packed || !has_directory());
     }
 
     // For formats that mark their end, the library knows whether the end is there.
@@ -318,6 +336,7 @@ struct ArchiveReader::Impl {
     }
 
     std::optional<Member> next_inner() {
+        inner->set_deadline(deadline);
         auto member = inner->next();
         if (member) {
             given_bytes += member->bytes.size();
@@ -359,10 +378,10 @@ struct ArchiveReader::Impl {
             }
             const std::string name = name_of(entry);
             if (archive_entry_filetype(entry) == AE_IFDIR) continue;
-            // To pass over such a member, the library may have to unpack it.
             if (limits.small_codecs && !is_small_codec(handle.get())) {
-                end_with(fmt::format(
-                    "{} is packed in a way that may take much memory: the rest is not read", name));
+                leave_out(name, "is packed in a way that may take much memory");
+                if (!is_streamed_zip()) continue;
+                end_with("has members behind it that are not read");
                 return std::nullopt;
             }
             if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {
@@ -450,6 +469,7 @@ std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) 
 }
 
 std::optional<Member> ArchiveReader::next() {
+    impl_->set_deadline(steady_now() + impl_->limits.time);
     return impl_->next();
 }
 

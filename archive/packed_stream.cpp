@@ -48,15 +48,17 @@ bool is_packed(std::span<const std::byte> start) {
     return codec_of(start) != nullptr;
 }
 
-bool HeaderBudget::take(::archive* handle, std::uint64_t bytes) {
-    if (!counts_) return true;
+bool ReadBudget::take(::archive* handle, std::uint64_t bytes) {
+    is_late_ = is_late_ || steady_now() > deadline_;
+    if (is_late_) archive_set_error(handle, ETIMEDOUT, "it takes too long");
+    if (is_late_ || !counts_) return !is_late_;
     is_spent_ = is_spent_ || bytes > left_;
     left_ -= std::min(left_, bytes);
     if (is_spent_) archive_set_error(handle, EFBIG, "a header is too long");
     return !is_spent_;
 }
 
-void HeaderBudget::add(std::uint64_t bytes) {
+void ReadBudget::add(std::uint64_t bytes) {
     constexpr std::uint64_t usual_bytes = std::uint64_t{8} << 10;
     constexpr std::uint64_t most_long_bytes = std::uint64_t{4} << 20;
     long_bytes_ += bytes - std::min(bytes, usual_bytes);
@@ -72,7 +74,7 @@ std::string error_text_of(::archive* handle) {
     return text == nullptr ? "it is damaged" : text;
 }
 
-PackedStream::PackedStream(Handle source, HeaderBudget& of_source, Bound bound)
+PackedStream::PackedStream(Handle source, ReadBudget& of_source, Bound bound)
     : source_(std::move(source)),
       of_source_(of_source),
       bound_(std::move(bound)),
@@ -81,7 +83,7 @@ PackedStream::PackedStream(Handle source, HeaderBudget& of_source, Bound bound)
 // The filter is chosen here: libarchive's own choice looks for further filters behind the first
 // one, and what it unpacks meanwhile counts nowhere.
 std::unique_ptr<PackedStream> PackedStream::open(std::span<const std::byte> start,
-                                                 const OpenSource& source, HeaderBudget& of_source,
+                                                 const OpenSource& source, ReadBudget& of_source,
                                                  bool small_codecs, Bound bound) {
     const Codec* const codec = codec_of(start);
     if (codec == nullptr || (small_codecs && !codec->is_small)) return nullptr;
@@ -97,7 +99,7 @@ std::unique_ptr<PackedStream> PackedStream::open(std::span<const std::byte> star
         new PackedStream(std::move(handle), of_source, std::move(bound)));
 }
 
-bool PackedStream::feed(::archive* handle, HeaderBudget& header) {
+bool PackedStream::feed(::archive* handle, ReadBudget& header) {
     header_ = &header;
     const auto read = [](::archive* reader, void* self, const void** bytes) -> la_ssize_t {
         return static_cast<PackedStream*>(self)->read_more(reader, bytes);

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "base/steady_time.h"
+
 struct archive;
 
 namespace stormcellar::archive {
@@ -21,9 +23,11 @@ namespace stormcellar::archive {
 // Counts what libarchive reads while it looks for the next header. It keeps what a header says (the
 // map of a sparse file takes twelve times its size, the directory of a zip three times) before
 // anybody sees it, so this is the only place where that can be bounded. The source gives its bytes
-// in small blocks, because a block counts as a whole.
-class HeaderBudget {
+// in small blocks, because a block counts as a whole. Everything else that it reads is bounded by
+// time alone: one call may unpack gigabytes only to pass them over.
+class ReadBudget {
   public:
+    void set_deadline(SteadyTime deadline) { deadline_ = deadline; }
     void begin(std::uint64_t most) {
         left_ = most;
         counts_ = true;
@@ -31,15 +35,19 @@ class HeaderBudget {
     void end() { counts_ = false; }
     // Counts a header that was read. Many long ones take as much time as a longer one.
     void add(std::uint64_t bytes);
-    // Returns false, and sets the handle's error, if a header is longer than it may be.
+    // Returns false, and sets the handle's error, if a header is longer than it may be or the
+    // deadline has passed.
     [[nodiscard]] bool take(::archive* handle, std::uint64_t bytes);
     [[nodiscard]] bool is_spent() const { return is_spent_; }
+    [[nodiscard]] bool is_late() const { return is_late_; }
 
   private:
     std::uint64_t left_ = 0;
     std::uint64_t long_bytes_ = 0;  // of all headers, beyond what is usual
+    SteadyTime deadline_ = SteadyTime::max();
     bool counts_ = false;
     bool is_spent_ = false;
+    bool is_late_ = false;
 };
 
 struct CloseArchive {
@@ -67,26 +75,26 @@ class PackedStream {
     // gzip file may have a name without an end.
     [[nodiscard]] static std::unique_ptr<PackedStream> open(std::span<const std::byte> start,
                                                             const OpenSource& source,
-                                                            HeaderBudget& of_source,
+                                                            ReadBudget& of_source,
                                                             bool small_codecs, Bound bound);
     // Lets `handle`, which must end before this object, read the unpacked bytes.
     // `header`, which must outlive `handle`, counts what its headers take.
-    [[nodiscard]] bool feed(::archive* handle, HeaderBudget& header);
+    [[nodiscard]] bool feed(::archive* handle, ReadBudget& header);
     // Returns the bound in bytes if it was reached.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
     [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
 
   private:
-    PackedStream(Handle source, HeaderBudget& of_source, Bound bound);
+    PackedStream(Handle source, ReadBudget& of_source, Bound bound);
     std::int64_t read_more(::archive* handle, const void** bytes);
 
     Handle source_;
-    HeaderBudget& of_source_;
+    ReadBudget& of_source_;
     Bound bound_;
     std::vector<std::byte> block_;
     std::uint64_t unpacked_ = 0;
     std::uint64_t met_bound_ = 0;
-    HeaderBudget* header_ = nullptr;
+    ReadBudget* header_ = nullptr;
 };
 
 }  // namespace stormcellar::archive

@@ -14,7 +14,7 @@ constexpr std::size_t plain_block_bytes = std::size_t{16} << 10;
 
 }  // namespace
 
-PlainSource::PlainSource(ReadAt read_at, std::uint64_t size, HeaderBudget& header)
+PlainSource::PlainSource(ReadAt read_at, std::uint64_t size, ReadBudget& header)
     : read_at_(std::move(read_at)), size_(size), header_(header), block_(plain_block_bytes) {}
 
 bool PlainSource::feed(::archive* handle) {

@@ -20,7 +20,7 @@ class PlainSource {
   public:
     // Reads at most as many bytes as fit, from that place. Negative: they cannot be read.
     using ReadAt = std::function<std::int64_t(std::uint64_t at, std::span<std::byte> into)>;
-    PlainSource(ReadAt read_at, std::uint64_t size, HeaderBudget& header);
+    PlainSource(ReadAt read_at, std::uint64_t size, ReadBudget& header);
 
     // Lets `handle`, which must end before this object, read the bytes.
     [[nodiscard]] bool feed(::archive* handle);
@@ -32,7 +32,7 @@ class PlainSource {
 
     ReadAt read_at_;
     std::uint64_t size_;
-    HeaderBudget& header_;
+    ReadBudget& header_;
     std::uint64_t at_ = 0;
     std::vector<std::byte> block_;
 };

@@ -34,6 +34,7 @@ Result<CatalogedBytes> read_member(const CatalogEntry& entry, const Descriptor& 
     archive::Limits limits;
     limits.small_codecs = true;
     limits.nesting = 0;
+    limits.time = std::chrono::seconds{60};
     limits.member_bytes = entry.size_bytes;
     auto member = archive::find_member(archive.number(), name.member, limits);
     if (!member) {

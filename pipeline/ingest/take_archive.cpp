@@ -27,6 +27,7 @@ archive::Limits limits_of(const IngestOptions& options) {
     limits.member_bytes = std::min(options.most_file_bytes, std::uint64_t{96} << 20);
     limits.all_bytes = std::uint64_t{8} << 30;
     limits.expansion = 20;
+    limits.time = std::chrono::seconds{60};  // less than the watchdog's patience
     limits.nesting = 0;
     limits.small_codecs = true;
     return limits;

@@ -19,6 +19,7 @@
 //           SourceReader::read() returns those of read_file(), and not_found.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -45,6 +46,8 @@ struct Limits {
     std::uint64_t expansion = 200;  // unpacked bytes for each byte of the archive
     // an archive may unpack to this many bytes, whatever its expansion
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;
+    // of one call of next(), which may pass over much: the rest of the archive is not read then
+    std::chrono::seconds time{std::chrono::hours{24}};
     int nesting = 1;  // how deep archives inside archives are read
     // Allows only codecs that need a few megabytes of memory whatever the input says: gzip, bzip2
     // and compress for tar; deflated or stored members for zip. It excludes xz and zstd.
