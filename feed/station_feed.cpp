@@ -48,16 +48,10 @@ void StationFeed::ask(std::chrono::milliseconds wait) {
 
 void StationFeed::take(Result<fetch::ListingPage> answer) {
     if (!answer) return fail_turn(answer.error());
-    if (!status_.error.empty()) {
-        quiet_since_ += steady_now() - failing_since_;  // nobody knows what it had meanwhile
-        if (tools_.lines.allow(steady_now()))
-            say(LogLevel::info, "{}: the bucket answers again", station_);
-    }
-    status_.error.clear();
-    status_.next_try.reset();
     status_.answered = now_utc();
     auto news = follower_.take(*answer, now_utc(), steady_now());
     if (news.chunks.empty()) {
+        note_good();
         pace_.note_nothing(steady_now());
         note_silence();
         return ask(pace_.pause(steady_now(), news.is_urgent));
@@ -125,7 +119,17 @@ void StationFeed::give_up(const Error& why) {
     finish_chunk();
 }
 
+// A failure is over when a whole turn has worked: the bucket answers although the disk is full.
+void StationFeed::note_good() {
+    if (status_.error.empty()) return;
+    status_.error.clear();
+    status_.next_try.reset();
+    quiet_since_ += steady_now() - failing_since_;  // nobody knows what came meanwhile
+    if (tools_.lines.allow(steady_now())) say(LogLevel::info, "{}: goes on again", station_);
+}
+
 void StationFeed::finish_turn() {
+    note_good();
     const SteadyTime now = steady_now();
     if (has_news_) {
         if (status_.is_silent && tools_.lines.allow(now))

@@ -53,6 +53,7 @@ class StationFeed {
     void finish_turn();
     void give_up(const Error& why);
     void fail_turn(const Error& why);
+    void note_good();
     void note_silence();
     void complain(const Error& why);
 
@@ -67,7 +68,7 @@ class StationFeed {
     std::optional<UtcTime> modified_;  // of the last chunk
     std::chrono::milliseconds between_chunks_{0};
     SteadyTime failing_since_{};
-    // The last chunk came then, or later by the time in which the bucket did not answer.
+    // The last chunk came then, or later by the time in which turns failed.
     SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };

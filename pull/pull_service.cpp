@@ -46,14 +46,14 @@ PullService::~PullService() {
         thread.join();
 }
 
-// The log says when a machine begins to fail and when it answers again, not each turn.
+// The log says when a machine begins to fail and when it goes on, not each turn.
 void PullService::run(SourcePuller& puller) {
     bool was_failing = false;
     while (!stop_) {
         const Status done = puller.turn();
         const std::string& name = puller.source().name;
         if (!done && !was_failing) say(LogLevel::warning, "{}: {}", name, done.error().message);
-        if (done && was_failing) say(LogLevel::info, "{}: answers again", name);
+        if (done && was_failing) say(LogLevel::info, "{}: goes on again", name);
         was_failing = !done;
         wait(puller);
     }
