@@ -381,7 +381,7 @@ struct ArchiveReader::Impl {
             if (limits.small_codecs && !is_small_codec(handle.get())) {
                 leave_out(name, "is packed in a way that may take much memory");
                 if (!is_streamed_zip()) continue;
-                end_with("has members behind it that are not read");
+                end_with("cannot be read behind such a member");
                 return std::nullopt;
             }
             if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {
