@@ -160,7 +160,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool runs_loo
     const std::filesystem::path socket = socket_of(fixed);
     const PartialsKeeper partials(
         fixed.partials,
-        {(*sink)->mosaics(), (*sink)->writer(), (*sink)->partial_sources(), fixed.grid.threads},
+        {(*sink)->mosaics(), (*sink)->writer(), (*sink)->partial_sources(), (*sink)->stations(),
+         fixed.grid.threads},
         {.rescan = config.reloadable.rescan, .poll = config.reloadable.poll});
     Service service(config, file,
                     {.sink = **sink,

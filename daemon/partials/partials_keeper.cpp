@@ -179,17 +179,35 @@ bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
            of_.store.would_keep(name.domain, name.moment, name.time);
 }
 
+// Each station of a mosaic takes a descriptor and time of all its frames, so nobody may invent one.
+Status PartialsKeeper::check_station(const Machine& machine, const cache::GridName& name,
+                                     const std::string& station) const {
+    if (!config_.may_bring(machine.facts.name, station))
+        return fail(ErrorCode::bad_argument, "[partials.stations] does not give it {}", station);
+    const auto has_it = [&](const std::vector<std::string>& stations) {
+        return std::ranges::find(stations, station) != stations.end();
+    };
+    const auto listed = config_.stations.find(machine.facts.name);
+    const auto* const domain = of_.mosaics.find(cache::group_of(name.domain), name.moment);
+    if ((listed != config_.stations.end() && has_it(listed->second)) ||
+        (domain != nullptr && has_it(domain->stations)) || StationRule{}.knows(station) ||
+        of_.stations->knows(station))
+        return {};
+    return fail(ErrorCode::bad_argument,
+                "{} is no known station; [partials.stations], [ingest] stations or a [[station]] "
+                "can name it",
+                station);
+}
+
 void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
     if (!is_wanted(name)) return;
     const std::filesystem::path file = machine.directory->path() / cache::relative_path(name);
     const auto start = steady_now();
     const std::string station = name.domain.substr(name.domain.find('.') + 1);
-    if (!config_.may_bring(machine.facts.name, station)) {
+    if (const Status allowed = check_station(machine, name, station); !allowed)
         return refuse(
             machine, name,
-            {ErrorCode::bad_argument,
-             fmt::format("{}: [partials.stations] does not give it {}", file.native(), station)});
-    }
+            {allowed.error().code, fmt::format("{}: {}", file.native(), allowed.error().message)});
     const auto kept = of_.mosaics.take_partial(
         {file, name, machine.facts.name, [this] { pulse_.beat(); }}, of_.threads);
     const About about{

@@ -6,10 +6,12 @@
 // A partial that the cache has lost is taken again. When no news wait, the frames around partials
 // that the cache had already are looked at, and made again if they lack one.
 //
-// Stations that the configuration lists for a machine ([partials.stations]) come from the machines
-// that list them, and from no other. Of other stations, the better of two different partials of a
-// volume counts, whoever brought it, so that the frames do not depend on which came first. If a
-// partial takes the place of that of another machine, the log and the status say so.
+// Partials come from stations that are known, as raw files do ([ingest] stations), or that are
+// listed for their machine or their mosaic. Stations that the configuration lists for a machine
+// ([partials.stations]) come from the machines that list them, and from no other. Of other
+// stations, the better of two different partials of a volume counts, whoever brought it, so that
+// the frames do not depend on which came first. If a partial takes the place of that of another
+// machine, the log and the status say so.
 //
 // A machine is late while it has brought nothing for the allowed time, or while its newest volume
 // is that much older than the newest of any machine. The frames themselves decide for each instant
@@ -32,6 +34,7 @@
 #include "daemon/process/wake_up.h"
 #include "daemon/status/machine_facts.h"
 #include "pipeline/mosaic/mosaic_maker.h"
+#include "stormcellar/base/station_rule.h"
 
 namespace stormcellar::daemon {
 
@@ -39,6 +42,7 @@ struct PartialsOf {
     pipeline::MosaicMaker& mosaics;
     const cache::StoreWriter& store;  // of the mosaics
     std::shared_ptr<const pipeline::PartialSources> sources;
+    std::shared_ptr<StationRule> stations;  // knows those beyond the station table
     int threads = 1;
 };
 
@@ -73,6 +77,8 @@ class PartialsKeeper {
     bool take_one();
     bool mend_one();
     [[nodiscard]] bool is_wanted(const cache::GridName& name) const;
+    [[nodiscard]] Status check_station(const Machine& machine, const cache::GridName& name,
+                                       const std::string& station) const;
     void take(Machine& machine, const cache::GridName& name);
     void note_rival(Machine& machine, const cache::GridName& name, bool won);
     void refuse(Machine& machine, const cache::GridName& name, const Error& why);

@@ -49,6 +49,7 @@ class IngestSink final : public Sink {
     // For the keeper of partials.
     [[nodiscard]] const cache::StoreWriter& writer() const { return store_; }
     [[nodiscard]] pipeline::MosaicMaker& mosaics() { return ingestor_.mosaics(); }
+    [[nodiscard]] const std::shared_ptr<StationRule>& stations() const { return stations_; }
     [[nodiscard]] const std::shared_ptr<pipeline::PartialSources>& partial_sources() const {
         return partial_sources_;
     }

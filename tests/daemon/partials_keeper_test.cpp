@@ -37,7 +37,8 @@ class PartialsKeeperTest : public ::testing::Test {
         mosaics_ =
             std::make_unique<pipeline::MosaicMaker>(&store_, std::vector{pipeline::small_domain()},
                                                     pipeline::FramesWhen::volume_comes, sources_);
-        keeper_.emplace(config, PartialsOf{*mosaics_, store_, sources_, 1},
+        keeper_.emplace(config,
+                        PartialsOf{*mosaics_, store_, sources_, std::make_shared<StationRule>(), 1},
                         PartialsTimes{milliseconds{500}, milliseconds{200}});
     }
     // Returns the bytes and the place of a partial, without putting it anywhere.
@@ -154,6 +155,19 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
         keeper_.reset();
         fs::remove(file);
     }
+}
+
+// 2026-11-28: a machine brought parts of 158 invented stations in 40 s, and each frame merged all.
+TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
+    const InventedPartial invented{"QAAA", 44, 0, 20}, listed{"QAAB", 44, 0, 20};
+    stations_ = {{"north", {"QAAB"}}};
+    bring("south", invented);
+    bring("north", listed);
+    start();
+    EXPECT_TRUE(comes([&] { return south().refused == 1 && north().taken == 1; }));
+    EXPECT_THAT(south().last_problem, HasSubstr("QAAA is no known station"));
+    EXPECT_FALSE(is_kept(invented));
+    EXPECT_TRUE(is_kept(listed));
 }
 
 // 2026-11-28: any machine could replace the parts of another one's stations.
