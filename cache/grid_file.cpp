@@ -138,7 +138,8 @@ struct Metadata {
     std::vector<std::byte> bytes;
 };
 
-Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size) {
+Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size,
+                               std::uint64_t most_read_bytes) {
     Metadata metadata;
     if (file_size < format::page_size) {
         return fail(ErrorCode::truncated, "{} bytes: too short for a grid file", file_size);
@@ -150,6 +151,12 @@ Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size) 
     const auto at = checked_layout(metadata.header);
     if (!at) return pass_on(at);
     metadata.at = *at;
+    const std::uint64_t read_bytes =
+        at->codes_offset + (is_packed(metadata.header) ? at->codes_size : 0);
+    if (read_bytes > most_read_bytes) {
+        return fail(ErrorCode::unsupported, "{} bytes of it are read to memory, more than {}",
+                    read_bytes, most_read_bytes);
+    }
     if (Status whole = check_size(file_size, at->file_size); !whole) return pass_on(whole);
 
     metadata.bytes.resize(at->codes_offset);
@@ -251,14 +258,14 @@ Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
 
 }  // namespace
 
-Result<GridFile> GridFile::open(const std::filesystem::path& path,
-                                std::uint64_t most_unpacked_bytes) {
+Result<GridFile> GridFile::open(const std::filesystem::path& path, const GridFileLimits& limits) {
     const auto failure = [&](const Error& error) { return with_path(path, error); };
     Result<Descriptor> file = open_for_reading(path);
     if (!file) return failure(file.error());
     const Result<struct stat> facts = facts_of(*file);
     if (!facts) return failure(facts.error());
-    Result<Metadata> metadata = read_metadata(*file, static_cast<std::uint64_t>(facts->st_size));
+    Result<Metadata> metadata =
+        read_metadata(*file, static_cast<std::uint64_t>(facts->st_size), limits.read_bytes);
     if (!metadata) return failure(metadata.error());
 
     Result<GridDescription> description = described_by(*metadata);
@@ -268,7 +275,7 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path,
     Status good = check_description(*description, view.quantization);
     if (good) good = check_bricks(view.bricks, view.states, view.quantization, packing);
     if (!good) return failure(good.error());
-    auto codes = codes_of(*file, *metadata, view, most_unpacked_bytes);
+    auto codes = codes_of(*file, *metadata, view, limits.unpacked_bytes);
     if (!codes) return failure(codes.error());
     view.codes = codes->view;
 
@@ -284,7 +291,8 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path,
 Result<GridFacts> read_grid_facts(const Descriptor& file) {
     const Result<struct stat> facts = facts_of(file);
     if (!facts) return pass_on(facts);
-    const auto metadata = read_metadata(file, static_cast<std::uint64_t>(facts->st_size));
+    const auto metadata = read_metadata(file, static_cast<std::uint64_t>(facts->st_size),
+                                        GridFileLimits{}.read_bytes);
     if (!metadata) return pass_on(metadata);
     Result<GridDescription> description = described_by(*metadata);
     if (!description) return pass_on(description);

@@ -29,7 +29,7 @@ constexpr std::size_t most_told_of_tag = 40;  // a server may send 100 kB
 
 // Reads all of the file, so that nothing half is given a name.
 Status check(const fs::path& path, const cache::GridName& name, const std::string& tag) {
-    const auto file = cache::GridFile::open(path, cache::GridFile::most_bytes_of_site);
+    const auto file = cache::GridFile::open(path, cache::limits_of_site);
     if (!file) return pass_on(file);
     const cache::GridDescription& grid = file->description();
     const std::string icao = name.domain.substr(name.domain.find('.') + 1);

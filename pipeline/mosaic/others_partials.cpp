@@ -120,7 +120,7 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
 }  // namespace
 
 Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads) {
-    const auto file = cache::GridFile::open(partial.file, cache::GridFile::most_bytes_of_site);
+    const auto file = cache::GridFile::open(partial.file, cache::limits_of_site);
     if (!file) return pass_on(file);
     const Domain* const domain =
         is_idle() ? nullptr : find(cache::group_of(partial.name.domain), partial.name.moment);

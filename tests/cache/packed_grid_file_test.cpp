@@ -63,11 +63,15 @@ TEST_F(PackedGridFile, TakesNoMoreMemoryThanItsReaderAllows) {
         std::ranges::count(made.view().bricks, grid::BrickKind::stored, &grid::BrickEntry::kind);
     ASSERT_GT(stored, 0);
     const auto bytes = static_cast<std::uint64_t>(stored) * grid::brick_cells;
-    EXPECT_TRUE(GridFile::open(path_, bytes));
-    const auto refused = GridFile::open(path_, bytes - 1);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
-    EXPECT_NE(refused.error().message.find("its codes unpack to"), std::string::npos);
+    const auto size = std::filesystem::file_size(path_);
+    EXPECT_TRUE(GridFile::open(path_, {.read_bytes = size, .unpacked_bytes = bytes}));
+    const auto is_refused = [&](const GridFileLimits& limits, const std::string& why) {
+        const auto file = GridFile::open(path_, limits);
+        return !file && file.error().code == ErrorCode::unsupported &&
+               file.error().message.find(why) != std::string::npos;
+    };
+    EXPECT_TRUE(is_refused({.unpacked_bytes = bytes - 1}, "its codes unpack to"));
+    EXPECT_TRUE(is_refused({.read_bytes = bytes / 100}, "are read to memory"));
 }
 
 TEST_F(PackedGridFile, IsInMemoryWhenItsFileIsCut) {

@@ -60,18 +60,24 @@ struct GridDescription {
                                                const grid::BrickView& view,
                                                std::uint64_t block_bytes);
 
+// Table, states and packed bricks are read to memory, and the bricks may take many times their size
+// there. So whoever opens a stranger's file bounds both. Bricks that are not packed are mapped.
+struct GridFileLimits {
+    std::uint64_t read_bytes = ~std::uint64_t{0};
+    std::uint64_t unpacked_bytes = ~std::uint64_t{0};
+};
+// More than the grid of any site takes: one of a WSR-88D with cells of 500 m on 48 levels has 330
+// MB of codes if every brick is stored, of a moment with two bytes a cell.
+constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{256} << 20U,
+                                        .unpacked_bytes = std::uint64_t{512} << 20U};
+
 class GridFile {
   public:
-    // Opens a file. Packed bricks take memory many times their size in the file, so the caller
-    // bounds what those of a stranger's file may take. Errors: not_found, io, truncated, corrupt
-    // (checksum, impossible sizes) or unsupported (a later version, or more than
-    // `most_unpacked_bytes`). Every message begins with the path.
+    // Opens a file. Errors: not_found, io, truncated, corrupt (checksum, impossible sizes) or
+    // unsupported (a later version, or more than the limits allow). Every message begins with the
+    // path.
     static Result<GridFile> open(const std::filesystem::path& path,
-                                 std::uint64_t most_unpacked_bytes = any_bytes);
-    static constexpr std::uint64_t any_bytes = ~std::uint64_t{0};
-    // More than the grid of any site takes: one of a WSR-88D with cells of 500 m on 33 levels takes
-    // 220 MB if every brick is stored.
-    static constexpr std::uint64_t most_bytes_of_site = std::uint64_t{512} << 20U;
+                                 const GridFileLimits& limits = {});
 
     GridFile(GridFile&&) noexcept;
     GridFile& operator=(GridFile&&) noexcept;
