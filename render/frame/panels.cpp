@@ -27,12 +27,12 @@ Status check_panels(std::span<const Panel> panels) {
 }
 
 // What the whole picture says: the first panel's facts, and its product unless the panels differ.
-PictureFacts facts_of_whole(std::span<const Panel> panels,
-                            const std::vector<ColumnSummary>& columns) {
+DrawnFacts facts_of_whole(std::span<const Panel> panels,
+                          const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();
     const grid::SweepLookup* const sweep = first.view.sweep;
-    PictureFacts facts{legend_of(first.scene), drawn_ring_spacing(*first.view.spec, first.scene),
-                       std::nullopt};
+    DrawnFacts facts{legend_of(first.scene), drawn_ring_spacing(*first.view.spec, first.scene),
+                     std::nullopt};
     if (sweep == nullptr) facts.coverage = coverage_of(columns, *first.view.spec);
     facts.legend.product.clear();
     for (const Panel& panel : panels) {

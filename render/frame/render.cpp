@@ -59,7 +59,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     }
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    PictureFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
+    DrawnFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
     if (of_sweep) {
         const auto place = lay_out_labels(*fonts, scene, facts, texts);
         if (!place) return pass_on(place);

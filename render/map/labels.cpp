@@ -208,7 +208,7 @@ void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
     put_product(builder, texts, left, second, right - local - gap - left, 11);
 }
 
-FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, const PictureFacts& picture) {
+FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, const DrawnFacts& picture) {
     FooterTexts texts;
     texts.view = view_line(scene, facts, picture.ring_spacing_m);
     texts.seen = picture.sweep;
@@ -240,7 +240,7 @@ void lay_out_footer(LabelBuilder& builder, double width, double height, const Fo
 }
 
 Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const FrameFacts& facts,
-                                   const PictureFacts& picture) {
+                                   const DrawnFacts& picture) {
     if (auto room = check_room(scene); !room) return pass_on(room);
     const PictureSpace space = space_of(scene.width, scene.height);
     LabelLayout layout;

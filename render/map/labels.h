@@ -35,7 +35,7 @@ struct LabelLayout : LabelParts {
 };
 
 // What the labels say about the picture beside the facts of its grid.
-struct PictureFacts {
+struct DrawnFacts {
     Legend legend;
     double ring_spacing_m = 50e3;  // as drawn
     std::optional<Coverage> coverage;
@@ -45,7 +45,7 @@ struct PictureFacts {
 // Lays out the labels. Errors: bad_argument if the picture of the scene is too small for labels.
 [[nodiscard]] Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene,
                                                  const FrameFacts& facts,
-                                                 const PictureFacts& picture);
+                                                 const DrawnFacts& picture);
 
 // The texts of a header: what, where, when.
 struct HeaderTexts {
@@ -61,7 +61,7 @@ struct FooterTexts {
     std::string view, age, seen, credit;
 };
 [[nodiscard]] FooterTexts footer_of(const Scene& scene, const FrameFacts& facts,
-                                    const PictureFacts& picture);
+                                    const DrawnFacts& picture);
 void lay_out_footer(LabelBuilder& builder, double width, double height, const FooterTexts& texts);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);

@@ -63,7 +63,7 @@ int panels_in_a_row(int count, int width, int height) {
 }
 
 Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene, const FrameFacts& facts,
-                                   const PictureFacts& picture, std::span<const Legend> legends) {
+                                   const DrawnFacts& picture, std::span<const Legend> legends) {
     const PictureSpace space = space_of(scene.width, scene.height);
     const auto count = static_cast<int>(legends.size());
     const double scale = std::max(least_text_scale, panel_scale * space.scale);

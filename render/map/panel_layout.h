@@ -23,8 +23,7 @@ struct PanelLayout {
 // header and the footer are those of `facts` and `picture`. Errors: bad_argument if the picture is
 // too small.
 [[nodiscard]] Result<PanelLayout> lay_out_panels(const Fonts& fonts, const Scene& scene,
-                                                 const FrameFacts& facts,
-                                                 const PictureFacts& picture,
+                                                 const FrameFacts& facts, const DrawnFacts& picture,
                                                  std::span<const Legend> legends);
 
 // Returns how many panels stand in a row, so that they are as nearly square as may be.

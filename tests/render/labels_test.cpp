@@ -47,7 +47,7 @@ void expect_tidy(const LabelLayout& layout, int width, int height) {
     }
 }
 
-PictureFacts picture_of(Scene scene, level2::Moment moment, const ColourTable& table) {
+DrawnFacts picture_of(Scene scene, level2::Moment moment, const ColourTable& table) {
     scene.moment = moment;
     Legend legend = legend_of(scene);
     legend.table = &table;
@@ -93,12 +93,12 @@ constexpr std::pair<int, int> sizes[] = {
 
 void expect_tidy(const Fonts& fonts, const Scene& scene, const FrameFacts& facts) {
     const ColourTable tables[] = {nws_reflectivity(), uneven_table(), smooth_labels_table()};
-    std::vector<PictureFacts> pictures;
+    std::vector<DrawnFacts> pictures;
     for (const ColourTable& table : tables)
         pictures.push_back(picture_of(scene, level2::Moment::ref, table));
     for (const level2::Moment moment : level2::all_moments)
         pictures.push_back(picture_of(scene, moment, tables[0]));
-    for (const PictureFacts& picture : pictures) {
+    for (const DrawnFacts& picture : pictures) {
         const auto layout = lay_out_labels(fonts, scene, facts, picture);
         ASSERT_TRUE(layout);
         expect_tidy(*layout, scene.width, scene.height);
