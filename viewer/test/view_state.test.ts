@@ -5,7 +5,7 @@ import test from 'node:test';
 import { beyondCommand, usualLayers } from '../src/scene/layers';
 import { isPrintable } from '../src/scene/shell';
 import { isRegion, regionName } from '../src/wire/region';
-import { addressOf, commandOf, isBeyondLimits, stateOf, usualState } from '../src/scene/view_state';
+import { addressOf, commandOf, isBeyondLimits, isUsualGrid, stateOf, usualState } from '../src/scene/view_state';
 
 const chosen = {
     ...usualState,
@@ -94,4 +94,13 @@ test('a time without a zone is UTC (2026-11-28: it was taken as that of the brow
     const read = (time: string): string => stateOf(`#time=${encodeURIComponent(time)}`).time;
     for (const time of ['2016-06-01T15:00:26', '2016-06-01 15:00:26', '2016-06-01T15:00:26Z', '2016-06-01T10:00:26-05:00']) assert.equal(Date.parse(read(time)), Date.UTC(2016, 5, 1, 15, 0, 26), time);
     for (const time of ['latest', 'x', '2016-13-01T00:00:00Z', '']) assert.equal(read(time), 'latest', time);
+});
+
+// 2026-11-28: beside a service with another spacing, the command of a raw file drew another part of the country.
+test('of a grid that the program does not make by itself, no raw file is given', () => {
+    const levelsM = Float64Array.from({ length: 32 }, (_, level) => 500 * (level + 1));
+    const usual = { nx: 460, ny: 460, spacing: 1000, levelsM };
+    assert.equal(isUsualGrid(usual), true);
+    assert.equal(isUsualGrid({ ...usual, nx: 600, ny: 600, spacing: 500 }), false);
+    assert.equal(isUsualGrid({ ...usual, levelsM: levelsM.slice(1) }), false);
 });

@@ -66,6 +66,7 @@ export class App {
     isShownWhole: () => boolean = () => true; // the picture has all of what is shown
     isGraphicsLost = false; // nothing can be drawn
     isCutOff = false; // the server does not answer
+    isBehind = false; // a request got no answer: all is to be asked for again
     silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
     private clockAheadMs = 0; // of the server, before that of the browser
     missed = ''; // what was asked for and is not there
@@ -96,7 +97,10 @@ export class App {
     }
     fail(error: unknown): void {
         // Of fetch(): there was no answer at all.
-        if (error instanceof TypeError) return this.say(texts.notice.noServer);
+        if (error instanceof TypeError) {
+            this.isBehind = true;
+            return this.say(texts.notice.noServer);
+        }
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
         this.say(isGone ? texts.notFound : texts.failed(error instanceof Error ? error.message : String(error)));
     }
@@ -219,7 +223,8 @@ export class App {
         this.tell('choices');
         const { state, shown } = this;
         this.loader.forgetAll(() => true);
-        if (this.isOnMap || !shown) return;
+        if (this.isOnMap) return;
+        if (!shown) return this.choose(state.domain, state.moment);
         // What was asked for while there was no answer.
         if (shown.domain !== state.domain || shown.moment !== state.moment) return this.choose(state.domain, state.moment);
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
@@ -524,7 +529,9 @@ export class App {
             if (this.domains.length > 0) await this.choose(this.state.domain, this.state.moment);
             return;
         }
-        if (domain !== undefined && !domain.includes('.') && !this.domains.some(one => one.domain === domain)) {
+        // A moment may come after the others of its station.
+        const isKnown = this.domains.some(one => one.domain === domain && (moment === undefined || one.moments.some(own => own.moment === moment)));
+        if (domain !== undefined && !domain.includes('.') && !isKnown) {
             await this.findDomains();
             this.tell('choices');
         }
@@ -537,9 +544,10 @@ export class App {
         if (domain !== this.state.domain) return this.takeNewsOfSite(changedTime);
         if (moment !== this.state.moment) return changedTime === this.shown?.time ? this.showTime() : undefined;
         const before = this.player.times[this.player.at];
-        const newest = (await times(domain, moment, soonTimes)).times;
+        const { times: newest, more } = await times(domain, moment, soonTimes);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
-        this.takeTimes([...this.stored.filter(time => newest.length === 0 || time < newest[0]!), ...newest]);
+        // Without more of them on the server, the older ones are gone.
+        this.takeTimes([...this.stored.filter(time => more && time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
         // After a failure another time than that of the picture may be waited for.

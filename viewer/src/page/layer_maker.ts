@@ -327,7 +327,12 @@ export class LayerMaker {
         const key = this.sweepKey(shown);
         const last = this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep : null;
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
-        if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
+        if (found) {
+            const isOther = this.lastSweep?.sweep !== found;
+            this.lastSweep = { of: loaded, moment, key, sweep: found };
+            // Of one that is there already nothing else tells; and who asks here may be the one that is told.
+            if (isOther) queueMicrotask(() => this.layerCame());
+        }
         if (found || this.sweeps.isSettled(key)) return found;
         if (this.askedSweep !== key) {
             this.askedSweep = key;

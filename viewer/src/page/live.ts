@@ -90,9 +90,12 @@ export class Live {
         });
     }
     private catchUp(): void {
-        if (!this.isBehind) return;
-        this.isBehind = false;
-        this.do(() => this.app.catchUp());
+        if (!this.isBehind && !this.app.isBehind) return;
+        this.isBehind = this.app.isBehind = false;
+        this.do(async () => {
+            await this.app.catchUp();
+            await this.askSilences();
+        });
     }
     private take({ kind, id, data }: ServerEvent): void {
         if (id !== '') this.last = id;

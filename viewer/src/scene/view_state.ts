@@ -4,6 +4,7 @@ import { Camera, usualCamera } from '../camera/geometry';
 import { geodesic } from './projection';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
+import { PackedGrid } from '../wire/packed_grid';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 import { quoted } from './shell';
 import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
@@ -155,6 +156,12 @@ function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): stri
     if (layers.hasHaze) words.push('--haze');
     if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
     return words;
+}
+
+// Whether `stormcellar frame` makes a grid of these places of a raw file (stormcellar/grid/grid_spec.h).
+export function isUsualGrid({ nx, ny, spacing, levelsM }: Pick<PackedGrid, 'nx' | 'ny' | 'spacing' | 'levelsM'>): boolean {
+    const [cells, spacingM, levels, betweenLevelsM] = [460, 1000, 32, 500];
+    return nx === cells && ny === cells && spacing === spacingM && levelsM.length === levels && levelsM.every((m, level) => m === betweenLevelsM * (level + 1));
 }
 
 // The command that draws the same, of several layers one, with a table or a file of colors; empty: the

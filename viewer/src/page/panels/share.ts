@@ -2,7 +2,7 @@
 
 import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
-import { commandOf, isBeyondLimits } from '../../scene/view_state';
+import { commandOf, isBeyondLimits, isUsualGrid } from '../../scene/view_state';
 import { LoadedGrid } from '../../renderer/renderer';
 import { address, gridPath, isRegion, rawNameAt } from '../../wire/api';
 import { App } from '../app';
@@ -50,8 +50,10 @@ class RawFile {
         private facts: FactsOfShown,
     ) {}
 
+    // Of another grid than the program makes by itself, a picture of the file would show another part of the country.
     get known(): string {
-        return this.of === this.app.shown?.loaded && isPrintable(this.name) ? this.name : '';
+        const loaded = this.app.shown?.loaded;
+        return loaded && this.of === loaded && isUsualGrid(loaded.grid) && isPrintable(this.name) ? this.name : '';
     }
     async ask(): Promise<void> {
         const { shown } = this.app;
@@ -93,7 +95,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     const state = { ...app.state, domain, moment, time, layers };
     const notes = [
         raw ? texts.commandReads(raw) : texts.commandReadsCache,
-        state.layers.hasVolume ? '' : texts.commandFlat,
+        state.layers.hasVolume || state.layers.section ? '' : texts.commandFlat,
     ];
     const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', texts.commandCopied);

@@ -11,6 +11,17 @@ import { Measure, MeasureTool } from '../measuring';
 import { Pointers } from '../pointers';
 import { texts } from '../texts';
 
+interface RawFile {
+    station: string;
+    name: string; // its own, which a user may have given
+}
+
+// The files of volumes that began at these times, as far as they are there.
+async function filesOf(volumes: { station: string; time: string }[]): Promise<RawFile[]> {
+    const names = await Promise.all(volumes.map(({ station, time }) => rawNameAt(station, time)));
+    return volumes.flatMap(({ station }, i) => (names[i] === null ? [] : [{ station, name: names[i]! }]));
+}
+
 export class ToolsPanel {
     constructor(
         private app: App,
@@ -69,26 +80,30 @@ export class ToolsPanel {
     }
 
     // Of a region they are those of its sites; of a frame between volumes, the one before it.
-    private async rawNames(): Promise<string[]> {
+    private async rawFiles(): Promise<RawFile[]> {
         const { shown } = this.app;
         if (!shown) return [];
         await this.facts.askSites();
         const { sites } = this.facts;
-        if (!sites && !shown.isBetween) return (await this.facts.ask()).provenance.source_files;
-        if (!sites) return [(await rawBefore(shown.domain, shown.time))?.name ?? ''].filter(Boolean);
-        const names = await Promise.all(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => rawNameAt(site, time))));
-        return names.filter((name): name is string => name !== null);
+        if (sites) return filesOf(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => ({ station: site, time }))));
+        if (shown.isBetween) {
+            const before = await rawBefore(shown.domain, shown.time);
+            return before ? [{ station: shown.domain, name: before.name }] : [];
+        }
+        const { source_files, stations } = (await this.facts.ask()).provenance;
+        const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
+        return source_files.length === 1 && own ? [own] : source_files.map(name => ({ station: name.slice(0, 4), name }));
     }
 
     // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
     private async download(): Promise<void> {
-        const names = await this.rawNames().catch(error => {
+        const files = await this.rawFiles().catch(error => {
             this.app.fail(error);
             return [];
         });
-        const links = names.map(name => {
+        const links = files.map(({ station, name }) => {
             const link = document.createElement('a');
-            link.href = rawPath(name.slice(0, 4), name);
+            link.href = rawPath(station, name);
             link.download = link.textContent = name;
             return link;
         });
