@@ -287,6 +287,7 @@ export class App {
             }
             if (choice !== this.choices) return;
         }
+        domain = this.domains.find(one => one.domain.toLowerCase() === domain.toLowerCase())?.domain ?? domain;
         const isThere = domain === '' || this.domains.some(one => one.domain === domain);
         if (!isThere && this.domains.length > 1) {
             if (this.shown) this.state = { ...this.state, domain: this.shown.domain, moment: this.shown.moment };
@@ -299,7 +300,10 @@ export class App {
         }
         this.state.domain = domain !== '' && isThere ? domain : (this.domains[0]?.domain ?? '');
         const moments = (this.domain?.moments ?? []).map(one => one.moment);
+        const before = this.state.moment;
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
+        // Of another moment the number means something else.
+        if (before !== '' && this.state.moment !== before) this.state.least = null;
         const missed = [
             isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),
             moment === '' || moment === this.state.moment ? '' : texts.notice.otherMoment(this.state.domain, moment, this.state.moment),

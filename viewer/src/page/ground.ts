@@ -69,8 +69,13 @@ export class Ground {
     // Without a map the grid alone is shown.
     private ask(domain: string, place: GridPlace): Promise<MapOnPlane | null> {
         const key = keyOf(domain, place);
-        if (this.asked?.key !== key) this.asked = { key, found: projectedMap(place).catch(() => null) };
-        return this.asked.found;
+        if (this.asked?.key === key) return this.asked.found;
+        const found = projectedMap(place).catch(() => {
+            this.asked = null; // the next grid asks again
+            return null;
+        });
+        this.asked = { key, found };
+        return found;
     }
 
     async show({ domain, loaded }: Shown): Promise<void> {

@@ -251,6 +251,7 @@ export class LayerMaker {
         const { layers, units } = state;
         if (!shown) return [];
         const said = layers.hasVolume ? this.emptyTold(shown) : [];
+        if (state.least !== null) said.push(texts.layers.hiddenBelow(valueText(state.least, this.app.shownTable?.unit ?? '', units)));
         if (layers.planeM !== null) {
             const isBeyond = levelsAbout(shown.loaded.grid.levelsM, layers.planeM) === null;
             said.push(texts.layers.planeTold(heightText(layers.planeM, units)) + (isBeyond ? ` (${texts.layers.beyond})` : ''));

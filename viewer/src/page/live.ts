@@ -15,18 +15,32 @@ interface News {
 const againAfterMs = 3000;
 const refusedAgainAfterMs = 30_000;
 const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
+// Of a browser's pages. A stream keeps a connection, a browser has six for a server, and pictures need some.
+const mostStreams = 3;
+const othersTellWithinMs = 200;
 
 const pause = (ms: number): Promise<void> => new Promise(done => window.setTimeout(done, ms));
 
 export class Live {
     private last = ''; // the id of the last event
     private isBehind = false; // news may be lost: all lists are to be asked for
+    private readonly pages = new BroadcastChannel('stormcellar events'); // of this browser, at this server
+    private isListening = false;
+    private others = 0; // pages that listen
 
     // News are taken once the page has `begun`; what comes before waits.
     constructor(
         private app: App,
         private begun: Promise<void>,
-    ) {}
+    ) {
+        this.pages.onmessage = ({ data }) => {
+            if (data === 'who listens?' && this.isListening) this.pages.postMessage('I do');
+            if (data === 'I do') ++this.others;
+        };
+    }
+    private get isOneTooMany(): boolean {
+        return this.others >= mostStreams;
+    }
 
     async hear(): Promise<never> {
         for (;;) await pause((await this.listen()) ? againAfterMs : refusedAgainAfterMs);
@@ -41,6 +55,9 @@ export class Live {
             timer = window.setTimeout(() => abort.abort(), mostQuietMs);
         };
         wait();
+        this.others = 0;
+        this.pages.postMessage('who listens?');
+        window.setTimeout(() => this.isOneTooMany && abort.abort(), othersTellWithinMs);
         try {
             const answer = await askEvents(this.last, abort.signal);
             if (!answer.ok || !answer.body) {
@@ -55,16 +72,19 @@ export class Live {
                 this.catchUp();
             }
         } catch {
+            if (this.isOneTooMany) return await this.doWithout().then(() => false, () => false);
             // Without the id of an event the server cannot say what was missed.
             this.isBehind = this.isBehind || this.last === '';
             this.app.takeServer(false);
         } finally {
             window.clearTimeout(timer);
+            this.isListening = false;
         }
         return true;
     }
 
     private connected(answer: Response): void {
+        this.isListening = true;
         const wasCutOff = this.app.isCutOff;
         this.app.takeServer(true, Date.parse(answer.headers.get('Date') ?? ''));
         // What was asked for meanwhile got no answer. Lists that came before the stream may lack what came between.

@@ -91,7 +91,7 @@ export class Hover {
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
         if (picked.halvings > 0) lines.push(words.greatestOf(picked.halvings));
         if (gate) return [...lines, ...this.gateLines(gate)];
-        return [...lines, ...(state === CellState.value ? this.beamLines(picked) : from)];
+        return [...lines, ...(state === CellState.value ? this.beamLines(picked, from) : from)];
     }
 
     // No age: what is read may stay on the page.
@@ -99,20 +99,21 @@ export class Hover {
         return texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
     }
 
-    private gateLines({ station, elevationDeg, rangeM, azimuthDeg, timeMs }: GateHit): string[] {
+    private gateLines({ station, elevationDeg, rangeM, azimuthDeg, timeMs, state }: GateHit): string[] {
         const { units } = this.app.state;
         const beam = texts.hover.beam(elevationDeg.toFixed(1), distanceText(beamWidthM(station, rangeM), units), distanceText(rangeM, units), azimuthDeg, station);
-        return [beam, this.when(timeMs)];
+        return state === CellState.notSeen ? [beam] : [beam, this.when(timeMs)];
     }
 
-    private beamLines(picked: Picked): string[] {
+    // A grid that does not name its sweeps may be of a tilt that no beam had: only the way `from` the site is told.
+    private beamLines(picked: Picked, from: string[]): string[] {
         const { units } = this.app.state;
         const { grid } = this.app.shown!.loaded;
         const { known } = this.facts;
         const beam = beamReading(grid.sites, known, picked.place, picked.heightM);
         if (!beam) return [];
-        const elevation = (beam.sweepDeg ?? beam.elevationDeg).toFixed(1);
-        const lines = [texts.hover.beam(elevation, distanceText(beam.widthM, units), distanceText(beam.rangeM, units), beam.azimuthDeg, beam.icao)];
+        const told = (sweepDeg: number) => texts.hover.beam(sweepDeg.toFixed(1), distanceText(beam.widthM, units), distanceText(beam.rangeM, units), beam.azimuthDeg, beam.icao);
+        const lines = beam.sweepDeg === null ? from : [told(beam.sweepDeg)];
         const site = this.facts.sites?.sites.find(one => one.site === beam.icao);
         if (site) lines.push(texts.start.ofVolumes(site.volumes.map(one => one.middle_s)));
         else if (beam.timeMs !== null) lines.push(this.when(beam.timeMs));

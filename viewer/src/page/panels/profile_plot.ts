@@ -16,7 +16,7 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
     canvas.className = 'profile';
     canvas.setAttribute('role', 'img');
     canvas.setAttribute('aria-label', texts.tools.profile);
-    const { table, unit } = app;
+    const { shownTable: table, unit } = app;
     const { units } = app.state;
     const scale = (window.devicePixelRatio || 1) * textScale();
     [canvas.width, canvas.height] = [Math.round(width * scale), Math.round(height * scale)];

@@ -59,7 +59,8 @@ class RawFile {
         const { shown } = this.app;
         if (!shown || this.of === shown.loaded || isRegion(shown.domain) || shown.isBetween) return;
         const { provenance } = await this.facts.ask();
-        const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1;
+        // A mosaic may be of one station at an instant.
+        const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
         const name = isOne ? await rawNameAt(provenance.stations[0]!, shown.time) : null;
         [this.of, this.name] = [shown.loaded, name ?? ''];
     }

@@ -19,6 +19,7 @@ export class BaseMap {
     private coarse: Area | null = null;
     private fine: Area | null = null;
     private timer = 0;
+    private isComing = false; // the coarse lines
 
     constructor(private loaded: () => void) {}
 
@@ -28,8 +29,13 @@ export class BaseMap {
     }
 
     async begin(box: MapBox): Promise<void> {
-        if (this.coarse && holdsBox(this.coarse.box, box)) return;
-        this.coarse = await this.load(grownBox(box, 0.5), 1);
+        if (this.isComing || (this.coarse && holdsBox(this.coarse.box, box))) return;
+        this.isComing = true;
+        try {
+            this.coarse = await this.load(grownBox(box, 0.5), 1);
+        } finally {
+            this.isComing = false;
+        }
         this.loaded();
     }
 
@@ -41,8 +47,7 @@ export class BaseMap {
         const isFine = view.scale >= fineFromScale;
         const needsFine = isFine && !isThere(this.fine);
         window.clearTimeout(this.timer);
-        // Before the first coarse lines there is a request for them.
-        if (needsFine || (this.coarse && !isThere(this.coarse))) {
+        if (needsFine || (!this.isComing && !isThere(this.coarse))) {
             this.timer = window.setTimeout(() => {
                 if (needsFine) void this.refine(grownBox(box, 0.3), view.scale >= finestFromScale);
                 void this.begin(box).catch(() => undefined);

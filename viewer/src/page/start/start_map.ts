@@ -32,6 +32,7 @@ export class StartMap {
     private anchor: string | null = null; // a station at which keys began a box
     private isDrawing = false;
     private timer = 0;
+    private said = '';
     boxes = false; // a drag makes a box instead of moving the map
 
     constructor(private app: App) {
@@ -144,6 +145,7 @@ export class StartMap {
         const [width, height] = [Math.round(view.width * ratio), Math.round(view.height * ratio)];
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
         paint(canvas.getContext('2d')!, this.scene(view), this.tiles, ratio);
+        this.putCard();
         // Where the stations are, for whoever looks at the page from outside.
         const places = this.data.stations.map(one => [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '));
         document.documentElement.dataset['map'] = places.join();
@@ -229,7 +231,12 @@ export class StartMap {
         this.say(texts.start.card(this.chosen!, station?.name ?? '', age, moments, strongest));
     }
     private say(text: string): void {
-        element('start-card').textContent = text;
+        this.said = text;
+        this.putCard();
+    }
+    private putCard(): void {
+        const card = [this.said, this.tiles.lacks ? texts.start.lacksEcho : ''].filter(Boolean).join(' ');
+        if (element('start-card').textContent !== card) element('start-card').textContent = card;
     }
 
     async open(domain: string | null): Promise<void> {

@@ -5,8 +5,9 @@ import { address } from '../../wire/api';
 
 const mostAtOnce = 4;
 const mostKept = 400;
-const mostTries = 4;
 const againAfterMs = 1500; // the server draws a few pictures at a time, and says so
+const longestPause = 10; // times that; a tile is asked for until it comes: without it the map shows no echo there
+const toldAfterTries = 2;
 
 interface Kept {
     image: HTMLImageElement;
@@ -24,6 +25,7 @@ export class Tiles {
     private kept = new Map<string, Kept>(); // the least recently asked first
     private waiting: string[] = [];
     private loading = 0;
+    lacks = false; // some tile of what was drawn last did not come
 
     constructor(private loaded: () => void) {}
 
@@ -35,6 +37,7 @@ export class Tiles {
     begin(): void {
         for (const path of this.waiting) this.kept.delete(path);
         this.waiting = [];
+        this.lacks = false;
     }
 
     // Draws a tile, or the part of a coarser one that is there, and asks for it.
@@ -59,6 +62,7 @@ export class Tiles {
         if (known) {
             this.kept.delete(path);
             this.kept.set(path, known);
+            this.lacks ||= !known.isThere && known.tries >= toldAfterTries;
             return known.isThere ? known.image : null;
         }
         this.kept.set(path, { image: new Image(), isThere: false, tries: 0 });
@@ -85,7 +89,8 @@ export class Tiles {
             };
             kept.image.onerror = () => {
                 this.ended();
-                if (++kept.tries < mostTries) window.setTimeout(() => this.again(path), againAfterMs * kept.tries);
+                window.setTimeout(() => this.again(path), againAfterMs * Math.min(++kept.tries, longestPause));
+                if (kept.tries === toldAfterTries) this.loaded();
             };
             kept.image.src = address(path);
         }
