@@ -93,8 +93,7 @@ int run_serve(const ServeOptions& options) {
         auto taken = ServedFiles::take(options.files, options.threads);
         if (!taken) return report_error(taken.error());
         files = std::move(*taken);
-        setup->catalog = files->cellar().catalog();
-        setup->cache = files->cellar().cache();
+        serve_files(*files, *setup);
     }
     auto service = web::WebService::open(std::move(*setup));
     if (!service) return report_error(service.error());

@@ -1,6 +1,7 @@
 #include "cli/serve/served_files.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <utility>
 
@@ -41,6 +42,12 @@ void ServedFiles::take_rest() {
             if (!grids) report_error(grids.error());
         }
     });
+}
+
+void serve_files(const ServedFiles& files, web::WebSetup& setup) {
+    setup.catalog = files.cellar().catalog();
+    setup.cache = files.cellar().cache();
+    setup.web.silent = std::chrono::hours{24 * 365 * 100};
 }
 
 void serve_until_signal(const WaitedSignals& signals, web::WebService& service) {

@@ -47,6 +47,9 @@ class ServedFiles {
     std::thread thread_;
 };
 
+// Makes a server one of these files: no further ones come, so no station is silent.
+void serve_files(const ServedFiles& files, web::WebSetup& setup);
+
 // Returns when a signal asks the program to end.
 void serve_until_signal(const WaitedSignals& signals, web::WebService& service);
 

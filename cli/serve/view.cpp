@@ -27,8 +27,7 @@ struct ViewOptions {
 Result<web::WebSetup> setup_of_files(const ServedFiles& files) {
     web::WebSetup setup;
     setup.state.clear();
-    setup.catalog = files.cellar().catalog();
-    setup.cache = files.cellar().cache();
+    serve_files(files, setup);
     const auto address = web::parse_bind_address("127.0.0.1:0");
     if (!address) return pass_on(address);
     setup.web.listen = {*address};

@@ -39,6 +39,8 @@ function save(app: App, drawing: Drawing): void {
 
 const savedFiles = new Set<string>(); // of commands that were copied
 
+const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);
+
 // The raw file of which the grid was made, if it is one: whoever has it needs no cache for the command. A
 // browser lets the page copy only at once, so that it is asked for before.
 class RawFile {
@@ -62,7 +64,8 @@ class RawFile {
         // A mosaic may be of one station at an instant.
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
         const name = isOne ? await rawNameAt(provenance.stations[0]!, shown.time) : null;
-        [this.of, this.name] = [shown.loaded, name ?? ''];
+        // A chunk is not its volume.
+        [this.of, this.name] = [shown.loaded, name !== null && !isChunk(name) ? name : ''];
     }
 }
 
