@@ -7,7 +7,9 @@
 #define STORMCELLAR_BUNZIP_TARGETS_INL_H
 
 #define HWY_WANT_AVX3_DL
+#ifndef HWY_DISABLED_TARGETS  // a build may want fewer still
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
+#endif
 
 #endif
 // NOLINTEND(llvm-header-guard)

@@ -1,6 +1,5 @@
 #include "cli/subcommands.h"
 
-#include <algorithm>
 #include <array>
 
 #include <CLI/CLI.hpp>
@@ -58,17 +57,6 @@ constexpr std::array registry{
 
 std::span<const Subcommand> subcommands() {
     return registry;
-}
-
-const Subcommand* find_subcommand(std::string_view name) {
-    const auto found = std::ranges::find(registry, name, &Subcommand::name);
-    return found == registry.end() ? nullptr : &*found;
-}
-
-Command add_subcommand(CLI::App& app, const Subcommand& subcommand) {
-    CLI::App* command = app.add_subcommand(subcommand.name, subcommand.summary);
-    command->footer(subcommand.footer);
-    return {command, subcommand.set_up(*command)};
 }
 
 }  // namespace stormcellar::cli

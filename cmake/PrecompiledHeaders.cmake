@@ -13,19 +13,24 @@ set(STORMCELLAR_COMMON_HEADERS <algorithm> <array> <chrono> <filesystem> <fmt/fo
 set(STORMCELLAR_NO_SOURCE ${PROJECT_BINARY_DIR}/generated/nothing.cpp)
 file(WRITE ${STORMCELLAR_NO_SOURCE} "int main() {}\n")
 
+# Headers are of use only to what is compiled with their options: rooms that compute, rooms that move
+# files and rows, the command line, programs.
+function(stormcellar_common_headers name)
+  target_compile_options(${name} PRIVATE ${ARGN})
+  target_link_libraries(${name} PRIVATE fmt::fmt)
+  target_precompile_headers(${name} PRIVATE ${STORMCELLAR_COMMON_HEADERS})
+endfunction()
 add_library(stormcellar_headers STATIC ${STORMCELLAR_NO_SOURCE})
-target_link_libraries(stormcellar_headers PRIVATE fmt::fmt)
-target_precompile_headers(stormcellar_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS})
-
-# Programs are compiled with other options than libraries.
+stormcellar_common_headers(stormcellar_headers)
+add_library(stormcellar_moving_headers STATIC ${STORMCELLAR_NO_SOURCE})
+stormcellar_common_headers(stormcellar_moving_headers ${STORMCELLAR_SHORT_BUILD})
+add_library(stormcellar_command_headers STATIC ${STORMCELLAR_NO_SOURCE})
+stormcellar_common_headers(stormcellar_command_headers ${STORMCELLAR_TEST_BUILD})
 add_executable(stormcellar_program_headers ${STORMCELLAR_NO_SOURCE})
-target_compile_options(stormcellar_program_headers PRIVATE ${STORMCELLAR_TEST_BUILD})
-target_link_libraries(stormcellar_program_headers PRIVATE fmt::fmt)
-target_precompile_headers(stormcellar_program_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS})
+stormcellar_common_headers(stormcellar_program_headers ${STORMCELLAR_TEST_BUILD})
 
 if(STORMCELLAR_TESTS)
   find_package(GTest REQUIRED)
-  # Two, because headers are of use only to what is optimised as they are.
   function(stormcellar_test_headers name)
     add_executable(${name} ${STORMCELLAR_NO_SOURCE})
     target_compile_options(${name} PRIVATE ${ARGN})

@@ -6,16 +6,17 @@ function(stormcellar_batches target)
 endfunction()
 
 # stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]
-#                  [ALONE] [BATCHES [SINGLY directory...]])
+#                  [ALONE] [MOVES | BATCHES [SINGLY directory...]])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
 # Headers are included by their room, as in "stormcellar/level2/volume.h". The headers beside the sources are
 # installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
-# names no other and does not use fmt, so the common precompiled headers are not for it. BATCHES is
-# for what moves files and rows, of which headers are most: see stormcellar_test. What computes is
-# compiled as it is released: in rooms that do both, it stands in directories that are named SINGLY.
+# names no other and does not use fmt, so the common precompiled headers are not for it. A room that
+# MOVES files and rows computes little: where everything is built once, it is compiled in batches (see
+# stormcellar_test) and with less optimisation. BATCHES is for rooms that also compute, SINGLY for
+# their directories that do nothing else.
 function(stormcellar_room name)
-  cmake_parse_arguments(ARG "ALONE;BATCHES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
+  cmake_parse_arguments(ARG "ALONE;BATCHES;MOVES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
     ${ARGN})
   set(target stormcellar_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
@@ -30,10 +31,13 @@ function(stormcellar_room name)
     # For one release: includes as they were before, "level2/volume.h".
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
+  if(STORMCELLAR_PRECOMPILE AND ARG_MOVES)
+    target_compile_options(${target} PRIVATE ${STORMCELLAR_SHORT_BUILD})
+    target_precompile_headers(${target} REUSE_FROM stormcellar_moving_headers)
+  elseif(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
     target_precompile_headers(${target} REUSE_FROM stormcellar_headers)
   endif()
-  if(STORMCELLAR_PRECOMPILE AND ARG_BATCHES)
+  if(STORMCELLAR_PRECOMPILE AND (ARG_BATCHES OR ARG_MOVES))
     stormcellar_batches(${target})
     foreach(directory IN LISTS ARG_SINGLY)
       set(singly ${ARG_SOURCES})
