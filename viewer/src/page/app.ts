@@ -11,9 +11,11 @@ import { outdatedBy } from '../time/outdated';
 import { PlayerState, advanced, at, followed, looped, nearestTime, nextOf, stepped, stopped, withTimes } from '../time/player';
 import { Units, namesOf } from '../tables/units';
 import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
+import { AddressBar } from './address_bar';
 import { element } from './dom';
 import { Loader } from './loader';
 import { rememberUnits, rememberedUnits } from './remembered';
+import { ServerState } from './server_state';
 import { TableBook } from './table_book';
 import { texts } from './texts';
 
@@ -21,8 +23,6 @@ const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
 const loadedAhead = 12; // of a loop
 const betweenAhead = 3; // of what is made on request
-const addressAfterMs = 150; // less than the picture waits until it is fine
-const addressEveryMs = 1000; // while something moves
 // From the time of a grid to the instants of regions that it is in: it takes some minutes, and they are at most 15 away.
 const farthestMadeMs = 30 * 60 * 1000;
 
@@ -65,17 +65,13 @@ export class App {
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
     isShownWhole: () => boolean = () => true; // the picture has all of what is shown
     isGraphicsLost = false; // nothing can be drawn
-    isCutOff = false; // the server does not answer
-    isBehind = false; // a request got no answer: all is to be asked for again
-    silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
-    private clockAheadMs = 0; // of the server, before that of the browser
+    readonly server = new ServerState(() => this.tell('notice'));
     missed = ''; // what was asked for and is not there
     private stored: string[] = []; // times of the domain's grids
     private missing = new Set<string>(); // instants between them for which there is no frame
     private heard = new Map<Happening, (() => void)[]>();
     private coming = 0; // times that are not shown yet
-    private addressTimer = 0;
-    private addressAt = 0; // when it was written
+    private addressBar = new AddressBar(() => addressOf(this.state));
     private turn = 0; // of what is to be shown
     private choices = 0; // of domains and moments
     private unreadTime = timeThatIsNone(); // of the address
@@ -98,7 +94,7 @@ export class App {
     fail(error: unknown): void {
         // Of fetch(): there was no answer at all.
         if (error instanceof TypeError) {
-            this.isBehind = true;
+            this.server.isBehind = true;
             return this.say(texts.notice.noServer);
         }
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
@@ -121,8 +117,8 @@ export class App {
 
     // The view was changed by a panel.
     changed(): void {
-        if (this.player.isPlaying) this.rememberSoon();
-        else this.remember();
+        if (this.player.isPlaying) this.addressBar.writeSoon();
+        else this.addressBar.write();
         this.tell('view');
     }
     cellsCame(): void {
@@ -136,25 +132,12 @@ export class App {
     }
     moved(camera: Camera): void {
         this.state.camera = camera;
-        this.rememberSoon();
+        this.addressBar.writeSoon();
         this.tell('camera');
-    }
-    // Browsers take long to show an address, and some refuse to do it often: while something moves it mostly waits.
-    private rememberSoon(): void {
-        window.clearTimeout(this.addressTimer);
-        const isLate = performance.now() - this.addressAt > addressEveryMs;
-        const { hash } = location;
-        // An address that somebody else gave meanwhile counts.
-        this.addressTimer = window.setTimeout(() => location.hash === hash && this.remember(), isLate ? 0 : addressAfterMs);
-    }
-    private remember(): void {
-        window.clearTimeout(this.addressTimer);
-        this.addressAt = performance.now();
-        history.replaceState(null, '', `#${addressOf(this.state)}`);
     }
     // Who gets the link sees what is shown now, also where the newest is followed here.
     get link(): string {
-        this.remember();
+        this.addressBar.write();
         const { shown, state } = this;
         const isShown = shown?.domain === state.domain && shown.moment === state.moment;
         const time = isShown ? shown.time : (this.player.times[this.player.at] ?? state.time);
@@ -188,32 +171,11 @@ export class App {
         this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
     }
 
-    // Ages are told by the clock of the server: that of the browser may be wrong.
-    get nowMs(): number {
-        return Date.now() + this.clockAheadMs;
-    }
     get hasLists(): boolean {
         return this.stored.length > 0;
     }
-    takeServer(answers: boolean, serverMs = NaN): void {
-        if (!Number.isNaN(serverMs)) this.clockAheadMs = serverMs - Date.now();
-        if (this.isCutOff === !answers) return;
-        this.isCutOff = !answers;
-        this.tell('notice');
-    }
     takeGraphics(isThere: boolean): void {
         this.isGraphicsLost = !isThere;
-        this.tell('notice');
-    }
-    // `silentS`: for how long; null: it spoke.
-    takeSilence(station: string, silentS: number | null): void {
-        if (silentS === null) this.silentSince.delete(station);
-        else this.silentSince.set(station, this.nowMs - 1000 * silentS);
-        this.tell('notice');
-    }
-    // Of all stations that are silent.
-    takeSilences(all: [string, number][]): void {
-        this.silentSince = new Map(all.map(([station, silentS]) => [station, this.nowMs - 1000 * silentS]));
         this.tell('notice');
     }
     // News were lost: all lists are asked for anew, and any grid may have been made again.
@@ -242,14 +204,14 @@ export class App {
     }
 
     private openMap(): void {
-        window.clearTimeout(this.addressTimer);
+        this.addressBar.drop();
         this.player = { ...this.player, isPlaying: false };
         this.isOnMap = true;
         this.tell('map');
     }
     // Going back in the browser leads here again.
     goToMap(): void {
-        if (!this.isOnMap) this.remember();
+        if (!this.isOnMap) this.addressBar.write();
         history.pushState(null, '', '#');
         this.openMap();
     }

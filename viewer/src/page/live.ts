@@ -75,7 +75,7 @@ export class Live {
             if (this.isOneTooMany) return await this.doWithout().then(() => false, () => false);
             // Without the id of an event the server cannot say what was missed.
             this.isBehind = this.isBehind || this.last === '';
-            this.app.takeServer(false);
+            this.app.server.take(false);
         } finally {
             window.clearTimeout(timer);
             this.isListening = false;
@@ -85,22 +85,22 @@ export class Live {
 
     private connected(answer: Response): void {
         this.isListening = true;
-        const wasCutOff = this.app.isCutOff;
-        this.app.takeServer(true, Date.parse(answer.headers.get('Date') ?? ''));
+        const wasCutOff = this.app.server.isCutOff;
+        this.app.server.take(true, Date.parse(answer.headers.get('Date') ?? ''));
         // What was asked for meanwhile got no answer. Lists that came before the stream may lack what came between.
         this.isBehind = this.isBehind || wasCutOff || (this.last === '' && this.app.hasLists);
         void this.begun.then(() => this.askSilences()).catch(() => undefined);
     }
     // Of who fell silent before, there are no news.
     private async askSilences(): Promise<void> {
-        this.app.takeSilences(await silences());
+        this.app.server.takeSilences(await silences());
     }
     // There is no place for another stream, or the server has none: the lists tell as much, if later.
     private async doWithout(): Promise<void> {
         await this.begun;
         await this.app.catchUp();
         await this.askSilences();
-        this.app.takeServer(true);
+        this.app.server.take(true);
     }
 
     private do(act: () => Promise<void>): void {
@@ -110,8 +110,8 @@ export class Live {
         });
     }
     private catchUp(): void {
-        if (!this.isBehind && !this.app.isBehind) return;
-        this.isBehind = this.app.isBehind = false;
+        if (!this.isBehind && !this.app.server.isBehind) return;
+        this.isBehind = this.app.server.isBehind = false;
         this.do(async () => {
             await this.app.catchUp();
             await this.askSilences();
@@ -122,8 +122,8 @@ export class Live {
         if (kind === '') return;
         const { domain, moment, grid, station, silent_s } = JSON.parse(data) as News;
         if (kind === 'reset') this.isBehind = true;
-        else if (kind === 'station_silent') this.app.takeSilence(station ?? '', silent_s ?? 0);
-        else if (kind === 'station_spoke') this.app.takeSilence(station ?? '', null);
+        else if (kind === 'station_silent') this.app.server.takeSilence(station ?? '', silent_s ?? 0);
+        else if (kind === 'station_spoke') this.app.server.takeSilence(station ?? '', null);
         else if (kind !== 'volume_begun') this.do(() => this.app.takeNews(domain, moment, grid));
     }
 }

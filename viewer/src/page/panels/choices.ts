@@ -38,7 +38,7 @@ function putTitle(app: App): void {
     const { grid } = app.shown!.loaded;
     const names = grid.sites.map(site => site.icao).join(', ');
     const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
-    const ageS = (app.nowMs - grid.timeMs) / 1000;
+    const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
     // A saved picture has no age.
     const age = document.createElement('span');
@@ -51,17 +51,17 @@ function putTitle(app: App): void {
 function putNotice(app: App): void {
     const sites = app.shown?.loaded.grid.sites.map(site => site.icao) ?? [];
     const silent = sites.flatMap(site => {
-        const sinceMs = app.silentSince.get(site);
-        const ageS = sinceMs === undefined ? Infinity : (app.nowMs - sinceMs) / 1000;
+        const sinceMs = app.server.silentSince.get(site);
+        const ageS = sinceMs === undefined ? Infinity : (app.server.nowMs - sinceMs) / 1000;
         return ageS < newsS ? [texts.notice.silent(site, ageS)] : [];
     });
-    const text = [app.isGraphicsLost ? texts.notice.noGraphics : '', app.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
+    const text = [app.isGraphicsLost ? texts.notice.noGraphics : '', app.server.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
     for (const id of ['notice', 'start-notice']) if (element(id).textContent !== text) element(id).textContent = text;
     document.documentElement.classList.toggle('lost', app.isGraphicsLost);
     element('reload').hidden = !app.isGraphicsLost;
-    press('follow', app.player.follows && !app.isCutOff && silent.length === 0);
+    press('follow', app.player.follows && !app.server.isCutOff && silent.length === 0);
     const newest = app.player.times[app.player.times.length - 1];
-    const isLive = newest !== undefined && app.nowMs - Date.parse(newest) < 1000 * liveS;
+    const isLive = newest !== undefined && app.server.nowMs - Date.parse(newest) < 1000 * liveS;
     element('follow').textContent = isLive ? texts.live : texts.latest;
 }
 

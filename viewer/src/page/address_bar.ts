@@ -1,0 +1,29 @@
+// The view in the address of the page: at once, or while something moves only now and then, because browsers take
+// long to show an address, and some refuse to do it often.
+
+const afterMs = 150; // less than the picture waits until it is fine
+const everyMs = 1000; // while something moves
+
+export class AddressBar {
+    private timer = 0;
+    private writtenAt = 0;
+
+    constructor(private address: () => string) {}
+
+    writeSoon(): void {
+        window.clearTimeout(this.timer);
+        const isLate = performance.now() - this.writtenAt > everyMs;
+        const { hash } = location;
+        // An address that somebody else gave meanwhile counts.
+        this.timer = window.setTimeout(() => location.hash === hash && this.write(), isLate ? 0 : afterMs);
+    }
+    write(): void {
+        this.drop();
+        this.writtenAt = performance.now();
+        history.replaceState(null, '', `#${this.address()}`);
+    }
+    // What waits to be written is not.
+    drop(): void {
+        window.clearTimeout(this.timer);
+    }
+}

@@ -1,0 +1,32 @@
+// Whether the server answers, what time it has, and of which stations it hears nothing.
+
+export class ServerState {
+    isCutOff = false; // it does not answer
+    isBehind = false; // a request got no answer: all is to be asked for again
+    silentSince = new Map<string, number>(); // ms since 1970, of stations of which the server hears nothing
+    private clockAheadMs = 0; // before that of the browser
+
+    constructor(private changed: () => void) {}
+
+    // Ages are told by the clock of the server: that of the browser may be wrong.
+    get nowMs(): number {
+        return Date.now() + this.clockAheadMs;
+    }
+    take(answers: boolean, serverMs = NaN): void {
+        if (!Number.isNaN(serverMs)) this.clockAheadMs = serverMs - Date.now();
+        if (this.isCutOff === !answers) return;
+        this.isCutOff = !answers;
+        this.changed();
+    }
+    // `silentS`: for how long; null: it spoke.
+    takeSilence(station: string, silentS: number | null): void {
+        if (silentS === null) this.silentSince.delete(station);
+        else this.silentSince.set(station, this.nowMs - 1000 * silentS);
+        this.changed();
+    }
+    // Of all stations that are silent.
+    takeSilences(all: [string, number][]): void {
+        this.silentSince = new Map(all.map(([station, silentS]) => [station, this.nowMs - 1000 * silentS]));
+        this.changed();
+    }
+}
