@@ -1,5 +1,5 @@
-# bash completion of stormcellar-pull.
-_stormcellar_pull_program() {
+# bash completion of @SERVICE@.
+_@FUNCTION@_program() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
     if [[ $previous == --config || $previous == '=' || $current == '=' ]]; then
         mapfile -t COMPREPLY < <(compgen -f -- "${current#=}")
@@ -8,4 +8,4 @@ _stormcellar_pull_program() {
         mapfile -t COMPREPLY < <(compgen -W '--config --check-config --version --help' -- "$current")
     fi
 }
-complete -F _stormcellar_pull_program stormcellar-pull
+complete -F _@FUNCTION@_program @SERVICE@

@@ -1,4 +1,4 @@
-#compdef stormcellar-pull
+#compdef @SERVICE@
 _arguments \
   '--config[Read the configuration from FILE]:FILE:_files' \
   '--check-config[Check the configuration, and exit]' \
