@@ -74,6 +74,7 @@ export class LayerMaker {
     private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
     private numbers = new WeakMap<LoadedGrid, number>();
     private mostNumber = 0;
+    private toldSweep = ''; // its key
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
     private askedSweep = ''; // the one whose coming is waited for
     layerCame: () => void = () => undefined; // or failed: what is told has changed
@@ -328,13 +329,13 @@ export class LayerMaker {
         const key = this.sweepKey(shown);
         const last = this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep : null;
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
-        if (found) {
-            const isOther = this.lastSweep?.sweep !== found;
-            this.lastSweep = { of: loaded, moment, key, sweep: found };
-            // Of one that is there already nothing else tells; and who asks here may be the one that is told.
-            if (isOther) queueMicrotask(() => this.layerCame());
+        if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
+        if (found || this.sweeps.isSettled(key)) {
+            // Of what is settled already nothing else tells; and who asks here may be the one that is told.
+            if (this.toldSweep !== key) queueMicrotask(() => this.layerCame());
+            this.toldSweep = key;
+            return found;
         }
-        if (found || this.sweeps.isSettled(key)) return found;
         if (this.askedSweep !== key) {
             this.askedSweep = key;
             void this.takeSweep(shown, false).then(() => {

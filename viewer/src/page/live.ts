@@ -26,20 +26,27 @@ export class Live {
     private isBehind = false; // news may be lost: all lists are to be asked for
     private readonly pages = new BroadcastChannel('stormcellar events'); // of this browser, at this server
     private isListening = false;
-    private others = 0; // pages that listen
+    private question = ''; // to the other pages; empty: none is open
+    private others = 0; // pages that said that they listen
 
     // News are taken once the page has `begun`; what comes before waits.
     constructor(
         private app: App,
         private begun: Promise<void>,
     ) {
-        this.pages.onmessage = ({ data }) => {
-            if (data === 'who listens?' && this.isListening) this.pages.postMessage('I do');
-            if (data === 'I do') ++this.others;
+        this.pages.onmessage = ({ data }: MessageEvent<{ whoListens: string } | { iDo: string }>) => {
+            if ('whoListens' in data && this.isListening) this.pages.postMessage({ iDo: data.whoListens });
+            if ('iDo' in data && data.iDo === this.question) ++this.others;
         };
     }
-    private get isOneTooMany(): boolean {
-        return this.others >= mostStreams;
+    private askPages(tooMany: () => void): void {
+        this.others = 0;
+        this.question = String(Math.random());
+        this.pages.postMessage({ whoListens: this.question });
+        window.setTimeout(() => {
+            this.question = '';
+            if (this.others >= mostStreams) tooMany();
+        }, othersTellWithinMs);
     }
 
     async hear(): Promise<never> {
@@ -55,9 +62,11 @@ export class Live {
             timer = window.setTimeout(() => abort.abort(), mostQuietMs);
         };
         wait();
-        this.others = 0;
-        this.pages.postMessage('who listens?');
-        window.setTimeout(() => this.isOneTooMany && abort.abort(), othersTellWithinMs);
+        let isOneTooMany = false;
+        this.askPages(() => {
+            isOneTooMany = true;
+            abort.abort();
+        });
         try {
             const answer = await askEvents(this.last, abort.signal);
             if (!answer.ok || !answer.body) {
@@ -72,7 +81,7 @@ export class Live {
                 this.catchUp();
             }
         } catch {
-            if (this.isOneTooMany) return await this.doWithout().then(() => false, () => false);
+            if (isOneTooMany && (await this.hasDoneWithout())) return false;
             // Without the id of an event the server cannot say what was missed.
             this.isBehind = this.isBehind || this.last === '';
             this.app.server.take(false);
@@ -101,6 +110,15 @@ export class Live {
         await this.app.catchUp();
         await this.askSilences();
         this.app.server.take(true);
+    }
+
+    private async hasDoneWithout(): Promise<boolean> {
+        try {
+            await this.doWithout();
+            return true;
+        } catch {
+            return false;
+        }
     }
 
     private do(act: () => Promise<void>): void {
