@@ -1,0 +1,66 @@
+// Pages of one browser: each hears events by itself, over the channel that they share.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import type { App } from '../src/page/app';
+import { ServerState } from '../src/page/server_state';
+
+const server = { isUp: true, streams: new Set<ReadableStreamDefaultController<Uint8Array>>() };
+// What waits keeps no test from ending.
+const unref = <Waits>(waits: Waits): Waits => ((waits as unknown as { unref: () => void }).unref(), waits);
+Object.assign(globalThis, {
+    window: { setTimeout: (act: () => void, ms: number) => unref(setTimeout(act, ms)), clearTimeout },
+    BroadcastChannel: class extends BroadcastChannel {
+        constructor(name: string) {
+            super(name);
+            unref(this);
+        }
+    },
+    document: { baseURI: 'http://localhost/view/' },
+    fetch: (url: string, options: RequestInit): Promise<Response> => {
+        if (!server.isUp) return Promise.reject(new TypeError('no answer'));
+        if (!String(url).includes('events')) return Promise.resolve(new Response('{"stations":[]}'));
+        const body = new ReadableStream<Uint8Array>({
+            start(stream) {
+                server.streams.add(stream);
+                options.signal?.addEventListener('abort', () => {
+                    if (server.streams.delete(stream)) stream.error(new TypeError('aborted'));
+                });
+            },
+        });
+        return Promise.resolve(new Response(body));
+    },
+});
+
+const pause = (ms: number): Promise<void> => new Promise(done => setTimeout(done, ms));
+async function open(): Promise<{ server: ServerState; asked: () => number }> {
+    const { Live } = await import('../src/page/live');
+    let asked = 0;
+    const state = new ServerState(() => undefined);
+    const app = {
+        server: state,
+        hasLists: false,
+        fail: () => undefined,
+        catchUp: () => (++asked, server.isUp ? Promise.resolve() : Promise.reject(new TypeError('no answer'))),
+    };
+    void new Live(app as unknown as App, Promise.resolve()).hear();
+    return { server: state, asked: () => asked };
+}
+
+// 2026-11-28: six pages kept all six connections of a browser, and all stood still without a word.
+test('three pages of a browser listen, and a fourth asks for lists', async () => {
+    const pages = [await open(), await open(), await open()];
+    await pause(400);
+    const fourth = await open();
+    await pause(600);
+    assert.equal(server.streams.size, 3);
+    assert.equal(fourth.asked(), 1);
+    assert.equal(fourth.server.isCutOff, false);
+    server.isUp = false;
+    for (const stream of server.streams) stream.error(new TypeError('gone'));
+    await pause(100);
+    assert.deepEqual(
+        pages.map(page => page.server.isCutOff),
+        [true, true, true],
+    );
+});
