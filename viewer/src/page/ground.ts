@@ -71,7 +71,7 @@ export class Ground {
         const key = keyOf(domain, place);
         if (this.asked?.key === key) return this.asked.found;
         const found = projectedMap(place).catch(() => {
-            this.asked = null; // the next grid asks again
+            if (this.asked?.key === key) this.asked = null; // the next grid asks again
             return null;
         });
         this.asked = { key, found };
@@ -91,6 +91,7 @@ export class Ground {
         const found = await this.ask(domain, grid);
         if (this.shownKey !== key) return;
         this.isWaiting = false;
+        if (!found) this.shownKey = '';
         if (found && this.app.state.domain === domain) this.put(grid, found);
         this.redraw();
     }
