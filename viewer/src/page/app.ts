@@ -515,6 +515,8 @@ export class App {
         // Without more of them on the server, the older ones are gone.
         this.takeTimes([...this.stored.filter(time => more && time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
+        const isEvicted = before !== undefined && now !== undefined && !this.player.times.includes(before);
+        if (isEvicted && !this.player.follows && !this.player.isPlaying) this.miss(texts.notice.otherTime(before));
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
         // After a failure another time than that of the picture may be waited for.
         if (now !== before || now !== this.shown?.time || isOfNow || now === changedTime) await this.showTime();
