@@ -487,8 +487,9 @@ export class App {
         await this.showTime();
     }
 
-    // The server has other times now; `changedTime` is that of a grid that was made again.
-    async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined): Promise<void> {
+    // The server has other times now; `changedTime` is that of a grid that was made again, `oldest` the first that is
+    // left after others were evicted.
+    async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined, oldest = ''): Promise<void> {
         if (this.domains.length === 0) {
             if (!this.book) return this.begin();
             await this.findDomains();
@@ -513,7 +514,7 @@ export class App {
         const { times: newest, more } = await times(domain, moment, soonTimes);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         // Without more of them on the server, the older ones are gone.
-        this.takeTimes([...this.stored.filter(time => more && time < newest[0]!), ...newest]);
+        this.takeTimes([...this.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
         const isEvicted = before !== undefined && now !== undefined && !this.player.times.includes(before);
         if (isEvicted && !this.player.follows && !this.player.isPlaying) this.miss(texts.notice.otherTime(before));

@@ -10,6 +10,7 @@ interface News {
     grid?: string; // its time
     station?: string;
     silent_s?: number;
+    oldest?: string | null; // time of a grid that is left
 }
 
 const againAfterMs = 3000;
@@ -138,10 +139,10 @@ export class Live {
     private take({ kind, id, data }: ServerEvent): void {
         if (id !== '') this.last = id;
         if (kind === '') return;
-        const { domain, moment, grid, station, silent_s } = JSON.parse(data) as News;
+        const { domain, moment, grid, station, silent_s, oldest } = JSON.parse(data) as News;
         if (kind === 'reset') this.isBehind = true;
         else if (kind === 'station_silent') this.app.server.takeSilence(station ?? '', silent_s ?? 0);
         else if (kind === 'station_spoke') this.app.server.takeSilence(station ?? '', null);
-        else if (kind !== 'volume_begun') this.do(() => this.app.takeNews(domain, moment, grid));
+        else if (kind !== 'volume_begun') this.do(() => this.app.takeNews(domain, moment, grid, oldest ?? ''));
     }
 }
