@@ -7,7 +7,7 @@ import { CheckedPage, check, gridsOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
 const [address, station, other] = process.argv.slice(2);
-await gridsOf(address, [station, other]);
+const grids = await gridsOf(address, [station, other]);
 const upstream = new URL(address);
 
 // ---- A server that can go away, tell of events, and have another list of times
@@ -15,10 +15,12 @@ let events = [];
 let listed = (path, body) => body;
 let isRefusing = false; // it has no place for another stream
 let isHanging = false; // it takes connections, and sends nothing
+let isBreaking = (path) => false; // it breaks off before it answers
 const streams = new Set();
 setInterval(() => isHanging || streams.forEach((stream) => stream.write(': heartbeat\n\n')), 200).unref();
 function pass(asked, answer) {
   if (isHanging) return;
+  if (isBreaking(asked.url)) return void answer.destroy();
   if (asked.url.startsWith('/api/v1/events')) {
     if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10' }).end('{"error": "as many as there may be"}');
     answer.writeHead(200, { 'Content-Type': 'text/event-stream' });
@@ -117,6 +119,11 @@ try {
   check(`a silent radar: ${await says('notice', 'silent')}`, (await text('notice')).includes(`${station} is silent: nothing came for 14 min`) && (await page.evaluate(lit)) === 'false');
   tell('station_spoke', { type: 'station_spoke', station });
   check('it speaks again', await isQuiet());
+  // 2026-11-28: when the news that it speaks were lost, it stayed silent for good.
+  tell('station_silent', { type: 'station_silent', station, silent_s: 840 });
+  await says('notice', 'silent');
+  tell('reset', { type: 'reset', reason: 'events were lost' });
+  check('after lost events it is asked who is silent', await isQuiet());
 
   // ---- A graphics processor that is lost, and comes back (2026-11-28: it looked like clear air)
   await page.evaluate(`window.loser = document.getElementById('picture').getContext('webgl2').getExtension('WEBGL_lose_context'); loser.loseContext()`);
@@ -169,6 +176,44 @@ try {
   await page.goto('about:blank');
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
   check(`silent before: ${await says('notice', 'silent')}`, (await text('notice')).includes(`${station} is silent: nothing came for 14 min`));
+
+  // ---- A list that does not come, before anything is shown (2026-11-28: it said that it tries again, and did not)
+  listed = (path, body) => body;
+  isBreaking = (path) => path.startsWith('/api/v1/grids?');
+  const isTrue = (condition) => page.until(condition, 15).then(() => true, () => false);
+  await page.goto('about:blank');
+  await page.goto(`${viewer.address}/view/#domain=${station}&moment=REF&time=latest`);
+  const trying = await says('state', 'Trying again');
+  check(`a list that does not come: ${trying}`, trying !== '');
+  isBreaking = () => false;
+  check('it is asked for again', await isTrue('document.documentElement.dataset.drawn'));
+
+  // ---- A moment that comes after the first one of its radar (2026-11-28: it got no button), and volumes that are
+  // evicted (2026-11-28: the timeline kept them, and a loop waited for them)
+  const old = ['2001-01-01T00:00:00Z', '2001-01-01T00:05:00Z'];
+  let hasMore = true; // than those of a list
+  events = [];
+  listed = (path, body) => {
+    if (!/^\/api\/v1\/(domains|grids\?)/.test(path)) return body;
+    const all = JSON.parse(body.toString());
+    for (const one of all.domains ?? []) if (one.domain === station) one.moments = one.moments.filter(({ moment }) => moment === 'REF');
+    if (all.grids?.length > 0) all.grids.unshift(...old.map((time) => ({ ...all.grids[0], time })));
+    return Buffer.from(JSON.stringify(all));
+  };
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  const hasTimes = (count) => isTrue(`Number(document.getElementById('times').max) + 1 === ${count}`);
+  const stored = grids.filter(({ domain, moment }) => domain === station && moment === 'REF').length;
+  check('the page has what the lists have', (await hasTimes(stored + 2)) && (await page.evaluate("!document.getElementById('moment-VEL')")));
+  listed = (path, body) => path.startsWith('/api/v1/grids?') ? Buffer.from(JSON.stringify({ ...JSON.parse(body.toString()), more: hasMore })) : body;
+  tell('volume_complete', { type: 'volume_complete', domain: station, station, moment: 'VEL', grid: time });
+  check('a moment that comes later gets its button', await isTrue("document.getElementById('moment-VEL')"));
+  const evict = (gone, oldest) => tell('grid_evicted', { type: 'grid_evicted', domain: station, moment: 'REF', count: 1, from: gone, to: gone, grids: [gone], oldest });
+  evict(old[0], old[1]);
+  check('an evicted volume leaves the timeline', await hasTimes(stored + 1));
+  hasMore = false;
+  evict(old[1], time);
+  check('and so does one that the list would have', await hasTimes(stored));
 } finally {
   await browser.end();
   await cut();

@@ -100,5 +100,15 @@ await new Promise((done) => setTimeout(done, 1500));
 const meanwhile = await page.evaluate(toldLayers);
 check(`while another radar's comes: ${meanwhile}`, meanwhile === ofFirst);
 await page.send('Fetch.disable');
+// Back to a radar whose sweep is there (2026-11-28: the line went on naming the other one).
+await page.goto('about:blank');
+await viewer.open(lookAt(spots[0][1], spots[0][0]));
+const isTold = (holds) => page.until(`(${holds}) && ${toldLayers}`, 15).catch(() => '');
+const ofNear = await isTold(`${toldLayers}.includes('sweep of ${named[0]}')`);
+await page.drag([600, 220], [-500, 0]);
+const ofFar = await isTold(`${toldLayers}.includes('sweep of ${named[another]}')`);
+await page.drag([100, 220], [500, 0]);
+const again = await isTold(`${toldLayers} === ${JSON.stringify(ofNear)}`);
+check(`a drag from ${ofNear} to ${ofFar} and back: ${again}`, ofNear !== '' && ofFar !== '' && again === ofNear);
 check('nothing else failed', page.trouble.every((line) => line.includes('400')), page.trouble.join('\n'));
 await browser.end();

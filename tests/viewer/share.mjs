@@ -43,6 +43,14 @@ try {
   const drawn = join(resolve(directory), 'command.png');
   execFileSync(resolve(program), [...words.slice(0, -1), drawn], { cwd: dirname(resolve(volume)), stdio: 'ignore' });
   check('and draws a picture', readFileSync(drawn).length > 10000);
+  // 2026-11-28: Raw volume gave that file another name.
+  await evaluate('window.taken = undefined');
+  await press('raw');
+  const taken = await page.until('window.taken');
+  const file = await fetch(taken.href, { method: 'HEAD' });
+  // A browser takes the name of the answer before that of the link.
+  const saved = file.headers.get('content-disposition')?.match(/filename="(.*)"/)?.[1] ?? taken.name;
+  check(`Raw volume gives it: ${file.status}, ${saved}`, file.status === 200 && saved === words[1]);
   check('it names the colors and the size of the page', command.includes('--colors ') && command.includes(`--width ${width} --height ${height}`));
   // 2026-11-28: it had the colors of the moment that was chosen, and not of the one that was shown.
   await evaluate(`window.copied = undefined; document.getElementById('moment-VEL').click(); document.getElementById('command').click()`);
@@ -103,7 +111,7 @@ try {
 
   // ---- Its raw file is gone, an older one is there (2026-11-28: the command drew that one)
   await page.goto('about:blank');
-  await viewer.open(`domain=${station}&moment=REF`);
+  await viewer.open(`domain=${station}&moment=REF&folded=0`);
   await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } });
     window.own = window.fetch;
     window.fetch = (url, ...more) => String(url).includes('/volumes?to=') ? Promise.resolve(new Response(JSON.stringify({ volumes: [{ name: 'OLDER', time: '2016-06-01T14:50:00Z' }] }))).finally(() => (window.told = true)) : own(url, ...more); undefined`);
@@ -113,6 +121,28 @@ try {
   await press('command');
   const ofCache = await page.until('window.copied');
   check(`the command reads the cache then, and the page says so: ${ofCache}`, ofCache.startsWith(`stormcellar frame ${station} `) && (await evaluate("document.getElementById('state').textContent")).includes('cache'));
+
+  // ---- Its grid is another one than the program makes of the raw file (2026-11-28: the command drew that one)
+  const spacingAt = 64; // of a packed grid
+  await evaluate(`window.told = false;
+    window.fetch = async (url, ...more) => {
+      const answer = await own(url, ...more);
+      if (String(url).includes('/packed')) {
+        const bytes = await answer.arrayBuffer();
+        new DataView(bytes).setFloat64(${spacingAt}, 900, true);
+        return new Response(bytes);
+      }
+      if (!String(url).includes('/volumes?to=')) return answer;
+      const read = await answer.json();
+      // Who reads it has done so before the timer.
+      return { ok: true, status: 200, json: async () => (setTimeout(() => (window.told = true)), read) };
+    };
+    document.getElementById('moment-VEL').click(); undefined`);
+  await page.until("document.documentElement.dataset.drawn?.includes('/VEL/') && window.told");
+  await evaluate('window.copied = undefined');
+  await press('command');
+  const ofOther = await page.until('window.copied');
+  check(`the command of another grid reads the cache: ${ofOther}`, ofOther.startsWith(`stormcellar frame ${station} `));
 
   // ---- The link, opened by somebody else
   await page.goto('about:blank');
