@@ -307,6 +307,13 @@ export class App {
         const { betweenS } = this.state;
         this.player = withTimes(this.player, betweenS > 0 ? instantsBetween(stored, betweenS, this.missing) : stored);
     }
+    // Who looks at a time that was evicted is moved to another, and is told.
+    private takeNewTimes(stored: string[]): void {
+        const { times: all, at: shown, follows, isPlaying } = this.player;
+        this.takeTimes(stored);
+        const isEvicted = all[shown] !== undefined && this.player.at >= 0 && !this.player.times.includes(all[shown]!);
+        if (isEvicted && !follows && !isPlaying) this.miss(texts.notice.otherTime(all[shown]!));
+    }
     // The time that is nearest to the wanted one. Returns false if it is another.
     private findTime(wanted: string): boolean {
         const at = nearestTime(this.player.times, wanted);
@@ -483,7 +490,7 @@ export class App {
         this.loader.forgetAll(key => key.startsWith(of) && isNear(key.slice(of.length)));
         const stored = (await times(domain, moment, soonTimes)).times;
         if (isLeft()) return;
-        this.takeTimes(stored);
+        this.takeNewTimes(stored);
         await this.showTime();
     }
 
@@ -514,10 +521,8 @@ export class App {
         const { times: newest, more } = await times(domain, moment, soonTimes);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         // Without more of them on the server, the older ones are gone.
-        this.takeTimes([...this.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
+        this.takeNewTimes([...this.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
-        const isEvicted = before !== undefined && now !== undefined && !this.player.times.includes(before);
-        if (isEvicted && !this.player.follows && !this.player.isPlaying) this.miss(texts.notice.otherTime(before));
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
         // After a failure another time than that of the picture may be waited for.
         if (now !== before || now !== this.shown?.time || isOfNow || now === changedTime) await this.showTime();

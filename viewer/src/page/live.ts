@@ -1,8 +1,9 @@
 // What the server tells of new and changed grids, and whether it still tells anything.
 
-import { askEvents, silences } from '../wire/api';
+import { ApiError, askEvents, silences } from '../wire/api';
 import { EventText, ServerEvent } from '../wire/events';
 import { App } from './app';
+import { StreamPlaces } from './stream_places';
 
 interface News {
     domain?: string;
@@ -16,39 +17,19 @@ interface News {
 const againAfterMs = 3000;
 const refusedAgainAfterMs = 30_000;
 const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
-// Of a browser's pages. A stream keeps a connection, a browser has six for a server, and pictures need some.
-const mostStreams = 3;
-const othersTellWithinMs = 200;
 
 const pause = (ms: number): Promise<void> => new Promise(done => window.setTimeout(done, ms));
 
 export class Live {
     private last = ''; // the id of the last event
     private isBehind = false; // news may be lost: all lists are to be asked for
-    private readonly pages = new BroadcastChannel('stormcellar events'); // of this browser, at this server
-    private isListening = false;
-    private question = ''; // to the other pages; empty: none is open
-    private others = 0; // pages that said that they listen
+    private readonly places = new StreamPlaces();
 
     // News are taken once the page has `begun`; what comes before waits.
     constructor(
         private app: App,
         private begun: Promise<void>,
-    ) {
-        this.pages.onmessage = ({ data }: MessageEvent<{ whoListens: string } | { iDo: string }>) => {
-            if ('whoListens' in data && this.isListening) this.pages.postMessage({ iDo: data.whoListens });
-            if ('iDo' in data && data.iDo === this.question) ++this.others;
-        };
-    }
-    private askPages(tooMany: () => void): void {
-        this.others = 0;
-        this.question = String(Math.random());
-        this.pages.postMessage({ whoListens: this.question });
-        window.setTimeout(() => {
-            this.question = '';
-            if (this.others >= mostStreams) tooMany();
-        }, othersTellWithinMs);
-    }
+    ) {}
 
     async hear(): Promise<never> {
         for (;;) await pause((await this.listen()) ? againAfterMs : refusedAgainAfterMs);
@@ -63,14 +44,15 @@ export class Live {
             timer = window.setTimeout(() => abort.abort(), mostQuietMs);
         };
         wait();
-        let isOneTooMany = false;
-        this.askPages(() => {
-            isOneTooMany = true;
+        let hasPlace = true;
+        this.places.take(() => {
+            hasPlace = false;
             abort.abort();
         });
         try {
             const answer = await askEvents(this.last, abort.signal);
             if (!answer.ok || !answer.body) {
+                this.places.leave();
                 await this.doWithout();
                 return false;
             }
@@ -81,20 +63,23 @@ export class Live {
                 for (const event of text.take(decoder.decode(part.value, { stream: true }))) this.take(event);
                 this.catchUp();
             }
-        } catch {
-            if (isOneTooMany && (await this.hasDoneWithout())) return false;
+        } catch (error) {
+            if (!hasPlace && (await this.hasDoneWithout())) return false;
+            if (error instanceof ApiError) {
+                this.app.fail(error); // the server answers
+                return false;
+            }
             // Without the id of an event the server cannot say what was missed.
             this.isBehind = this.isBehind || this.last === '';
             this.app.server.take(false);
         } finally {
             window.clearTimeout(timer);
-            this.isListening = false;
+            this.places.leave();
         }
         return true;
     }
 
     private connected(answer: Response): void {
-        this.isListening = true;
         const wasCutOff = this.app.server.isCutOff;
         this.app.server.take(true, Date.parse(answer.headers.get('Date') ?? ''));
         // What was asked for meanwhile got no answer. Lists that came before the stream may lack what came between.
@@ -117,8 +102,9 @@ export class Live {
         try {
             await this.doWithout();
             return true;
-        } catch {
-            return false;
+        } catch (error) {
+            if (error instanceof ApiError) this.app.fail(error);
+            return error instanceof ApiError;
         }
     }
 

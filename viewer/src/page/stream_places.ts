@@ -1,0 +1,42 @@
+// Which pages of a browser hear events. A stream keeps a connection, a browser has six for a server, and pictures need
+// some: so three pages at most hear events, and the others ask for lists now and then.
+
+const mostPages = 3;
+const othersTellWithinMs = 1000; // a page that draws answers late
+
+type Message = { asks: string } | { told: string; by: string };
+
+export class StreamPlaces {
+    private readonly pages = new BroadcastChannel('stormcellar events'); // of this browser, at this server
+    private state: 'without' | 'asking' | 'with' = 'without';
+    private id = ''; // of the last question: of pages that ask at the same time, the smaller one goes first
+    private others = new Set<string>(); // that have a place, or go first
+
+    constructor() {
+        this.pages.onmessage = ({ data }: MessageEvent<Message>) => {
+            if ('told' in data) {
+                if (data.told === this.id) this.others.add(data.by);
+            } else if (this.state === 'with' || (this.state === 'asking' && this.id < data.asks)) {
+                this.pages.postMessage({ told: data.asks, by: this.id });
+            } else if (this.state === 'asking') {
+                this.others.add(data.asks);
+            }
+        };
+    }
+
+    // Takes a place at once. If the other pages turn out to have all of them, it is given back and `noPlace` is called.
+    take(noPlace: () => void): void {
+        const id = (this.id = String(Math.random()));
+        this.state = 'asking';
+        this.others.clear();
+        this.pages.postMessage({ asks: id });
+        window.setTimeout(() => {
+            if (this.id !== id || this.state !== 'asking') return;
+            this.state = this.others.size < mostPages ? 'with' : 'without';
+            if (this.state === 'without') noPlace();
+        }, othersTellWithinMs);
+    }
+    leave(): void {
+        this.state = 'without';
+    }
+}
