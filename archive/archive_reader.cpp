@@ -95,7 +95,6 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
     if (archive_entry_filetype(entry) != AE_IFREG) return "is not a regular file";
     // Nobody packs radar data so, and libarchive would make the holes of it.
     if (archive_entry_sparse_count(entry) > 0) return "is a sparse file";
-    if (archive_entry_is_encrypted(entry) != 0) return "is encrypted";
     if (name.empty()) return "has no name";
     if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";
     const std::filesystem::path path{name};
@@ -378,6 +377,10 @@ struct ArchiveReader::Impl {
             }
             const std::string name = name_of(entry);
             if (archive_entry_filetype(entry) == AE_IFDIR) continue;
+            if (archive_entry_is_encrypted(entry) != 0) {
+                leave_out(name, "is encrypted");
+                continue;
+            }
             if (limits.small_codecs && !is_small_codec(handle.get())) {
                 leave_out(name, "is packed in a way that may take much memory");
                 if (!is_streamed_zip()) continue;
@@ -386,7 +389,7 @@ struct ArchiveReader::Impl {
             }
             if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {
                 leave_out(name, std::string{refusal});
-                if (archive_entry_is_encrypted(entry) == 0) pass_over(name);
+                pass_over(name);
                 continue;
             }
             std::optional<UtcTime> modified;

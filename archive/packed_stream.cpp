@@ -42,6 +42,18 @@ const Codec* codec_of(std::span<const std::byte> start) {
     return found == codecs.end() ? nullptr : &*found;
 }
 
+// The filter is chosen here: libarchive's own choice looks for further filters behind the first
+// one, and what it unpacks meanwhile counts nowhere. That of compress reads at once, so it cannot
+// be there before its source; beside no other it has nothing to choose, but itself once more.
+bool begin_reading(::archive* handle, int filter, const PackedStream::OpenSource& source) {
+    const bool is_compress = filter == ARCHIVE_FILTER_COMPRESS;
+    const int code = is_compress ? archive_read_support_filter_compress(handle)
+                                 : archive_read_append_filter(handle, filter);
+    constexpr int one_filter = 2;  // libarchive counts the source itself as one
+    return code >= ARCHIVE_WARN && archive_read_support_format_raw(handle) >= ARCHIVE_WARN &&
+           source(handle) && archive_filter_count(handle) == one_filter;
+}
+
 }  // namespace
 
 bool is_packed(std::span<const std::byte> start) {
@@ -80,8 +92,6 @@ PackedStream::PackedStream(Handle source, ReadBudget& of_source, Bound bound)
       bound_(std::move(bound)),
       block_(unpacked_block_bytes) {}
 
-// The filter is chosen here: libarchive's own choice looks for further filters behind the first
-// one, and what it unpacks meanwhile counts nowhere.
 std::unique_ptr<PackedStream> PackedStream::open(std::span<const std::byte> start,
                                                  const OpenSource& source, ReadBudget& of_source,
                                                  bool small_codecs, Bound bound) {
@@ -89,10 +99,7 @@ std::unique_ptr<PackedStream> PackedStream::open(std::span<const std::byte> star
     if (codec == nullptr || (small_codecs && !codec->is_small)) return nullptr;
     of_source.begin(most_source_bytes);
     Handle handle{archive_read_new()};
-    const bool ready =
-        handle && archive_read_append_filter(handle.get(), codec->filter) >= ARCHIVE_WARN &&
-        archive_read_support_format_raw(handle.get()) >= ARCHIVE_WARN && source(handle.get());
-    if (!ready) return nullptr;
+    if (!handle || !begin_reading(handle.get(), codec->filter, source)) return nullptr;
     ::archive_entry* whole = nullptr;
     if (archive_read_next_header(handle.get(), &whole) < ARCHIVE_WARN) return nullptr;
     return std::unique_ptr<PackedStream>(

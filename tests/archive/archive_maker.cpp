@@ -48,6 +48,7 @@ void put_entry(::archive* writer, const Put& put) {
 void add_filter(::archive* writer, Kind kind) {
     if (kind == Kind::tar_gz) archive_write_add_filter_gzip(writer);
     if (kind == Kind::tar_bz2) archive_write_add_filter_bzip2(writer);
+    if (kind == Kind::tar_compress) archive_write_add_filter_compress(writer);
     if (kind == Kind::tar_xz) archive_write_add_filter_xz(writer);
     if (kind == Kind::tar_zst) archive_write_add_filter_zstd(writer);
 }

@@ -7,7 +7,7 @@
 
 namespace stormcellar::archive {
 
-enum class Kind { tar, tar_gz, tar_bz2, tar_xz, tar_zst, zip };
+enum class Kind { tar, tar_gz, tar_bz2, tar_compress, tar_xz, tar_zst, zip };
 
 struct Put {
     enum class What { file, symlink, hardlink, directory, fifo };

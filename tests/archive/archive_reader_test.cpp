@@ -78,8 +78,9 @@ TEST_P(EveryKind, CutAnywhereItGivesWhatIsWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
-                         ::testing::Values(Kind::tar, Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz,
-                                           Kind::tar_zst, Kind::zip));
+                         ::testing::Values(Kind::tar, Kind::tar_gz, Kind::tar_bz2,
+                                           Kind::tar_compress, Kind::tar_xz, Kind::tar_zst,
+                                           Kind::zip));
 
 TEST(ArchiveReader, LevelTwoAndOthersAreNone) {
     EXPECT_FALSE(ArchiveReader::open(bytes_of("")));
@@ -146,7 +147,8 @@ TEST(ArchiveReader, SmallCodecsAloneTakeNoMoreMemoryThanTheyNeed) {
     Limits limits;
     limits.small_codecs = true;
     limits.nesting = 0;
-    for (const Kind kind : {Kind::tar, Kind::tar_gz, Kind::tar_bz2, Kind::zip}) {
+    for (const Kind kind :
+         {Kind::tar, Kind::tar_gz, Kind::tar_bz2, Kind::tar_compress, Kind::zip}) {
         const auto bytes = make_archive(kind, two);
         auto reader = ArchiveReader::open(bytes, limits);
         ASSERT_TRUE(reader);
@@ -473,9 +475,12 @@ TEST(ArchiveReader, AnArchiveThatIsTooLargeIsNotRead) {
 TEST(ArchiveReader, WhatIsPackedTwiceIsNone) {
     const auto once = make_archive(Kind::tar_gz, two);
     EXPECT_TRUE(ArchiveReader::open(once));
-    for (const Kind kind : {Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz, Kind::tar_zst}) {
+    for (const Kind kind :
+         {Kind::tar_gz, Kind::tar_bz2, Kind::tar_compress, Kind::tar_xz, Kind::tar_zst}) {
         EXPECT_FALSE(ArchiveReader::open(packed(kind, once)));
     }
+    EXPECT_FALSE(
+        ArchiveReader::open(packed(Kind::tar_compress, make_archive(Kind::tar_compress, two))));
 }
 
 TEST(MemberPath, IsOneWhereTheArchiveStandsAndThePathDoesNot) {
