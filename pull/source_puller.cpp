@@ -146,9 +146,13 @@ bool SourcePuller::may_fetch() const {
     return !stop_ && fetched_ < most_of_a_turn;
 }
 
-// The oldest grids are removed at the end of a turn.
-bool SourcePuller::is_full() const {
-    return grids_.bytes() > config_.bytes_a_source;
+// Makes room at once, of the oldest grids first. Returns false if the one that came had to go.
+bool SourcePuller::make_room_for(const cache::GridName& name) {
+    if (grids_.bytes() <= config_.bytes_a_source) return true;
+    const std::size_t removed = grids_.prune(now_utc());
+    const std::scoped_lock lock(mutex_);
+    status_.removed += removed;
+    return grids_.has(name);
 }
 
 void SourcePuller::complain(const Error& why) {
@@ -160,8 +164,8 @@ Status SourcePuller::fetch_missing() {
         if (!may_fetch()) return {};
         if (grids_.has(name)) continue;
         if (Status fetched = fetch(name); !fetched) return fetched;
-        // Of a machine that was away for long, the newest count: the limits hold meanwhile.
-        if (is_full()) return {};
+        // The newest come first: where one of them has no room, older ones have none either.
+        if (!make_room_for(name)) return {};
     }
     return {};
 }
@@ -173,7 +177,7 @@ Status SourcePuller::ask_again(UtcTime now) {
         const bool is_due = asked == asked_.end() || steady_now() >= asked->second + between_asking;
         if (!grids_.has(name) || !is_due) continue;
         if (Status fetched = fetch(name); !fetched) return fetched;
-        if (is_full()) return {};  // they were made again, and larger
+        if (!make_room_for(name)) return {};
     }
     return {};
 }

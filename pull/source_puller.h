@@ -58,7 +58,7 @@ class SourcePuller {
     void forget_unlisted(UtcTime from, UtcTime now);
     void complain(const Error& why);
     [[nodiscard]] bool may_fetch() const;
-    [[nodiscard]] bool is_full() const;
+    bool make_room_for(const cache::GridName& name);
     void note_outcome(const Status& done);
 
     struct Bad {

@@ -167,6 +167,21 @@ TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     EXPECT_EQ(std::ranges::count_if(other_.server().asked(), is_file), 1) << "of two young ones";
 }
 
+// 2026-11-28: at its limit of bytes a machine took one new grid and asked for one again in a turn,
+// so that it fell behind for good.
+TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
+    {
+        const auto north = puller();
+        ASSERT_TRUE(north->turn());
+        config_.bytes_a_source = north->status().bytes;
+    }
+    other_.add(std::chrono::minutes{5}, 2);
+    other_.add(std::chrono::minutes{4}, 3);
+    ASSERT_TRUE(puller()->turn());
+    for (const std::size_t number : {0U, 1U, 2U, 3U})
+        EXPECT_EQ(pulled(number).empty(), number < 2) << number;
+}
+
 TEST_F(Pulling, WhatComesCutOrChangedIsRefusedAndComesLater) {
     const std::vector<std::function<Reply(Reply)>> faults = {
         [](Reply reply) { return reply.way = Reply::Way::cut, reply; },
