@@ -35,7 +35,11 @@ TEST(AnswerBudget, OneClientHoldsHalfAtMost) {
     EXPECT_TRUE(budget.take("third", d));
     EXPECT_FALSE(budget.take("fourth", e)) << "all of it is taken";
     EXPECT_TRUE(budget.take("fourth", text_of_kib(10))) << "small answers always pass";
+    // 2026-11-28: 200 slow answers shared six objects; who was ended asked again, and nothing ever
+    // became free.
+    EXPECT_FALSE(budget.take("greedy", b)) << "it holds it already, but others wait for room";
     budget.give_back("greedy", a);
+    EXPECT_FALSE(budget.take("greedy", a)) << "the room is for others";
     EXPECT_TRUE(budget.take("fourth", e));
 }
 

@@ -6,6 +6,8 @@
 namespace stormcellar::web {
 namespace {
 
+constexpr std::chrono::seconds given_to_new_for{10};
+
 // The object that a piece keeps in memory, with all of its bytes.
 AnswerBudget::HeldObject object_of(const Piece& piece) {
     if (const auto* text = std::get_if<Text>(&piece)) return {text->get(), (*text)->size()};
@@ -64,8 +66,11 @@ bool AnswerBudget::take(const std::string& client, const Pieces& pieces) {
     const auto theirs = by_client_.try_emplace(client).first;
     const std::uint64_t of_others = all_.bytes - theirs->second.bytes;
     const std::uint64_t most_of_client = (most_bytes_ - std::min(most_bytes_, of_others)) / 2;
-    const bool has_room =
-        all_.has_room(objects, most_bytes_) && theirs->second.has_room(objects, most_of_client);
+    const SteadyTime now = steady_now();
+    const bool is_short = !all_.has_room(objects, most_bytes_);
+    if (is_short) given_to_new_until_ = now + given_to_new_for;
+    const bool has_room = !is_short && theirs->second.has_room(objects, most_of_client) &&
+                          (now >= given_to_new_until_ || theirs->second.bytes == 0);
     if (has_room) {
         all_.add(objects);
         theirs->second.add(objects);

@@ -3,7 +3,8 @@
 // Counted are bytes in memory and files without a name, each once however many answers share it;
 // answers below 64 KiB are not counted, so that they pass when the budget is spent. One client
 // holds at most half of what the others leave. An answer that is larger passes if it is the only
-// one.
+// one. For 10 s after a refusal for want of room, clients that hold something get nothing: else
+// those whose slow answers are ended ask again, share what others hold, and nothing becomes free.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/steady_time.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -54,6 +56,7 @@ class AnswerBudget {
     mutable std::mutex mutex_;  // guards what follows
     Holder all_;
     std::map<std::string, Holder> by_client_;
+    SteadyTime given_to_new_until_{};
 };
 
 }  // namespace stormcellar::web
