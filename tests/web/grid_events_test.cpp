@@ -126,18 +126,21 @@ TEST_F(EventsOfGrids, EvictedGridsAreOneEventOfAMoment) {
 }
 
 TEST_F(EventsOfGrids, AGridThatCameAndWentIsToldAsGone) {
+    const auto next_told = [&] {
+        Types told = types(events());
+        for (int i = 0; i < 500 && told.empty(); ++i) {
+            std::this_thread::sleep_for(10ms);
+            told = types(events());
+        }
+        return told;
+    };
     // The directories are watched from their first grid on.
     ASSERT_TRUE(testing::commit_sized(store_, "KBGM", noon - 5min));
-    (void)events();
+    ASSERT_FALSE(next_told().empty());
     ASSERT_TRUE(testing::commit_sized(store_, "KBGM", noon));
     const auto entries = *store_.list("KBGM", level2::Moment::ref, noon, noon);
     ASSERT_TRUE(store_.remove(entries.front()));
-    Types told = types(events());
-    for (int i = 0; i < 500 && told.empty(); ++i) {
-        std::this_thread::sleep_for(10ms);
-        told = types(events());
-    }
-    EXPECT_EQ(told, Types{"grid_evicted"});
+    EXPECT_EQ(next_told(), Types{"grid_evicted"});
 }
 
 TEST_F(EventsOfGrids, WhatLayThereBeforeIsNoNews) {
