@@ -74,6 +74,7 @@ export class App {
     private addressBar = new AddressBar(() => addressOf(this.state));
     private turn = 0; // of what is to be shown
     private choices = 0; // of domains and moments
+    private askedMoment = ''; // which may not be there
     private unreadTime = timeThatIsNone(); // of the address
 
     constructor(readonly loader: Loader) {}
@@ -186,11 +187,11 @@ export class App {
         const { state, shown } = this;
         this.loader.forgetAll(() => true);
         if (this.isOnMap) return;
-        if (!shown) return this.choose(state.domain, state.moment);
+        if (!shown) return this.choose(state.domain, this.askedMoment);
         // What was asked for while there was no answer.
-        if (shown.domain !== state.domain || shown.moment !== state.moment) return this.choose(state.domain, state.moment);
+        if (shown.domain !== state.domain || shown.moment !== state.moment) return this.choose(state.domain, this.askedMoment);
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
-        await this.takeNews(state.domain, state.moment, shown.time);
+        await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
     private miss(text: string): void {
         this.missed = text;
@@ -237,6 +238,7 @@ export class App {
     // one domain, or no such moment, the first is shown, and the page says so.
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
+        this.askedMoment = moment;
         if (isRegion(domain) && !this.domains.some(one => one.domain === domain)) {
             const choice = ++this.choices;
             try {
@@ -271,7 +273,6 @@ export class App {
             moment === '' || moment === this.state.moment ? '' : texts.notice.otherMoment(this.state.domain, moment, this.state.moment),
             this.unreadTime === '' ? '' : texts.notice.noTime(this.unreadTime),
         ];
-        this.unreadTime = '';
         this.miss(missed.filter(Boolean).join(' '));
         this.tell('choices');
         this.say(texts.loading);
@@ -361,6 +362,8 @@ export class App {
             if (!isLate()) this.take(next);
         } catch (error) {
             if (!this.leaveOut(time, error)) return this.fail(error);
+            const { follows, isPlaying } = this.player;
+            if (!follows && !isPlaying && this.missed === '') this.miss(texts.notice.otherTime(time));
             if (this.player.times[this.player.at] !== undefined) await this.showTime();
         } finally {
             --this.coming;
@@ -383,11 +386,14 @@ export class App {
     private load(time: string): Promise<LoadedGrid> {
         return this.loader.load(this.state.domain, this.state.moment, time, this.isBetween(time));
     }
-    // Near the ends and in gaps there is no frame between volumes: the instant leaves the timeline.
+    // Near the ends and in gaps there is no frame between volumes, and a loop may meet a grid that was evicted: the
+    // instant leaves the timeline.
     private leaveOut(time: string, error: unknown): boolean {
-        if (!this.isBetween(time) || !(error instanceof ApiError) || error.status !== 404 || this.missing.has(time)) return false;
+        const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
+        const isBetween = this.isBetween(time);
+        if (!isGone || this.missing.has(time) || !(isBetween || this.player.isPlaying)) return false;
         this.missing.add(time);
-        this.takeTimes(this.stored);
+        this.takeTimes(this.stored.filter(one => isBetween || one !== time));
         this.tell('time');
         return true;
     }
@@ -398,6 +404,7 @@ export class App {
         const isOther = this.shown?.domain !== shown.domain || !this.player.isPlaying;
         if (book && isOther) book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
         this.shown = shown;
+        this.unreadTime = '';
         this.state.time = this.player.follows ? 'latest' : shown.time;
         this.loadAhead();
         this.tell('shown');
@@ -496,7 +503,7 @@ export class App {
 
     // The server has other times now; `changedTime` is that of a grid that was made again, `oldest` the first that is
     // left after others were evicted.
-    async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined, oldest = ''): Promise<void> {
+    async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined, oldest = '', most = soonTimes): Promise<void> {
         if (this.domains.length === 0) {
             if (!this.book) return this.begin();
             await this.findDomains();
@@ -518,7 +525,7 @@ export class App {
         if (domain !== this.state.domain) return this.takeNewsOfSite(changedTime);
         if (moment !== this.state.moment) return changedTime === this.shown?.time ? this.showTime() : undefined;
         const before = this.player.times[this.player.at];
-        const { times: newest, more } = await times(domain, moment, soonTimes);
+        const { times: newest, more } = await times(domain, moment, most);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         // Without more of them on the server, the older ones are gone.
         this.takeNewTimes([...this.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);

@@ -6,18 +6,28 @@ const othersTellWithinMs = 1000; // a page that draws answers late
 
 type Message = { asks: string } | { told: string; by: string };
 
+// None where the browser keeps pages apart: each listens then.
+function channel(): BroadcastChannel | null {
+    try {
+        return new BroadcastChannel('stormcellar events');
+    } catch {
+        return null;
+    }
+}
+
 export class StreamPlaces {
-    private readonly pages = new BroadcastChannel('stormcellar events'); // of this browser, at this server
+    private readonly pages = channel(); // of this browser, at this server
     private state: 'without' | 'asking' | 'with' = 'without';
     private id = ''; // of the last question: of pages that ask at the same time, the smaller one goes first
     private others = new Set<string>(); // that have a place, or go first
 
     constructor() {
+        if (!this.pages) return;
         this.pages.onmessage = ({ data }: MessageEvent<Message>) => {
             if ('told' in data) {
                 if (data.told === this.id) this.others.add(data.by);
             } else if (this.state === 'with' || (this.state === 'asking' && this.id < data.asks)) {
-                this.pages.postMessage({ told: data.asks, by: this.id });
+                this.pages?.postMessage({ told: data.asks, by: this.id });
             } else if (this.state === 'asking') {
                 this.others.add(data.asks);
             }
@@ -29,7 +39,7 @@ export class StreamPlaces {
         const id = (this.id = String(Math.random()));
         this.state = 'asking';
         this.others.clear();
-        this.pages.postMessage({ asks: id });
+        this.pages?.postMessage({ asks: id });
         window.setTimeout(() => {
             if (this.id !== id || this.state !== 'asking') return;
             this.state = this.others.size < mostPages ? 'with' : 'without';

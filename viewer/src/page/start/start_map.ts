@@ -56,6 +56,7 @@ export class StartMap {
         this.canvas.addEventListener('keydown', event => this.press(event));
         new MapPointers(this.canvas, this).begin();
         window.addEventListener('resize', () => this.resize());
+        document.addEventListener('visibilitychange', () => !this.page.hidden && void this.look());
         this.app.on('map', () => this.show(this.app.isOnMap));
     }
 
