@@ -361,9 +361,10 @@ export class App {
             await this.alongside(next, false);
             if (!isLate()) this.take(next);
         } catch (error) {
+            const wasLate = isLate();
             if (!this.leaveOut(time, error)) return this.fail(error);
             const { follows, isPlaying } = this.player;
-            if (!follows && !isPlaying && this.missed === '') this.miss(texts.notice.otherTime(time));
+            if (!wasLate && !follows && !isPlaying && this.missed === '') this.miss(texts.notice.otherTime(time));
             if (this.player.times[this.player.at] !== undefined) await this.showTime();
         } finally {
             --this.coming;
@@ -389,7 +390,8 @@ export class App {
     // Near the ends and in gaps there is no frame between volumes, and a loop may meet a grid that was evicted: the
     // instant leaves the timeline.
     private leaveOut(time: string, error: unknown): boolean {
-        const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
+        // Of a grid in parts that was made again meanwhile the server says 410, too.
+        const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
         const isBetween = this.isBetween(time);
         if (!isGone || this.missing.has(time) || !(isBetween || this.player.isPlaying)) return false;
         this.missing.add(time);

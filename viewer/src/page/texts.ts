@@ -283,6 +283,7 @@ export const texts = {
         ownVelocities: 'each velocity is toward or away from its own radar',
         merging: (sites: string[]) => `Merging ${sites.join(', ')}`,
         nothing: 'no data',
+        unpictured: (count: number) => `The echo of ${count} more radars is shown from nearer.`,
         lacksEcho: 'Some of the echo could not be loaded yet.',
         noneFound: 'No radar with data, and no city, has that name.',
         noGridsOf: (domain: string) => `There are no grids of ${domain}.`,

@@ -15,6 +15,7 @@ export interface SeenDomain {
 }
 
 export class StartData {
+    unpictured = 0; // stations of the view whose echo is not drawn, because there are too many
     stations: StationPlace[] = [];
     mosaics: SeenDomain[] = [];
     private seen = new Map<string, SeenDomain>(); // by domain and time
@@ -66,9 +67,10 @@ export class StartData {
     }
 
     // Of stations, the first so many that are not within what a mosaic shows; the oldest first, as they are drawn.
-    pictures(domains: Domain[], visible: StationPlace[], isCovered: (station: StationPlace) => boolean): SeenDomain[] {
-        const own = visible
-            .filter(one => one.hasGrids && !isCovered(one))
+    pictures(domains: Domain[], visible: StationPlace[], isCovered: (station: StationPlace) => boolean, isSeen: (station: StationPlace) => boolean): SeenDomain[] {
+        const open = visible.filter(one => one.hasGrids && !isCovered(one));
+        this.unpictured = open.slice(mostPicturedStations).filter(isSeen).length;
+        const own = open
             .slice(0, mostPicturedStations)
             .sort((a, b) => (b.ageS ?? 0) - (a.ageS ?? 0))
             .map(station => domains.find(domain => domain.domain === station.icao))

@@ -161,12 +161,13 @@ export class StartMap {
             const [x, y] = pixelOf(view, mapPoint(one));
             return Math.hypot(x - middle[0], y - middle[1]);
         };
+        const seen = boxBetween(view, [0, 0], [view.width, view.height]);
         const visible = data.stations.filter(one => away(one) < view.width).sort((a, b) => away(a) - away(b));
         const isCovered = (one: StationPlace) => polygons.some(polygon => isInside(polygon, ...pixelOf(view, mapPoint(one))));
         return {
             view,
             map: this.base.for(view),
-            pictures: data.pictures(app.domains, visible, isCovered).map(({ domain, outline }) => {
+            pictures: data.pictures(app.domains, visible, isCovered, one => isInBox(one, seen)).map(({ domain, outline }) => {
                 const within = outline ? boundsOf(pixelsOf(view, outline)) : null;
                 return { domain: domain.domain, time: StartData.pictureTime(domain)!, outline, within };
             }),
@@ -236,7 +237,7 @@ export class StartMap {
         this.putCard();
     }
     private putCard(): void {
-        const card = [this.said, this.tiles.lacks ? texts.start.lacksEcho : ''].filter(Boolean).join(' ');
+        const card = [this.said, this.data.unpictured > 0 ? texts.start.unpictured(this.data.unpictured) : '', this.tiles.lacks ? texts.start.lacksEcho : ''].filter(Boolean).join(' ');
         if (element('start-card').textContent !== card) element('start-card').textContent = card;
     }
 
