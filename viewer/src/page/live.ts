@@ -66,7 +66,7 @@ export class Live {
         } catch (error) {
             if (!hasPlace && (await this.hasDoneWithout())) return false;
             if (error instanceof ApiError) {
-                this.app.fail(error); // the server answers
+                this.refused(error);
                 return false;
             }
             // Without the id of an event the server cannot say what was missed.
@@ -103,9 +103,15 @@ export class Live {
             await this.doWithout();
             return true;
         } catch (error) {
-            if (error instanceof ApiError) this.app.fail(error);
+            if (error instanceof ApiError) this.refused(error);
             return error instanceof ApiError;
         }
+    }
+
+    // The server answers.
+    private refused(error: ApiError): void {
+        this.app.server.take(true);
+        this.app.fail(error);
     }
 
     private do(act: () => Promise<void>): void {
