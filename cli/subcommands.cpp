@@ -1,5 +1,6 @@
 #include "cli/subcommands.h"
 
+#include <algorithm>
 #include <array>
 
 #include <CLI/CLI.hpp>
@@ -25,15 +26,19 @@ Run set_up_view(CLI::App& command);
 
 namespace {
 
+// stormcellar-first, with which scripts/demo draws its first picture, has frame and synth alone.
 constexpr std::array registry{
+#ifndef STORMCELLAR_FIRST
     Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",
                set_up_accuracy},
     Subcommand{"batch", "Make the grids and frames of an archive on many machines", set_up_batch},
     Subcommand{"cache", "List, verify, pin and evict the grids in the cache", set_up_cache},
     Subcommand{"catalog", "Query, check and rebuild the catalog of raw files", set_up_catalog},
     Subcommand{"fetch", "Fetch raw volumes by station and time from a public bucket", set_up_fetch},
+#endif
     Subcommand{"frame", "Draw a still picture of Level II files, or of a grid in the cache",
                set_up_frame},
+#ifndef STORMCELLAR_FIRST
     Subcommand{"grid", "Grid Level II files of one or more sites and write netCDF", set_up_grid},
     Subcommand{"help", "Show what a command can do, with examples", set_up_help},
     Subcommand{"info", "Decode a Level II file and describe it", set_up_info},
@@ -47,16 +52,30 @@ constexpr std::array registry{
     Subcommand{"serve", "Serve files, or a cache and a catalog, over HTTP until Ctrl-C",
                set_up_serve},
     Subcommand{"status", "Show the status of the running daemon", set_up_status},
+#endif
     Subcommand{"synth", "Write the Level II files of a simulated scene (the same bytes every time)",
                set_up_synth},
+#ifndef STORMCELLAR_FIRST
     Subcommand{"view", "Open Level II files in a browser, in three dimensions, until Ctrl-C",
                set_up_view},
+#endif
 };
 
 }  // namespace
 
 std::span<const Subcommand> subcommands() {
     return registry;
+}
+
+const Subcommand* find_subcommand(std::string_view name) {
+    const auto found = std::ranges::find(registry, name, &Subcommand::name);
+    return found == registry.end() ? nullptr : &*found;
+}
+
+Command add_subcommand(CLI::App& app, const Subcommand& subcommand) {
+    CLI::App* command = app.add_subcommand(subcommand.name, subcommand.summary);
+    command->footer(subcommand.footer);
+    return {command, subcommand.set_up(*command)};
 }
 
 }  // namespace stormcellar::cli
