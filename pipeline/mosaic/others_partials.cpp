@@ -109,7 +109,7 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
         return fail(ErrorCode::corrupt, "{}: its columns are not whole bricks of the domain {}",
                     partial.file.native(), domain.name);
     }
-    // What a merge keeps of a window and a position is as large as the window.
+    // A merge keeps geometry of each window and position, as large as the window.
     if (!reach || !is_within(*window, *reach)) {
         return fail(ErrorCode::corrupt, "{}: its columns are further than {} reaches",
                     partial.file.native(), grid.sites.front().icao);

@@ -146,7 +146,7 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     for (const auto& [part, why] : parts) {
         bring("south", part);
         const fs::path file = directory_ / "south" / made(part).second;
-        // What is younger may still be coming.
+        // The keeper waits for a younger file, because it may still be coming.
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours{1});
         start();
         EXPECT_TRUE(comes([&] { return south().refused == 1; })) << why;

@@ -6,7 +6,7 @@ import type { App } from '../src/page/app';
 import { ServerState } from '../src/page/server_state';
 
 const server = { isUp: true, streams: new Set<ReadableStreamDefaultController<Uint8Array>>() };
-// What waits keeps no test from ending.
+// Timers and channels of pages do not keep the test from ending.
 const unref = <Waits>(waits: Waits): Waits => ((waits as unknown as { unref: () => void }).unref(), waits);
 Object.assign(globalThis, {
     window: { setTimeout: (act: () => void, ms: number) => unref(setTimeout(act, ms)), clearTimeout },

@@ -22,7 +22,7 @@ export class AddressBar {
         this.writtenAt = performance.now();
         history.replaceState(null, '', `#${this.address()}`);
     }
-    // What waits to be written is not.
+    // Drops an address that waits to be written.
     drop(): void {
         window.clearTimeout(this.timer);
     }

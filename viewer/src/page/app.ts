@@ -266,7 +266,7 @@ export class App {
         const moments = (this.domain?.moments ?? []).map(one => one.moment);
         const before = this.state.moment;
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
-        // Of another moment the number means something else.
+        // The threshold is a number in the unit of its moment.
         if (before !== '' && this.state.moment !== before) this.state.least = null;
         const missed = [
             isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),
@@ -308,7 +308,7 @@ export class App {
         const { betweenS } = this.state;
         this.player = withTimes(this.player, betweenS > 0 ? instantsBetween(stored, betweenS, this.missing) : stored);
     }
-    // Who looks at a time that was evicted is moved to another, and is told.
+    // A user who looks at a time that was evicted is moved to another, and the page says so.
     private takeNewTimes(stored: string[]): void {
         const { times: all, at: shown, follows, isPlaying } = this.player;
         this.takeTimes(stored);
@@ -390,7 +390,7 @@ export class App {
     // Near the ends and in gaps there is no frame between volumes, and a loop may meet a grid that was evicted: the
     // instant leaves the timeline.
     private leaveOut(time: string, error: unknown): boolean {
-        // Of a grid in parts that was made again meanwhile the server says 410, too.
+        // The server also answers 410 for a grid in parts that was made again meanwhile.
         const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
         const isBetween = this.isBetween(time);
         if (!isGone || this.missing.has(time) || !(isBetween || this.player.isPlaying)) return false;
@@ -529,7 +529,7 @@ export class App {
         const before = this.player.times[this.player.at];
         const { times: newest, more } = await times(domain, moment, most);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
-        // Without more of them on the server, the older ones are gone.
+        // If the server has no more, it has evicted the older ones.
         this.takeNewTimes([...this.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
         const now = this.player.times[this.player.at];
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));

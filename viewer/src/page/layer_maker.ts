@@ -331,7 +331,7 @@ export class LayerMaker {
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
         if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
         if (found || this.sweeps.isSettled(key)) {
-            // Of what is settled already nothing else tells; and who asks here may be the one that is told.
+            // No other event tells of a sweep that has come or failed before. The listener may be the caller, so it is told later.
             if (this.toldSweep !== key) queueMicrotask(() => this.layerCame());
             this.toldSweep = key;
             return found;

@@ -1,4 +1,4 @@
-// Whether the server answers, what time it has, and of which stations it hears nothing.
+// Keeps whether the server answers, its time, and the stations of which it hears nothing.
 
 export class ServerState {
     isCutOff = false; // it does not answer
@@ -24,7 +24,7 @@ export class ServerState {
         else this.silentSince.set(station, this.nowMs - 1000 * silentS);
         this.changed();
     }
-    // Of all stations that are silent.
+    // Takes all stations that are silent, with the seconds since they spoke.
     takeSilences(all: [string, number][]): void {
         this.silentSince = new Map(all.map(([station, silentS]) => [station, this.nowMs - 1000 * silentS]));
         this.changed();

@@ -1,5 +1,5 @@
-// Which pages of a browser hear events. A stream keeps a connection, a browser has six for a server, and pictures need
-// some: so three pages at most hear events, and the others ask for lists now and then.
+// Shares the connections of a browser among its pages. A stream of events keeps one, a browser has six for a server, and
+// pictures need some. So three pages at most hear events, and the others ask for lists now and then.
 
 const mostPages = 3;
 const othersTellWithinMs = 1000; // a page that draws answers late

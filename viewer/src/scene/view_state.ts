@@ -158,7 +158,7 @@ function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): stri
     return words;
 }
 
-// Whether `stormcellar frame` makes a grid of these places of a raw file (stormcellar/grid/grid_spec.h).
+// Returns true for the grid that `stormcellar frame` makes of a raw file (stormcellar/grid/grid_spec.h).
 export function isUsualGrid({ nx, ny, spacing, levelsM }: Pick<PackedGrid, 'nx' | 'ny' | 'spacing' | 'levelsM'>): boolean {
     const [cells, spacingM, levels, betweenLevelsM] = [460, 1000, 32, 500];
     return nx === cells && ny === cells && spacing === spacingM && levelsM.length === levels && levelsM.every((m, level) => m === betweenLevelsM * (level + 1));

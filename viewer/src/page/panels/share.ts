@@ -52,7 +52,7 @@ class RawFile {
         private facts: FactsOfShown,
     ) {}
 
-    // Of another grid than the program makes by itself, a picture of the file would show another part of the country.
+    // The program makes its usual grid of a file; a picture of another grid would show another part of the country.
     get known(): string {
         const loaded = this.app.shown?.loaded;
         return loaded && this.of === loaded && isUsualGrid(loaded.grid) && isPrintable(this.name) ? this.name : '';
