@@ -134,7 +134,7 @@ try {
       }
       if (!String(url).includes('/volumes?to=')) return answer;
       const read = await answer.json();
-      // Who reads it has done so before the timer.
+      // Readers have read it before the timer fires.
       return { ok: true, status: 200, json: async () => (setTimeout(() => (window.told = true)), read) };
     };
     document.getElementById('moment-VEL').click(); undefined`);

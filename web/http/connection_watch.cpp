@@ -284,7 +284,7 @@ ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
     cut_slowest_bodies(now);
-    // What many share becomes free when all of them have ended.
+    // An answer that many share becomes free when all of them have ended.
     const int most_cut = is_memory_short_.exchange(false) ? most_cut_at_once : 0;
     for (int cuts = 0; cuts < most_cut; ++cuts) {
         Open* slowest = slowest_that_holds_memory(now);
