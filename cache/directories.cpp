@@ -5,6 +5,7 @@
 
 #include <sys/stat.h>
 
+#include "base/system_error.h"
 #include "cache/pins.h"
 
 namespace stormcellar::cache {
@@ -43,18 +44,8 @@ UtcTime time_of(const timespec& time) {
 }  // namespace
 
 tl::unexpected<Error> directory_failure(const fs::path& path, const std::error_code& error) {
-    ErrorCode code = ErrorCode::io;
-    if (error == std::errc::no_such_file_or_directory) code = ErrorCode::not_found;
-    if (error == std::errc::permission_denied || error == std::errc::read_only_file_system) {
-        code = ErrorCode::permission;
-    }
-    if (error == std::errc::no_space_on_device) code = ErrorCode::no_space;
-    if (error == std::errc::too_many_files_open ||
-        error == std::errc::too_many_files_open_in_system ||
-        error == std::errc::not_enough_memory) {
-        code = ErrorCode::exhausted;
-    }
-    if (error == std::errc::not_a_directory) code = ErrorCode::not_a_file;
+    const ErrorCode code =
+        error == std::errc::not_a_directory ? ErrorCode::not_a_file : error_code_of(error.value());
     return fail(code, "{}: {}", path.native(), error.message());
 }
 

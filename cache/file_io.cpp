@@ -7,17 +7,13 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "base/system_error.h"
+
 namespace stormcellar::cache {
 namespace {
 
-ErrorCode code_of(int error_number) {
-    if (error_number == ENOENT || error_number == ENOTDIR) return ErrorCode::not_found;
-    if (error_number == EACCES || error_number == EPERM) return ErrorCode::permission;
-    return ErrorCode::io;
-}
-
 tl::unexpected<Error> system_failure(int error_number) {
-    return fail(code_of(error_number), "{}", std::system_category().message(error_number));
+    return fail(error_code_of(error_number), "{}", std::system_category().message(error_number));
 }
 
 }  // namespace

@@ -173,7 +173,11 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_partials(UtcTime instant) {
         if (!frame && frame.error().code == ErrorCode::not_found) {
             return std::optional<MosaicFrame>{};
         }
-        if (!frame && is_damage(frame.error()) && partials->drop_damaged(damaged)) continue;
+        if (!frame && is_damage(frame.error())) {
+            const auto dropped = partials->drop_damaged(damaged);
+            if (!dropped) return pass_on(dropped);
+            if (*dropped) continue;
+        }
         if (!frame) return pass_on(frame);
         if (Status whole = partials->check_whole(); !whole) return pass_on(whole);
         return std::optional{std::move(*frame)};

@@ -76,6 +76,7 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
         for (const cache::StoreEntry& entry : *entries) {
             if (bad_.contains(entry.path)) continue;
             auto file = cache::GridFile::open(entry.path);
+            if (!file && is_shortage(file.error().code)) return pass_on(file);
             if (!file) {
                 problems.push_back(file.error().message);
                 bad_.insert(entry.path);
@@ -106,7 +107,7 @@ Status MappedPartials::check_whole() const {
     return {};
 }
 
-bool MappedPartials::drop_damaged(std::vector<std::string>& problems) {
+Result<bool> MappedPartials::drop_damaged(std::vector<std::string>& problems) {
     const std::size_t known = bad_.size();
     for (const auto& [path, file] : files_) {
         const Status good = file.verify();
@@ -116,7 +117,7 @@ bool MappedPartials::drop_damaged(std::vector<std::string>& problems) {
     }
     if (bad_.size() == known) return false;
     // A partial that the damaged one hid may count now.
-    if (!load(problems)) files_.clear();
+    if (Status loaded = load(problems); !loaded) return pass_on(loaded);
     return true;
 }
 

@@ -36,7 +36,8 @@ class MappedPartials {
   public:
     // Opens those that count for an instant between `from` and `to`. Partials that cannot be opened
     // are named in `problems`; those of an earlier configuration are left out. `store` and `domain`
-    // must outlive the object. Errors: the cache cannot be read.
+    // must outlive the object. Errors: the cache cannot be read; exhausted, since a partial that
+    // there was no descriptor for is not to blame.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
                                        level2::Moment moment, UtcTime from, UtcTime to,
                                        std::vector<std::string>& problems);
@@ -46,8 +47,8 @@ class MappedPartials {
     // Returns ok if the bytes read were those of the files.
     [[nodiscard]] Status check_whole() const;
     // Verifies all partials and drops the damaged ones, each named in `problems`. Returns false if
-    // none was damaged.
-    bool drop_damaged(std::vector<std::string>& problems);
+    // none was damaged. Errors: as open().
+    Result<bool> drop_damaged(std::vector<std::string>& problems);
 
   private:
     Status load(std::vector<std::string>& problems);

@@ -191,7 +191,10 @@ Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedParti
     while (true) {
         auto frame = make_frame(job.domain.spec, without(late, partials.views()), job.instant,
                                 options, geometries_, {previous, &instants_});
-        if (frame || !is_damage(frame.error()) || !partials.drop_damaged(problems)) return frame;
+        if (frame || !is_damage(frame.error())) return frame;
+        const auto dropped = partials.drop_damaged(problems);
+        if (!dropped) return pass_on(dropped);
+        if (!*dropped) return frame;
     }
 }
 

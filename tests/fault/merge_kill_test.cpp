@@ -109,13 +109,15 @@ TEST_F(Merging, ADiskThatFailsOnceLeavesTheFramesOfOneMachine) {
     };
     for (const auto& [kind, error_number, at] :
          {Fault{kind_rename, EIO, 7}, Fault{kind_rename, EIO, 20}, Fault{kind_create, EMFILE, 25},
-          Fault{kind_open, EMFILE, 60}}) {
+          Fault{kind_open, EMFILE, 30}, Fault{kind_open, EMFILE, 45}, Fault{kind_open, EMFILE, 60},
+          Fault{kind_open, EMFILE, 75}, Fault{kind_open, EMFILE, 90}}) {
         SCOPED_TRACE(at);
         daemon::RunningDaemon daemon;
         SteeringFile steering(parts_ / "steering", {daemon.cache()}, kind);
         steering.fail(at, 1, error_number);
         daemon.start(configuration(), steering.environment());
-        EXPECT_TRUE(comes_to(daemon, wanted)) << difference(grids_of(daemon), wanted);
+        EXPECT_TRUE(comes_to(daemon, wanted))
+            << difference(grids_of(daemon), wanted) << daemon.log();
         EXPECT_EQ(steering->failed, 1U);
         EXPECT_EQ(daemon.terminate(), 0);
     }
