@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/system_error.h"
 #include "base/unsynced_files.h"
 #include "stormcellar/base/station_table.h"
 
@@ -82,10 +83,7 @@ Status FeedDrop::write(const ChunkKey& key, std::span<const std::byte> bytes) {
     const fs::path path = directory_ / to_string(key);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
-    if (error) {
-        return fail(error == std::errc::no_space_on_device ? ErrorCode::no_space : ErrorCode::io,
-                    "{}: {}", path.parent_path().native(), error.message());
-    }
+    if (error) return system_failure(path.parent_path().native(), error.value());
     const std::uint64_t replaced = fs::file_size(path, error);
     UnsyncedFiles unsynced(*file_system_);
     if (Status written = write_file_atomically(unsynced, path, bytes); !written) return written;

@@ -11,6 +11,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "base/system_error.h"
+
 namespace stormcellar::daemon {
 namespace {
 
@@ -21,11 +23,8 @@ constexpr mode_t socket_mode = 0660;
 constexpr mode_t permissions = 07777;
 
 tl::unexpected<Error> system_error(const std::string& what, int error_number) {
-    ErrorCode code = ErrorCode::io;
-    if (error_number == EACCES || error_number == EPERM || error_number == EROFS)
-        code = ErrorCode::permission;
-    if (error_number == ENOENT || error_number == ENOTDIR) code = ErrorCode::not_found;
-    if (error_number == EADDRINUSE) code = ErrorCode::busy;
+    const ErrorCode code =
+        error_number == EADDRINUSE ? ErrorCode::busy : error_code_of(error_number);
     return fail(code, "{}: {}", what, std::system_category().message(error_number));
 }
 
