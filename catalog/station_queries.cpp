@@ -124,7 +124,9 @@ std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) 
     static const auto text = [](const char* order) {
         return std::string{entry_columns} + entry_join +
                "WHERE v.start_ms BETWEEN ? AND ? AND p.ordinal = 0 "
-               "AND (? OR f.state <> 'gone') ORDER BY v.start_ms " +
+               "AND (? OR f.state <> 'gone') AND (? OR instr(f.path, x'21') IN (0, "
+               "length(f.path))) "  // member_mark
+               "ORDER BY v.start_ms " +
                order + " LIMIT ?";
     };
     static const std::string ascending = text(""), descending = text("DESC");
@@ -132,7 +134,8 @@ std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) 
     rows->bind(1, milliseconds(stretch.from).value_or(std::numeric_limits<std::int64_t>::min()));
     rows->bind(2, milliseconds(stretch.to).value_or(std::numeric_limits<std::int64_t>::max()));
     rows->bind(3, stretch.with_gone ? 1 : 0);
-    rows->bind(4, static_cast<std::int64_t>(std::min<std::size_t>(stretch.most, most_listed)));
+    rows->bind(4, stretch.with_members ? 1 : 0);
+    rows->bind(5, static_cast<std::int64_t>(std::min<std::size_t>(stretch.most, most_listed)));
     return entries(*rows);
 }
 

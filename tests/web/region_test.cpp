@@ -251,6 +251,16 @@ TEST_F(Region, TheApiNamesSitesTimesAndPathsAndPacksThem) {
     EXPECT_NE(body_of(asked(*door_, path)), bytes);
 }
 
+// 2026-11-28: a volume whose date is wrong was the newest, with an age of minus half a year.
+TEST_F(Region, ATimeOfTheFutureIsNotTheNewest) {
+    commit(grid_of("KBGM", 30, now_utc() + std::chrono::days{180}));
+    grids_->refresh();
+    const Json ref = json(both_query)["moments"][0];
+    EXPECT_EQ(ref["times"].size(), 3u);
+    EXPECT_EQ(ref["newest"], "2024-11-22T12:05:00Z");
+    EXPECT_GT(ref["age_s"], 0);
+}
+
 TEST_F(Region, TheApiSaysOfWhichVolumesEachSiteIsMade) {
     const Json instant = json("/api/v1/regions/-78.8,40.3,-75,42.9/REF/2024-11-22T12:05:00Z/sites");
     EXPECT_EQ(instant["time"], "2024-11-22T12:05:00Z");

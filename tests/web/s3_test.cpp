@@ -83,6 +83,33 @@ TEST_F(S3, DirectoriesAreCommonPrefixes) {
     EXPECT_EQ(prefixes("?list-type=2&delimiter=/&prefix=20"), (Texts{"2005/", "2017/"}));
 }
 
+// 2026-11-28: an archive of a day hid the files of its station, and the bucket was empty.
+TEST_F(S3, MembersOfAnArchiveHideNoFiles) {
+    ServedVolumes served;
+    std::vector<catalog::FileFacts> members;
+    for (int i = 0; i < 300; ++i) {
+        catalog::FileFacts member;
+        member.path = served.drop() / fmt::format("day.tar!KTLX{:03}", i);
+        member.station = "KTLX";
+        member.state = catalog::FileState::complete;
+        member.volumes.resize(1);
+        member.volumes[0].start_time =
+            *parse_utc("2016-12-31T00:00:00Z", UtcTime{}) + std::chrono::minutes{4 * i};
+        members.push_back(std::move(member));
+    }
+    ASSERT_TRUE(served.catalog().register_files("KTLX", members));
+    door_ = std::make_unique<S3Door>(served.files(), "unidata-nexrad-level2");
+    EXPECT_EQ(keys("?list-type=2").size(), 3U);
+    EXPECT_EQ(prefixes("?list-type=2&delimiter=/"), (Texts{"1991/", "2005/", "2017/"}));
+    EXPECT_EQ(keys("?list-type=2&prefix=2017/01/01/KTLX/"), Texts{new_key});
+    RawRange newest;
+    newest.most = 1;
+    newest.newest_first = true;
+    const auto files = served.files()->list("KTLX", newest);
+    ASSERT_TRUE(files && files->size() == 1);
+    EXPECT_EQ((*files)[0].name, "KTLX20170101_030027_V06");
+}
+
 // Page after page, until there is no token: everything comes once.
 TEST_F(S3, PagesHaveEverythingOnce) {
     for (const std::string most : {"1", "2"}) {

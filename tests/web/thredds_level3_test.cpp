@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/testing/temporary_directory.h"
+#include "tests/web/asked.h"
 #include "web/doors/thredds_collection.h"
 
 namespace stormcellar::web {
@@ -73,6 +74,26 @@ TEST_F(ThreddsLevel3, ALookDoesNotWalkThroughAllFiles) {
     for (int i = 0; i < 10'000; ++i)
         ASSERT_TRUE(collection_->nearest("FTG", "N0Q", first_ + std::chrono::minutes{i}, 1h));
     EXPECT_LT(std::chrono::steady_clock::now() - began, 2s);
+}
+
+// 2026-11-28: a file that was there and could not be read was said to be deleted.
+TEST_F(ThreddsLevel3, AFileThatCannotBeReadIsNotDeleted) {
+    make_files(3);
+    const auto status_of_file = [&](UtcTime start) {
+        const std::string name = "Level3_FTG_N0Q_" + format_compact(start).substr(0, 13) + ".nids";
+        const std::vector<std::string_view> path{"N0Q", "FTG", "20150615", name};
+        return collection_->file(request_for("/"), path).status;
+    };
+    ASSERT_EQ(status_of_file(starts_[0]), 200U);
+    const auto path_of = [&](UtcTime start) {
+        return directory_ / ("Level3_FTG_N0Q_" + format_compact(start).substr(0, 13) + ".nids");
+    };
+    std::filesystem::remove(path_of(starts_[1]));
+    EXPECT_EQ(status_of_file(starts_[1]), 410U);
+    // Root may read everything, so something that is no file stands for one without rights.
+    std::filesystem::remove(path_of(starts_[2]));
+    std::filesystem::create_directory(path_of(starts_[2]));
+    EXPECT_EQ(status_of_file(starts_[2]), 503U);
 }
 
 TEST_F(ThreddsLevel3, AListHasTheFilesOfItsRange) {

@@ -14,6 +14,7 @@
 #include "tests/testing/program.h"
 #include "tests/web/asked.h"
 #include "tests/web/pictured_storm.h"
+#include "tests/web/served_grids.h"
 #include "tests/web/setup_below.h"
 #include "web/service/web_service.h"
 
@@ -258,6 +259,21 @@ TEST_F(Wms, CapabilitiesNameLayersTimesAndBoxes) {
     EXPECT_THAT(text, HasSubstr("xlink:href=\"http://localhost:8090/wms?\""));
     EXPECT_THAT(text, HasSubstr("<BoundingBox CRS=\"EPSG:4326\" minx=\"33."));
     EXPECT_THAT(text, HasSubstr("<Name>nws</Name>"));
+}
+
+// 2026-11-28: a volume whose date is wrong was the default, which GetMap did not draw.
+TEST(WmsTimes, ATimeOfTheFutureIsNotTheDefault) {
+    ServedGrids served;
+    const UtcTime future = now_utc() + std::chrono::days{180};
+    ASSERT_TRUE(testing::commit_sized(served.store(), "KBGM", future));
+    served.grids().refresh();
+    WmsDoor door(std::make_shared<MapPictures>(MapPicturesOptions{.grids = served.shared_grids()}));
+    for (const char* const version : {"1.3.0", "1.1.1"}) {
+        const std::string text = body_of(asked(
+            door, fmt::format("/wms?SERVICE=WMS&VERSION={}&REQUEST=GetCapabilities", version)));
+        EXPECT_THAT(text, HasSubstr("default=\"2024-11-22T12:05:00Z\"")) << version;
+        EXPECT_THAT(text, HasSubstr(format_utc(future).substr(0, 10))) << version;
+    }
 }
 
 // 2026-11-28: QGIS saw no times, because it does not take them from the layer above a named one.

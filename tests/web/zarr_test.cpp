@@ -217,6 +217,21 @@ TEST_F(ZarrTest, ATimeKeepsItsNumberWhenItsGridIsEvictedAndAfterARestart) {
     EXPECT_EQ(asked(again, "/zarr/KBGM/REF/status/3.0.0.0").status, 200u);
 }
 
+// 2026-11-28: after a change of the configuration, chunks that were kept stood in the array of the
+// new cells, at twice their distance.
+TEST_F(ZarrTest, KeptChunksOfOtherCellsThanTheNewestAreUnavailable) {
+    const char* const chunk = "/zarr/KBGM/REF/status/1.0.0.0";
+    ASSERT_EQ(get(chunk).status, 200u);
+    ASSERT_TRUE(door_.answer_at_once(request_for(chunk)));
+    grid::Grid other = served_.small();
+    other.time = testing::noon + std::chrono::minutes{10};
+    (void)served_.store().commit("KBGM", cache::describe(other),
+                                 grid::BrickGrid::from(other, ServedGrids::quantization()).view());
+    sources_.grids->refresh();
+    EXPECT_EQ(get(chunk).status, 404u);
+    EXPECT_FALSE(door_.answer_at_once(request_for(chunk)));
+}
+
 TEST_F(ZarrTest, DamagedNumbersAreAnErrorAndNotNewNumbers) {
     (void)get("/zarr/KBGM/REF/time/0");
     const auto path = state_ / "KBGM/REF.times";

@@ -237,6 +237,12 @@ std::vector<UtcTime> Grids::times(std::string_view domain, level2::Moment moment
     return {first, last};
 }
 
+UtcTime newest_believed(std::span<const UtcTime> times) {
+    const auto end = std::ranges::partition_point(
+        times, [now = now_utc()](UtcTime time) { return is_believed(time, now); });
+    return end == times.begin() ? times.back() : *(end - 1);
+}
+
 std::optional<UtcTime> Grids::newest(std::string_view domain, level2::Moment moment) const {
     impl_->watch->catch_up();
     const std::shared_lock lock(impl_->names_mutex);
@@ -244,12 +250,7 @@ std::optional<UtcTime> Grids::newest(std::string_view domain, level2::Moment mom
     if (found == impl_->names.end()) return std::nullopt;
     const auto times = found->second.find(moment);
     if (times == found->second.end()) return std::nullopt;
-    // Times in the future come from a clock that is wrong; they count only if there are no others.
-    const auto& all = times->second;
-    const UtcTime now = now_utc();
-    const auto end = std::partition_point(all.begin(), all.end(),
-                                          [&](UtcTime time) { return is_believed(time, now); });
-    return end == all.begin() ? all.back() : *(end - 1);
+    return newest_believed(times->second);
 }
 
 Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, level2::Moment moment,

@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,10 @@ struct OpenGrid {
     }
 };
 
+// Returns the newest of some times, ascending and at least one. One in the future comes from a
+// clock that is wrong: it counts only if all are in the future (is_believed()).
+[[nodiscard]] UtcTime newest_believed(std::span<const UtcTime> times);
+
 class Grids {
   public:
     // A cache that does not exist (yet) has no grids; that is no error.
@@ -63,6 +68,7 @@ class Grids {
     [[nodiscard]] std::vector<UtcTime> times(std::string_view domain, level2::Moment moment,
                                              std::optional<UtcTime> from = {},
                                              std::optional<UtcTime> to = {}) const;
+    // As newest_believed() says.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view domain,
                                                 level2::Moment moment) const;
     // Returns the grid. Errors: not_found; those of GridFile::open().

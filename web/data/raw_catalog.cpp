@@ -28,9 +28,12 @@ using std::chrono::steady_clock;
 constexpr std::chrono::seconds kept_open_for{2}, floor_holds_for{30};
 // A dropped file's name and its volume's start differ by seconds; some names have no seconds.
 constexpr std::chrono::minutes own_name_differs{2};
-// Rows read beside those wanted: files that came several times, and members of archives.
+// Rows read beside those wanted: files that came several times.
 constexpr std::size_t more_rows = 200;
 constexpr std::size_t most_rows_of_a_name = 500;
+
+// Members of archives are not served, and there may be thousands between two files that are.
+const catalog::Stretch of_served{.with_members = false};
 
 // Returns true if `a` is the better file of the same name.
 bool is_better_raw(const CatalogEntry& a, const CatalogEntry& b) {
@@ -45,10 +48,6 @@ std::string name_of_entry(const CatalogEntry& entry) {
     const bool chunks = pipeline::is_of_chunks(entry);
     return raw_name(entry.station, *entry.volume.start_time,
                     chunks ? std::string{} : entry.path.filename().string());
-}
-
-bool is_served(const CatalogEntry& entry) {
-    return entry.volume.start_time && member_names_in(entry.path).empty();
 }
 
 RawVolume volume_of(const CatalogEntry& entry) {
@@ -145,7 +144,7 @@ Result<std::optional<UtcTime>> CatalogRawFiles::floor_of(const CatalogReader& ca
 Result<std::vector<CatalogEntry>> CatalogRawFiles::rows_of(const CatalogReader& catalog,
                                                            std::string_view station,
                                                            const RawRange& range) {
-    catalog::Stretch stretch;
+    catalog::Stretch stretch = of_served;
     stretch.from = range.from;
     stretch.to = range.to;
     stretch.newest_first = range.newest_first;
@@ -180,7 +179,6 @@ Result<std::vector<RawVolume>> CatalogRawFiles::list(std::string_view station,
     if (!rows) return pass_on(rows);
     std::map<std::string, const CatalogEntry*, std::less<>> best;
     for (const CatalogEntry& row : *rows) {
-        if (!is_served(row)) continue;
         const CatalogEntry*& known = best[name_of_entry(row)];
         if (known == nullptr || is_better_raw(row, *known)) known = &row;
     }
@@ -212,7 +210,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
     }
     const auto time = time_in_file_name(name);
     if (!time) return std::optional<CatalogEntry>{};
-    catalog::Stretch stretch;
+    catalog::Stretch stretch = of_served;
     stretch.from = *time - own_name_differs;
     stretch.to = *time + own_name_differs;
     stretch.most = most_rows_of_a_name;
@@ -221,7 +219,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
     if (!rows) return pass_on(rows);
     std::optional<CatalogEntry> found;
     for (const CatalogEntry& row : *rows) {
-        if (!is_served(row) || row.path.filename() != name) continue;
+        if (row.path.filename() != name) continue;
         if (!found || is_better_raw(row, *found)) found = row;
     }
     return found;
@@ -232,7 +230,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
                                                           std::string_view name) {
     std::optional<CatalogEntry> found;
     if (const auto time = time_of_raw_name(station, name)) {
-        catalog::Stretch stretch;
+        catalog::Stretch stretch = of_served;
         stretch.from = *time;
         stretch.to = *time + std::chrono::milliseconds{999};
         stretch.most = most_rows_of_a_name;
@@ -241,7 +239,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
         if (!rows) return pass_on(rows);
         for (const CatalogEntry& row : *rows) {
             const bool is_it = is_volume_name(station, name) || name_of_entry(row) == name;
-            if (!is_served(row) || !is_it) continue;
+            if (!is_it) continue;
             if (!found || is_better_raw(row, *found)) found = row;
         }
     }

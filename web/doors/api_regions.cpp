@@ -39,6 +39,7 @@ Result<RegionBox> region_parameters_of(const ApiCall& call) {
 ApiJson region_moment_json(const ApiCall& call, const RegionPlan& plan, const std::string& path) {
     ApiJson times = ApiJson::array();
     const auto instants = region_times(call.grids(), plan);
+    const UtcTime newest = newest_believed(instants);
     for (const UtcTime time : instants)
         times.push_back(format_utc(time));
     ApiJson left_out = ApiJson::array(), reasons = ApiJson::object();
@@ -49,8 +50,8 @@ ApiJson region_moment_json(const ApiCall& call, const RegionPlan& plan, const st
     return {{"moment", level2::moment_name(plan.moment)},
             {"units", level2::moment_units(plan.moment)},
             {"grids", instants.size()},
-            {"newest", times.back()},
-            {"age_s", std::floor(seconds_between(instants.back(), now_utc()))},
+            {"newest", format_utc(newest)},
+            {"age_s", std::floor(seconds_between(newest, now_utc()))},
             {"sites", plan.sites},
             {"left_out", std::move(left_out)},
             {"left_out_because", std::move(reasons)},

@@ -201,7 +201,11 @@ Answer Level3Collection::file(const Request& request, std::span<const std::strin
     }
     const fs::path directory = configured().files;
     const auto opened = open_beneath(directory, directory / known->second);
-    if (!opened) return sentence(410, "This file was here, and is deleted.");
+    if (!opened && opened.error().code == ErrorCode::not_found)
+        return sentence(410, "This file was here, and is deleted.");
+    if (!opened)
+        return with_trouble(come_back(std::chrono::seconds{5}, "This file cannot be read now."),
+                            opened.error());
     const auto file = std::make_shared<const Descriptor>(*opened);
     struct stat facts {};
     if (::fstat(file->number(), &facts) != 0) return sentence(500, "The file cannot be read.");

@@ -19,6 +19,7 @@ constexpr double most_mercator_latitude_deg = 85.0511;
 struct MomentOfDomain {
     level2::Moment moment;
     render::EarthBox box;
+    UtcTime newest;
     std::vector<UtcTime> times;
 };
 
@@ -27,11 +28,12 @@ std::vector<MomentOfDomain> moments_of(MapPictures& pictures, const std::string&
     Grids& grids = pictures.grids();
     for (const level2::Moment moment : grids.moments(domain)) {
         auto times = grids.times(domain, moment);
-        if (times.empty()) continue;
-        const auto grid = grids.find(domain, moment, times.back());
+        const auto newest = grids.newest(domain, moment);
+        if (times.empty() || !newest) continue;
+        const auto grid = grids.find(domain, moment, *newest);
         if (!grid) continue;
         const render::EarthBox box = pictures.box_of(domain, (*grid)->file.description().spec);
-        moments.push_back({moment, box, std::move(times)});
+        moments.push_back({moment, box, *newest, std::move(times)});
     }
     return moments;
 }
@@ -65,10 +67,10 @@ class CapabilitiesWriter {
     void write_service();
     void write_operation(std::string_view name, std::initializer_list<std::string_view> formats);
     void write_box(const render::EarthBox& box);
-    void write_times(const std::vector<UtcTime>& times);
+    void write_times(const MomentOfDomain& moment);
     void write_styles(const std::string& layer, const std::vector<std::string>& styles);
     void write(const std::string& domain, const MomentOfDomain& moment);
-    void write(const std::string& domain, const MapLayer& layer, const std::vector<UtcTime>& times);
+    void write(const std::string& domain, const MapLayer& layer, const MomentOfDomain& moment);
 
     const bool is_older_;  // 1.1.1
     const std::string address_;
@@ -184,19 +186,19 @@ void CapabilitiesWriter::write_box(const render::EarthBox& box) {
     }
 }
 
-void CapabilitiesWriter::write_times(const std::vector<UtcTime>& times) {
-    std::vector<std::string> texts(times.size());
-    std::ranges::transform(times, texts.begin(), format_utc);
+void CapabilitiesWriter::write_times(const MomentOfDomain& moment) {
+    std::vector<std::string> texts(moment.times.size());
+    std::ranges::transform(moment.times, texts.begin(), format_utc);
+    const std::string newest = format_utc(moment.newest);
     const std::string all = fmt::format("{}", fmt::join(texts, ","));
     if (is_older_) {
         xml_.empty("Dimension", {{"name", "time"}, {"units", "ISO8601"}});
-        xml_.leaf("Extent", all,
-                  {{"name", "time"}, {"default", texts.back()}, {"nearestValue", "1"}});
+        xml_.leaf("Extent", all, {{"name", "time"}, {"default", newest}, {"nearestValue", "1"}});
     } else {
         xml_.leaf("Dimension", all,
                   {{"name", "time"},
                    {"units", "ISO8601"},
-                   {"default", texts.back()},
+                   {"default", newest},
                    {"nearestValue", "1"},
                    {"current", "1"}});
     }
@@ -232,12 +234,12 @@ void CapabilitiesWriter::write(const std::string& domain, const MomentOfDomain& 
                             fmt::format("{} {}", domain, level2::moment_name(moment.moment)));
     write_box(moment.box);
     for (const MapLayer& layer : map_layers_of({moment.moment}))
-        write(domain, layer, moment.times);
+        write(domain, layer, moment);
     xml_.close();
 }
 
 void CapabilitiesWriter::write(const std::string& domain, const MapLayer& layer,
-                               const std::vector<UtcTime>& times) {
+                               const MomentOfDomain& moment) {
     render::Scene scene;
     scene.product = layer.product;
     scene.moment = layer.moment;
@@ -245,7 +247,7 @@ void CapabilitiesWriter::write(const std::string& domain, const MapLayer& layer,
     xml_.open("Layer", {{"queryable", "1"}})
         .leaf("Name", name)
         .leaf("Title", fmt::format("{}: {}", domain, render::product_title(scene)));
-    write_times(times);
+    write_times(moment);
     write_styles(name, styles_.of(layer));
     xml_.close();
 }

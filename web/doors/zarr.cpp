@@ -126,7 +126,9 @@ Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
                     level2::moment_name(named.moment), named.domain);
     auto times = sources_.numbers->update(named.domain, named.moment, present);
     if (!times) return pass_on(times);
-    auto newest = sources_.grids->find(named.domain, named.moment, present.back());
+    const UtcTime newest_time =
+        sources_.grids->newest(named.domain, named.moment).value_or(present.back());
+    auto newest = sources_.grids->find(named.domain, named.moment, newest_time);
     if (!newest) return pass_on(newest);
     Opened opened{std::move(*times), std::move(*newest), {}};
     opened.group =
@@ -164,6 +166,14 @@ std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
     return place;
 }
 
+// False, too, where that takes longer than microseconds to say.
+bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) const {
+    const auto time = sources_.grids->newest(named.domain, named.moment);
+    if (!time) return false;
+    const auto newest = sources_.grids->find_if_open(named.domain, named.moment, *time);
+    return newest && newest->file.description().spec == grid.file.description().spec;
+}
+
 std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
     const auto path = segments_of(request.path);
     const auto group = named(path);
@@ -175,7 +185,7 @@ std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
     const auto time = sources_.numbers->time_of(group->domain, group->moment, (*place)[0]);
     if (!time) return std::nullopt;
     const auto grid = sources_.grids->find_if_open(group->domain, group->moment, *time);
-    if (!grid) return std::nullopt;
+    if (!grid || !has_cells_of_newest(*group, *grid)) return std::nullopt;
     const auto kept = sources_.kept->find(chunk_key(*grid, rest[0], *place));
     if (!kept) return std::nullopt;
     return zarr_chunk(request, *kept, max_age_of("", *grid));

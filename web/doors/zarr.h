@@ -47,6 +47,7 @@ class ZarrDoor final : public Door {
 
     [[nodiscard]] std::optional<Named> named(const std::vector<std::string_view>& path) const;
     [[nodiscard]] Result<Opened> open(const Named& named) const;
+    [[nodiscard]] bool has_cells_of_newest(const Named& named, const OpenGrid& grid) const;
     [[nodiscard]] Answer index(const Request& request) const;
     [[nodiscard]] Answer document(const Request& request, const Opened& opened,
                                   const std::vector<std::string_view>& rest) const;

@@ -113,11 +113,12 @@ struct Query {
 // A stretch of a station's volumes, of which at most `most` are wanted. Only the first volume of
 // each file counts.
 struct Stretch {
-    std::optional<UtcTime> from;  // inclusive, on the volume's start time
-    std::optional<UtcTime> to;    // inclusive
+    std::optional<UtcTime> from = std::nullopt;  // inclusive, on the volume's start time
+    std::optional<UtcTime> to = std::nullopt;    // inclusive
     std::size_t most = 1000;
     bool newest_first = false;
-    bool with_gone = false;  // also files that their owner deleted
+    bool with_gone = false;    // also files that their owner deleted
+    bool with_members = true;  // also members of archives
 };
 
 struct StationSummary {
