@@ -6,9 +6,9 @@ import { isClearAir } from '../fields/clear_air';
 import { LoadedGrid } from '../renderer/renderer';
 import { ViewState, addressOf, stateOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
-import { instantsBetween } from '../time/between';
 import { outdatedBy } from '../time/outdated';
-import { PlayerState, advanced, at, followed, looped, nearestTime, nextOf, stepped, stopped, withTimes } from '../time/player';
+import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped } from '../time/player';
+import { Timeline } from '../time/timeline';
 import { Units, namesOf } from '../tables/units';
 import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
 import { AddressBar } from './address_bar';
@@ -57,7 +57,6 @@ export class App {
     state: ViewState = stateOfAddress();
     domains: Domain[] = [];
     book: TableBook | null = null; // once the server has told its tables
-    player: PlayerState = { ...stopped, follows: this.state.time === 'latest' };
     shown: Shown | null = null;
     isOnMap = false; // of all stations, where a domain is chosen
     framesASecond = 4; // of playback
@@ -67,8 +66,7 @@ export class App {
     isGraphicsLost = false; // nothing can be drawn
     readonly server = new ServerState(() => this.tell('notice'));
     missed = ''; // what was asked for and is not there
-    private stored: string[] = []; // times of the domain's grids
-    private missing = new Set<string>(); // instants between them for which there is no frame
+    private timeline = new Timeline(this.state.time === 'latest', () => this.state.betweenS);
     private heard = new Map<Happening, (() => void)[]>();
     private coming = 0; // times that are not shown yet
     private addressBar = new AddressBar(() => addressOf(this.state));
@@ -78,6 +76,13 @@ export class App {
     private unreadTime = timeThatIsNone(); // of the address
 
     constructor(readonly loader: Loader) {}
+
+    get player(): PlayerState {
+        return this.timeline.player;
+    }
+    private set player(player: PlayerState) {
+        this.timeline.player = player;
+    }
 
     on(happening: Happening, action: () => void): void {
         this.heard.set(happening, [...(this.heard.get(happening) ?? []), action]);
@@ -141,7 +146,7 @@ export class App {
         this.addressBar.write();
         const { shown, state } = this;
         const isShown = shown?.domain === state.domain && shown.moment === state.moment;
-        const time = isShown ? shown.time : (this.player.times[this.player.at] ?? state.time);
+        const time = isShown ? shown.time : (this.timeline.now ?? state.time);
         return new URL(`#${addressOf({ ...state, time })}`, location.href).href;
     }
 
@@ -173,7 +178,7 @@ export class App {
     }
 
     get hasLists(): boolean {
-        return this.stored.length > 0;
+        return this.timeline.stored.length > 0;
     }
     takeGraphics(isThere: boolean): void {
         this.isGraphicsLost = !isThere;
@@ -276,19 +281,18 @@ export class App {
         this.miss(missed.filter(Boolean).join(' '));
         this.tell('choices');
         this.say(texts.loading);
-        this.missing.clear();
         this.stayWhoPaused();
         const choice = ++this.choices;
         try {
             const soon = await times(this.state.domain, this.state.moment, soonTimes);
             if (choice !== this.choices) return;
-            this.player = { ...this.player, times: [], at: -1 };
-            this.takeTimes(soon.times);
+            this.timeline.forget();
+            this.timeline.take(soon.times);
             const { time } = this.state;
             // A time before those of the first answer is looked for among all.
             const isOlder = soon.more && !this.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
             if (isOlder) await this.findOlder();
-            if (!this.player.follows && !this.findTime(time)) this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '));
+            if (!this.player.follows && !this.timeline.find(time)) this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '));
             await this.showTime();
             if (soon.more && !isOlder) await this.findOlder();
         } catch (error) {
@@ -298,60 +302,46 @@ export class App {
     // Who does not follow any more, and was shown no other time yet, stays where the player is.
     private stayWhoPaused(): void {
         if (this.player.follows || this.state.time !== 'latest') return;
-        const now = this.player.times[this.player.at];
+        const now = this.timeline.now;
         if (now === undefined) this.player = { ...this.player, follows: true };
         else this.state.time = now;
     }
 
-    private takeTimes(stored: string[]): void {
-        this.stored = stored;
-        const { betweenS } = this.state;
-        this.player = withTimes(this.player, betweenS > 0 ? instantsBetween(stored, betweenS, this.missing) : stored);
-    }
     // A user who looks at a time that was evicted is moved to another, and the page says so.
     private takeNewTimes(stored: string[]): void {
         const { times: all, at: shown, follows, isPlaying } = this.player;
-        this.takeTimes(stored);
+        this.timeline.take(stored);
         const isEvicted = all[shown] !== undefined && this.player.at >= 0 && !this.player.times.includes(all[shown]!);
         if (isEvicted && !follows && !isPlaying) this.miss(texts.notice.otherTime(all[shown]!));
-    }
-    // The time that is nearest to the wanted one. Returns false if it is another.
-    private findTime(wanted: string): boolean {
-        const at = nearestTime(this.player.times, wanted);
-        this.player = { ...this.player, at };
-        return at < 0 || Date.parse(this.player.times[at]!) === Date.parse(wanted);
     }
     // The timeline has every grid; the older ones come after the first picture.
     private async findOlder(): Promise<void> {
         const { domain, moment } = this.state;
         for (let more = true; more; ) {
-            const older = await times(domain, moment, mostTimes, this.stored[0]);
+            const older = await times(domain, moment, mostTimes, this.timeline.stored[0]);
             if (domain !== this.state.domain || moment !== this.state.moment) return;
             more = older.more && older.times.length > 1;
-            this.takeTimes([...older.times.filter(time => time < this.stored[0]!), ...this.stored]);
+            this.timeline.take([...older.times.filter(time => time < this.timeline.stored[0]!), ...this.timeline.stored]);
             this.tell('time');
         }
     }
 
-    private isBetween(time: string): boolean {
-        return this.state.betweenS > 0 && !this.stored.includes(time);
-    }
     // Frames between volumes every so many seconds; 0: the volumes alone.
     async setBetween(seconds: number): Promise<void> {
-        const shown = this.player.times[this.player.at];
+        const shown = this.timeline.now;
         this.state.betweenS = seconds;
-        this.takeTimes(this.stored);
-        if (shown !== undefined && !this.player.follows) this.findTime(shown);
+        this.timeline.take(this.timeline.stored);
+        if (shown !== undefined && !this.player.follows) this.timeline.find(shown);
         await this.showTime();
     }
 
     private async showTime(): Promise<void> {
-        const time = this.player.times[this.player.at];
+        const time = this.timeline.now;
         this.tell('time');
         if (time === undefined) return this.say(texts.notFound);
         const { domain, moment } = this.state;
         const turn = ++this.turn;
-        const isLate = () => turn !== this.turn || this.player.times[this.player.at] !== time || this.state.moment !== moment || this.state.domain !== domain;
+        const isLate = () => turn !== this.turn || this.timeline.now !== time || this.state.moment !== moment || this.state.domain !== domain;
         ++this.coming;
         try {
             const loaded = await this.load(time);
@@ -365,14 +355,14 @@ export class App {
             if (!this.leaveOut(time, error)) return this.fail(error);
             const { follows, isPlaying } = this.player;
             if (!wasLate && !follows && !isPlaying && this.missed === '') this.miss(texts.notice.otherTime(time));
-            if (this.player.times[this.player.at] !== undefined) await this.showTime();
+            if (this.timeline.now !== undefined) await this.showTime();
         } finally {
             --this.coming;
         }
     }
     private shownOf(time: string, loaded: LoadedGrid): Shown {
         const { domain, moment } = this.state;
-        return { key: Loader.key(domain, moment, time), loaded, domain, moment, time, isBetween: this.isBetween(time) };
+        return { key: Loader.key(domain, moment, time), loaded, domain, moment, time, isBetween: this.timeline.isBetween(time) };
     }
     // With what is drawn beside it.
     private async loadWhole(time: string, isAhead: boolean): Promise<void> {
@@ -385,17 +375,12 @@ export class App {
         return loaded !== undefined && this.alongside(this.shownOf(time, loaded), true) === null;
     }
     private load(time: string): Promise<LoadedGrid> {
-        return this.loader.load(this.state.domain, this.state.moment, time, this.isBetween(time));
+        return this.loader.load(this.state.domain, this.state.moment, time, this.timeline.isBetween(time));
     }
-    // Near the ends and in gaps there is no frame between volumes, and a loop may meet a grid that was evicted: the
-    // instant leaves the timeline.
     private leaveOut(time: string, error: unknown): boolean {
         // The server also answers 410 for a grid in parts that was made again meanwhile.
         const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
-        const isBetween = this.isBetween(time);
-        if (!isGone || this.missing.has(time) || !(isBetween || this.player.isPlaying)) return false;
-        this.missing.add(time);
-        this.takeTimes(this.stored.filter(one => isBetween || one !== time));
+        if (!isGone || !this.timeline.leaveOut(time)) return false;
         this.tell('time');
         return true;
     }
@@ -431,7 +416,7 @@ export class App {
         for (const [i, index] of next.entries()) {
             const time = all[index ?? -1];
             // What is made on request is not made in vain.
-            if (time === undefined || (this.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
+            if (time === undefined || (this.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
                 if (this.state.domain !== domain || this.state.moment !== moment) return;
                 await this.loadWhole(time, true).catch(error => this.leaveOut(time, error));
@@ -468,7 +453,7 @@ export class App {
     private tick(): void {
         if (!this.player.isPlaying) return;
         const { player, waitsFor } = this.coming === 0 && this.isShownWhole() ? advanced(this.player, time => this.isWhole(time)) : { player: this.player, waitsFor: null };
-        if (this.coming > 0) this.say(texts.waiting(this.player.times[this.player.at] ?? ''), false);
+        if (this.coming > 0) this.say(texts.waiting(this.timeline.now ?? ''), false);
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
             this.loadWhole(waitsFor, false).catch(error => this.leaveOut(waitsFor, error) || this.fail(error));
@@ -519,19 +504,19 @@ export class App {
             this.tell('choices');
         }
         const isOfShown = domain === this.state.domain && moment === this.state.moment;
-        const isOld = changedTime ? outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.stored : [], `${this.state.domain}/${this.state.moment}`) : () => false;
+        const isOld = changedTime ? outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.timeline.stored : [], `${this.state.domain}/${this.state.moment}`) : () => false;
         this.loader.forgetAll(isOld);
         // A surface may be that of another moment.
         const isOfSurface = moment !== undefined && moment === this.state.layers.surface?.moment;
         if (!this.isPartOfShown(domain) || (moment !== this.state.moment && !isOfSurface)) return;
         if (domain !== this.state.domain) return this.takeNewsOfSite(changedTime);
         if (moment !== this.state.moment) return changedTime === this.shown?.time ? this.showTime() : undefined;
-        const before = this.player.times[this.player.at];
+        const before = this.timeline.now;
         const { times: newest, more } = await times(domain, moment, most);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         // If the server has no more, it has evicted the older ones.
-        this.takeNewTimes([...this.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
-        const now = this.player.times[this.player.at];
+        this.takeNewTimes([...this.timeline.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
+        const now = this.timeline.now;
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
         // After a failure another time than that of the picture may be waited for.
         if (now !== before || now !== this.shown?.time || isOfNow || now === changedTime) await this.showTime();
