@@ -54,10 +54,10 @@ try {
   // Frames between volumes.
   await press('loop-all');
   const before = await count();
-  const kept = await shown();
+  const kept = await page.until('document.documentElement.dataset.drawn');
   await choose('between', 60);
   await page.until(`Number(document.getElementById('times').max) + 1 > ${3 * before}`);
-  check('the volume that is shown stays', (await shown()) === kept);
+  check('the volume that is shown stays', (await page.until('document.documentElement.dataset.drawn')) === kept);
   await press('later');
   // The server makes it first.
   await page.until("document.getElementById('title').textContent.includes('made between volumes')", 60).catch(() => undefined);
@@ -92,6 +92,14 @@ try {
   const told = await evaluate("document.getElementById('notice').textContent");
   check(`a minute after ${times[1]}: ${told}`, (await shown()).endsWith(times[1]) && told.includes('the nearest'));
   check('nothing of the page failed', page.trouble.length === 0, page.trouble.join('\n'));
+
+  // ---- Instants for which there is no frame (2026-11-28: the next one was called the nearest)
+  await page.goto('about:blank');
+  const soon = new Date(Date.parse(times[0]) + 46_000).toISOString().slice(0, 19);
+  await viewer.open(`domain=${station}&moment=REF&tilt=0&field-of-view=0&time=${soon}Z&between=60`);
+  check(`nothing is made at ${soon}: ${await shown()}, ${await noticeOf()}`, (await shown()).endsWith(times[0]) && (await noticeOf()).includes('the nearest'));
+  await viewer.settled(() => press('later'));
+  check(`a step goes on to what is made: ${await shown()}`, !(await shown()).endsWith(times[0]) && (await noticeOf()) === '');
 } finally {
   await browser.end();
 }

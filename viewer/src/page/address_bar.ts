@@ -1,8 +1,24 @@
 // The view in the address of the page: at once, or while something moves only now and then, because browsers take
 // long to show an address, and some refuse to do it often.
 
+import { ViewState, stateOf } from '../scene/view_state';
+import { namesOf } from '../tables/units';
+import { rememberedUnits } from './remembered';
+
 const afterMs = 150; // less than the picture waits until it is fine
 const everyMs = 1000; // while something moves
+
+// What an address does not say of units is as the user had it last.
+export function stateOfAddress(): ViewState {
+    const state = stateOf(location.hash);
+    return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
+}
+
+// A time of the address that is none; empty if it has a time or none at all.
+export function timeThatIsNone(): string {
+    const time = new URLSearchParams(location.hash.slice(1)).get('time') ?? '';
+    return time !== '' && time !== 'latest' && stateOf(location.hash).time === 'latest' ? time.slice(0, 40) : '';
+}
 
 export class AddressBar {
     private timer = 0;

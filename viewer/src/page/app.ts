@@ -4,17 +4,17 @@
 import { Camera } from '../camera/geometry';
 import { isClearAir } from '../fields/clear_air';
 import { LoadedGrid } from '../renderer/renderer';
-import { ViewState, addressOf, stateOf } from '../scene/view_state';
+import { ViewState, addressOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
 import { outdatedBy } from '../time/outdated';
-import { PlayerState, advanced, at, followed, looped, nextOf, stepped, stopped } from '../time/player';
-import { Timeline } from '../time/timeline';
-import { Units, namesOf } from '../tables/units';
+import { PlayerState, advanced, at, looped, nextOf, stepped, stopped } from '../time/player';
+import { Timeline, toleratedFutureMs } from '../time/timeline';
+import { Units } from '../tables/units';
 import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
-import { AddressBar } from './address_bar';
+import { AddressBar, stateOfAddress, timeThatIsNone } from './address_bar';
 import { element } from './dom';
 import { Loader } from './loader';
-import { rememberUnits, rememberedUnits } from './remembered';
+import { rememberUnits } from './remembered';
 import { ServerState } from './server_state';
 import { TableBook } from './table_book';
 import { texts } from './texts';
@@ -41,18 +41,6 @@ export interface Shown {
     isBetween: boolean; // made between volumes
 }
 
-// What an address does not say of units is as the user had it last.
-function stateOfAddress(): ViewState {
-    const state = stateOf(location.hash);
-    return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
-}
-
-// A time of the address that is none; empty if it has a time or none at all.
-function timeThatIsNone(): string {
-    const time = new URLSearchParams(location.hash.slice(1)).get('time') ?? '';
-    return time !== '' && time !== 'latest' && stateOf(location.hash).time === 'latest' ? time.slice(0, 40) : '';
-}
-
 export class App {
     state: ViewState = stateOfAddress();
     domains: Domain[] = [];
@@ -66,7 +54,12 @@ export class App {
     isGraphicsLost = false; // nothing can be drawn
     readonly server = new ServerState(() => this.tell('notice'));
     missed = ''; // what was asked for and is not there
-    private timeline = new Timeline(this.state.time === 'latest', () => this.state.betweenS);
+    private missedTime = ''; // a time of that
+    private timeline = new Timeline(
+        this.state.time === 'latest',
+        () => this.state.betweenS,
+        () => Math.max(this.server.nowMs + toleratedFutureMs, Date.parse(this.domain?.moments.find(one => one.moment === this.state.moment)?.newest ?? '') || 0),
+    );
     private heard = new Map<Happening, (() => void)[]>();
     private coming = 0; // times that are not shown yet
     private addressBar = new AddressBar(() => addressOf(this.state));
@@ -82,6 +75,9 @@ export class App {
     }
     private set player(player: PlayerState) {
         this.timeline.player = player;
+    }
+    get newest(): string | undefined {
+        return this.timeline.newest;
     }
 
     on(happening: Happening, action: () => void): void {
@@ -105,6 +101,10 @@ export class App {
         }
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
         this.say(isGone ? texts.notFound : texts.failed(error instanceof Error ? error.message : String(error)));
+    }
+    // What is not wanted any more tells only that the server does not answer.
+    private failed(error: unknown, isWanted: boolean): void {
+        if (isWanted || error instanceof TypeError) this.fail(error);
     }
 
     // -- the view
@@ -152,11 +152,10 @@ export class App {
 
     // The address was changed by hand, or by going back.
     takeAddress(): void {
-        const next = stateOfAddress();
+        const [next, unreadTime] = [stateOfAddress(), timeThatIsNone()];
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
-        if (!this.isOnMap && addressOf(next) === addressOf(this.state)) return;
-        this.state = next;
-        this.unreadTime = timeThatIsNone();
+        if (!this.isOnMap && unreadTime === '' && addressOf(next) === addressOf(this.state)) return;
+        [this.state, this.unreadTime] = [next, unreadTime];
         this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
         void this.choose(next.domain, next.moment);
@@ -198,8 +197,8 @@ export class App {
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
-    private miss(text: string): void {
-        this.missed = text;
+    private miss(text: string, time = ''): void {
+        [this.missed, this.missedTime] = [text, time];
         this.tell('notice');
     }
 
@@ -292,8 +291,8 @@ export class App {
             // A time before those of the first answer is looked for among all.
             const isOlder = soon.more && !this.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
             if (isOlder) await this.findOlder();
-            if (!this.player.follows && !this.timeline.find(time)) this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '));
-            await this.showTime();
+            if (!this.player.follows && !this.timeline.find(time)) this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
+            await this.showTime(this.player.follows ? undefined : time);
             if (soon.more && !isOlder) await this.findOlder();
         } catch (error) {
             if (choice === this.choices) this.fail(error);
@@ -307,19 +306,23 @@ export class App {
         else this.state.time = now;
     }
 
-    // A user who looks at a time that was evicted is moved to another, and the page says so.
+    // A user who looks at a time that was evicted is moved to the nearest, and the page says so; who waits for a time that
+    // was missed, to what is nearer now.
     private takeNewTimes(stored: string[]): void {
-        const { times: all, at: shown, follows, isPlaying } = this.player;
+        const [now, missedTime] = [this.timeline.now, this.missedTime];
         this.timeline.take(stored);
-        const isEvicted = all[shown] !== undefined && this.player.at >= 0 && !this.player.times.includes(all[shown]!);
-        if (isEvicted && !follows && !isPlaying) this.miss(texts.notice.otherTime(all[shown]!));
+        const { at: shown, times: all, follows, isPlaying } = this.player;
+        if (now === undefined || shown < 0 || follows || isPlaying) return;
+        if (missedTime !== '' && this.timeline.find(missedTime)) this.miss('');
+        else if (missedTime === '' && !all.includes(now)) this.miss(texts.notice.otherTime(now), now);
     }
     // The timeline has every grid; the older ones come after the first picture.
     private async findOlder(): Promise<void> {
         const { domain, moment } = this.state;
+        const isLeft = this.whetherLeft();
         for (let more = true; more; ) {
             const older = await times(domain, moment, mostTimes, this.timeline.stored[0]);
-            if (domain !== this.state.domain || moment !== this.state.moment) return;
+            if (isLeft()) return;
             more = older.more && older.times.length > 1;
             this.timeline.take([...older.times.filter(time => time < this.timeline.stored[0]!), ...this.timeline.stored]);
             this.tell('time');
@@ -335,13 +338,19 @@ export class App {
         await this.showTime();
     }
 
-    private async showTime(): Promise<void> {
+    // Tells later whether another domain or moment was chosen.
+    private whetherLeft(): () => boolean {
+        const { domain, moment } = this.state;
+        return () => domain !== this.state.domain || moment !== this.state.moment;
+    }
+    // Shows the time of the timeline. If it is not there, a step goes on `by` one, and else the nearest to the wanted one
+    // is shown.
+    private async showTime(wanted = this.timeline.now, by = 0): Promise<void> {
         const time = this.timeline.now;
         this.tell('time');
         if (time === undefined) return this.say(texts.notFound);
-        const { domain, moment } = this.state;
-        const turn = ++this.turn;
-        const isLate = () => turn !== this.turn || this.timeline.now !== time || this.state.moment !== moment || this.state.domain !== domain;
+        const [turn, isLeft] = [++this.turn, this.whetherLeft()];
+        const isLate = () => turn !== this.turn || this.timeline.now !== time || isLeft();
         ++this.coming;
         try {
             const loaded = await this.load(time);
@@ -352,10 +361,13 @@ export class App {
             if (!isLate()) this.take(next);
         } catch (error) {
             const wasLate = isLate();
-            if (!this.leaveOut(time, error)) return this.fail(error);
-            const { follows, isPlaying } = this.player;
-            if (!wasLate && !follows && !isPlaying && this.missed === '') this.miss(texts.notice.otherTime(time));
-            if (this.timeline.now !== undefined) await this.showTime();
+            const index = this.player.at;
+            if (!this.leaveOut(time, error, isLeft)) return this.failed(error, !wasLate);
+            const stays = !wasLate && !this.player.follows && !this.player.isPlaying;
+            if (stays && by !== 0) this.player = at(this.player, by > 0 ? index : index - 1);
+            else if (stays) this.timeline.find(wanted!);
+            if (stays && by === 0 && this.missedTime === '') this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
+            if (this.timeline.now !== undefined) await this.showTime(stays ? wanted : undefined, by);
         } finally {
             --this.coming;
         }
@@ -366,9 +378,9 @@ export class App {
     }
     // With what is drawn beside it.
     private async loadWhole(time: string, isAhead: boolean): Promise<void> {
-        const { domain, moment } = this.state;
+        const isLeft = this.whetherLeft();
         const loaded = await this.load(time);
-        if (this.state.domain === domain && this.state.moment === moment) await this.alongside(this.shownOf(time, loaded), isAhead);
+        if (!isLeft()) await this.alongside(this.shownOf(time, loaded), isAhead);
     }
     private isWhole(time: string): boolean {
         const loaded = this.loader.find(Loader.key(this.state.domain, this.state.moment, time));
@@ -377,10 +389,11 @@ export class App {
     private load(time: string): Promise<LoadedGrid> {
         return this.loader.load(this.state.domain, this.state.moment, time, this.timeline.isBetween(time));
     }
-    private leaveOut(time: string, error: unknown): boolean {
+    // Returns false if the time stays, and so the failure is to be told.
+    private leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
         // The server also answers 410 for a grid in parts that was made again meanwhile.
         const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
-        if (!isGone || !this.timeline.leaveOut(time)) return false;
+        if (isLeft() || !isGone || !this.timeline.leaveOut(time)) return false;
         this.tell('time');
         return true;
     }
@@ -408,7 +421,7 @@ export class App {
     // The neighbors in time, so that a step shows at once; of a loop more.
     private loadAhead(): void {
         const { times: all, at: now, isPlaying } = this.player;
-        const { domain, moment } = this.state;
+        const isLeft = this.whetherLeft();
         const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(this.player, i + 1)) : [now + 1, now - 1];
         // The server computes what is halved: of grids in parts one is asked for after the other.
         const isInParts = this.shown?.loaded.stream != null;
@@ -418,8 +431,7 @@ export class App {
             // What is made on request is not made in vain.
             if (time === undefined || (this.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
-                if (this.state.domain !== domain || this.state.moment !== moment) return;
-                await this.loadWhole(time, true).catch(error => this.leaveOut(time, error));
+                if (!isLeft()) await this.loadWhole(time, true).catch(error => this.leaveOut(time, error, isLeft));
             };
             before = isInParts ? before.then(load) : load();
         }
@@ -433,11 +445,11 @@ export class App {
     step(by: number): void {
         this.miss('');
         this.player = stepped(this.player, by);
-        void this.showTime();
+        void this.showTime(undefined, by);
     }
     follow(): void {
         this.miss('');
-        this.player = followed(this.player);
+        this.timeline.follow();
         void this.showTime();
     }
     play(): void {
@@ -456,7 +468,8 @@ export class App {
         if (this.coming > 0) this.say(texts.waiting(this.timeline.now ?? ''), false);
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
-            this.loadWhole(waitsFor, false).catch(error => this.leaveOut(waitsFor, error) || this.fail(error));
+            const isLeft = this.whetherLeft();
+            this.loadWhole(waitsFor, false).catch(error => this.leaveOut(waitsFor, error, isLeft) || this.failed(error, this.player.isPlaying && !isLeft()));
         } else if (player !== this.player) {
             this.player = player;
             void this.showTime();
@@ -476,7 +489,7 @@ export class App {
     // Of a region, any instant near the volume may have become another one; near none: any at all.
     private async takeNewsOfSite(volume: string | undefined): Promise<void> {
         const { domain, moment } = this.state;
-        const isLeft = () => domain !== this.state.domain || moment !== this.state.moment;
+        const isLeft = this.whetherLeft();
         await this.findRegion(domain);
         if (isLeft()) return;
         const isNear = (time: string) => volume === undefined || Math.abs(Date.parse(time) - Date.parse(volume)) <= farthestMadeMs;

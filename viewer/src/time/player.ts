@@ -16,16 +16,13 @@ export interface Loop {
 
 export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true, loop: null };
 
-// Takes a new list. The time that is shown stays; who follows goes to the end.
-export function withTimes(player: PlayerState, times: string[]): PlayerState {
+// Takes a new list, of which the time at `newest` is followed. The time that is shown stays, or gives way to the nearest.
+export function withTimes(player: PlayerState, times: string[], newest = times.length - 1): PlayerState {
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
-    if (player.follows || shown === undefined) return { ...player, times, at: times.length - 1 };
-    const same = times.indexOf(shown);
-    if (same >= 0) return { ...player, times, at: same };
-    // It was evicted: the next one that is there.
-    const later = times.findIndex(time => time > shown);
-    return { ...player, times, at: later < 0 ? times.length - 1 : later };
+    const { loop, follows } = player;
+    const isOver = loop !== null && loop.from < loop.to && times.filter(time => time >= loop.from && time <= loop.to).length < 2;
+    return { ...player, times, at: follows || shown === undefined ? newest : nearestTime(times, shown), loop: isOver ? null : loop };
 }
 
 // The index of the time that is nearest to another; -1: there is none.
@@ -72,6 +69,6 @@ export function looped(player: PlayerState, end: 'from' | 'to'): PlayerState {
     return { ...player, loop };
 }
 
-export function followed(player: PlayerState): PlayerState {
-    return { ...player, follows: true, isPlaying: false, at: player.times.length - 1 };
+export function followed(player: PlayerState, newest = player.times.length - 1): PlayerState {
+    return { ...player, follows: true, isPlaying: false, at: newest };
 }

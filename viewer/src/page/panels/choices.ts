@@ -1,5 +1,6 @@
 // The head of the page: domain, moments, and what is shown.
 
+import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press, putOptions } from '../dom';
@@ -60,8 +61,8 @@ function putNotice(app: App): void {
     document.documentElement.classList.toggle('lost', app.isGraphicsLost);
     element('reload').hidden = !app.isGraphicsLost;
     press('follow', app.player.follows && !app.server.isCutOff && silent.length === 0);
-    const newest = app.player.times[app.player.times.length - 1];
-    const isLive = newest !== undefined && app.server.nowMs - Date.parse(newest) < 1000 * liveS;
+    const ageMs = app.server.nowMs - Date.parse(app.newest ?? '');
+    const isLive = ageMs >= -toleratedFutureMs && ageMs < 1000 * liveS;
     element('follow').textContent = isLive ? texts.live : texts.latest;
 }
 
