@@ -42,9 +42,23 @@ const Codec* codec_of(std::span<const std::byte> start) {
     return found == codecs.end() ? nullptr : &*found;
 }
 
+// Returns true if a file of compress (.Z) unpacks to another one, as far as its first two codes, of
+// nine bits each, tell. A reset as the second one hides what comes.
+bool may_be_compressed_twice(std::span<const std::byte> start) {
+    constexpr std::size_t codes_at = 3, bytes_of_two_codes = 3;
+    constexpr unsigned nine_bits = 0x1FF, reset = 256;
+    if (start.size() < codes_at + bytes_of_two_codes) return true;
+    unsigned bits = 0;
+    for (std::size_t i = bytes_of_two_codes; i-- > 0;)
+        bits = bits << 8 | std::to_integer<unsigned>(start[codes_at + i]);
+    const unsigned first = bits & nine_bits, second = bits >> 9 & nine_bits;
+    return first >= reset || second == reset || (first == 0x1F && second == 0x9D);
+}
+
 // The filter is chosen here: libarchive's own choice looks for further filters behind the first
 // one, and what it unpacks meanwhile counts nowhere. That of compress reads at once, so it cannot
-// be there before its source; beside no other it has nothing to choose, but itself once more.
+// be there before its source; beside no other it would choose nothing but itself once more, up to
+// 25 times, and each byte of the outermost may then take milliseconds.
 bool begin_reading(::archive* handle, int filter, const PackedStream::OpenSource& source) {
     const bool is_compress = filter == ARCHIVE_FILTER_COMPRESS;
     const int code = is_compress ? archive_read_support_filter_compress(handle)
@@ -97,6 +111,7 @@ std::unique_ptr<PackedStream> PackedStream::open(std::span<const std::byte> star
                                                  bool small_codecs, Bound bound) {
     const Codec* const codec = codec_of(start);
     if (codec == nullptr || (small_codecs && !codec->is_small)) return nullptr;
+    if (codec->filter == ARCHIVE_FILTER_COMPRESS && may_be_compressed_twice(start)) return nullptr;
     of_source.begin(most_source_bytes);
     Handle handle{archive_read_new()};
     if (!handle || !begin_reading(handle.get(), codec->filter, source)) return nullptr;

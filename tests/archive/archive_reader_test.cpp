@@ -1,7 +1,13 @@
 #include "stormcellar/archive/archive_reader.h"
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -481,6 +487,65 @@ TEST(ArchiveReader, WhatIsPackedTwiceIsNone) {
     }
     EXPECT_FALSE(
         ArchiveReader::open(packed(Kind::tar_compress, make_archive(Kind::tar_compress, two))));
+}
+
+// Packs as compress does, with codes of up to `most_width` bits: `prefix`, then `period` again and
+// again. Each byte that is appended to the result for `repeated` stands for many periods.
+struct EndlessCompressed {
+    std::string start, repeated;
+};
+EndlessCompressed compressed_without_end(const std::string& prefix, const std::string& period,
+                                         unsigned most_width) {
+    const unsigned full = 1U << most_width;
+    const auto at = [&](std::size_t i) {
+        return i < prefix.size() ? prefix[i] : period[(i - prefix.size()) % period.size()];
+    };
+    EndlessCompressed made{"\x1F\x9D", {}};
+    made.start += static_cast<char>(0x80 | most_width);
+    std::map<std::pair<unsigned, char>, unsigned> known;
+    unsigned next = 257, width = 9, buffer = 0, buffered = 0, written = 0;
+    for (std::size_t i = 0;;) {
+        unsigned code = static_cast<unsigned char>(at(i));
+        std::size_t end = i + 1, periods_end = 0;
+        unsigned code_of_periods = 0;
+        for (auto longer = known.find({code, at(end)}); longer != known.end();
+             longer = known.find({code, at(end)})) {
+            code = longer->second;
+            ++end;
+            if (i >= prefix.size() && (end - i) % period.size() == 0)
+                code_of_periods = code, periods_end = end;
+        }
+        if (next >= full && width == most_width && buffered == 0 && periods_end != 0) {
+            std::uint64_t codes = 0;
+            const unsigned bits = std::lcm(8U, most_width);
+            for (unsigned shift = 0; shift < bits; shift += most_width)
+                codes |= std::uint64_t{code_of_periods} << shift;
+            for (unsigned shift = 0; shift < bits; shift += 8)
+                made.repeated += static_cast<char>(codes >> shift);
+            return made;
+        }
+        buffer |= code << buffered;
+        for (buffered += width; buffered >= 8; buffered -= 8, buffer >>= 8)
+            made.start += static_cast<char>(buffer);
+        if (++written > 1 && 256 + written >= (1U << width) && width < most_width) ++width;
+        if (next < full) known[{code, at(end)}] = next++;
+        i = end;
+    }
+}
+
+// 2026-11-28: of 60 kB the daemon took three minutes, and its watchdog was not fed.
+TEST(ArchiveReader, WhatIsCompressedTwiceAndUnpacksToNothingTakesNoTime) {
+    using namespace std::string_literals;
+    // Resets alone: nine bytes each, and nothing comes out.
+    const auto once =
+        compressed_without_end("\x1F\x9D\x90\0\1\0\0\0\0"s, "\0\1\0\0\0\0\0\0\0"s, 12);
+    const auto twice = compressed_without_end(once.start, once.repeated, 14);
+    std::string file = twice.start;
+    for (int i = 0; i < 3000; ++i)
+        file += twice.repeated;
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_FALSE(ArchiveReader::open(bytes_of(file)));
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds{2});
 }
 
 TEST(MemberPath, IsOneWhereTheArchiveStandsAndThePathDoesNot) {

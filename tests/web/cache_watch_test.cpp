@@ -55,5 +55,37 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
     EXPECT_TRUE(has_told(CacheEvent::went)) << "it goes on";
 }
 
+// 2026-11-28: grids that could not be looked at for a while were said to be evicted. A link that
+// leads to itself stands for whatever refuses a look.
+TEST(CacheWatch, WhatCannotBeLookedAtIsNotGone) {
+    const testing::TemporaryDirectory directory;
+    std::filesystem::create_directory(directory / "a");
+    std::filesystem::create_directory_symlink(directory / "a", directory / "b");
+    auto store = *cache::StoreWriter::open(real_file_system(), directory / "a/cache", false);
+    ASSERT_TRUE(testing::commit_sized(store, "KBGM", noon));
+    std::vector<CacheEvent> told;
+    std::mutex mutex;
+    const auto watch = CacheWatch::open(directory / "b/cache", [&](const CacheChange& change) {
+        const std::scoped_lock lock(mutex);
+        told.push_back(change.event);
+    });
+    std::filesystem::remove(directory / "b");
+    std::filesystem::create_symlink("b", directory / "b");
+    watch->rescan();
+    {
+        const std::scoped_lock lock(mutex);
+        EXPECT_EQ(std::ranges::count(told, CacheEvent::went), 0);
+        EXPECT_TRUE(watch->problem());
+    }
+    std::filesystem::remove(directory / "b");
+    std::filesystem::create_directory_symlink(directory / "a", directory / "b");
+    watch->rescan();
+    EXPECT_EQ(watch->problem(), std::nullopt);
+    ASSERT_TRUE(store.remove(store.list("KBGM", level2::Moment::ref, noon, noon)->front()));
+    watch->rescan();
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(std::ranges::count(told, CacheEvent::went), 1);
+}
+
 }  // namespace
 }  // namespace stormcellar::web

@@ -1,6 +1,7 @@
 #include "web/data/cache_tree.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <memory>
 #include <set>
@@ -83,17 +84,26 @@ void CacheTree::tell_everything() {
 std::optional<bool> CacheTree::look(const Place& place, Seen& seen) {
     const std::filesystem::path path = path_of(place);
     struct stat facts {};
+    // What cannot be looked at is not gone: it stays as it was known.
+    enum class Found { directory, nothing, unreadable };
+    const auto find = [&] {
+        if (::lstat(path.c_str(), &facts) != 0)
+            return errno == ENOENT || errno == ENOTDIR ? Found::nothing : Found::unreadable;
+        return S_ISDIR(facts.st_mode) ? Found::directory : Found::nothing;
+    };
     const auto is_the_same = [&] {
         return seen.device == facts.st_dev && seen.inode == facts.st_ino;
     };
-    if (::lstat(path.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode)) return std::nullopt;
-    if (!is_the_same()) unwatch(seen);
-    if (seen.watch < 0) {
+    Found found = find();
+    if (found == Found::directory && !is_the_same()) unwatch(seen);
+    if (found == Found::directory && seen.watch < 0) {
         if (notify_ >= 0) seen.watch = ::inotify_add_watch(notify_, path.c_str(), watched_events);
         if (seen.watch >= 0) places_[seen.watch] = place;
-        if (::lstat(path.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode)) return std::nullopt;
+        found = find();
     }
-    if (seen.watch < 0) blind_ = true;
+    if (found == Found::nothing) return std::nullopt;
+    if (found == Found::unreadable || seen.watch < 0) blind_ = true;
+    if (found == Found::unreadable) return false;
     // Names that changed within the last tick of the clock may have left no mark in the time.
     const std::int64_t modified_ns = nanoseconds_of(facts.st_mtim);
     const bool must_read = !is_the_same() || modified_ns != seen.modified_ns ||

@@ -146,8 +146,8 @@ std::optional<std::string> CacheWatch::problem() const {
     }
     if (impl_->tree.is_blind()) {
         return fmt::format(
-            "not every directory of the cache can be watched (see the sysctl "
-            "fs.inotify.max_user_watches); the cache is read every {} seconds",
+            "not every directory of the cache can be watched and read (see its rights, and the "
+            "sysctl fs.inotify.max_user_watches); the cache is read every {} seconds",
             look_when_blind_every.count());
     }
     return std::nullopt;

@@ -263,6 +263,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     const std::filesystem::path path = impl_->options.cache / cache::relative_path(name);
     // A link on the way leads nowhere.
     const Result<struct stat> facts = look_beneath(impl_->options.cache, path);
+    if (!facts && facts.error().code != ErrorCode::not_found) return pass_on(facts);
     if (!facts || !S_ISREG(facts->st_mode)) {
         return fail(ErrorCode::not_found, "there is no grid of {}, {}, at {}", domain,
                     level2::moment_name(moment), format_utc(time));
