@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { MapView, boxAbout, boxBetween, draggedMap, fittedMap, grownBox, holdsBox, isInBox, mapPoint, pixelOf, placeOfPoint, pointAt, scaledMap, tilesOf } from '../src/map/mercator';
+import { MapView, boxAbout, boxBetween, draggedMap, fittedMap, grownBox, holdsBox, isInBox, mapPoint, pixelOf, placeOfPoint, pointAt, reaches, scaledMap, tilesOf } from '../src/map/mercator';
 
 const view: MapView = { center: [0.25, 0.4], scale: 4096, width: 800, height: 600 };
 const place = (latitudeDeg: number, longitudeDeg: number) => ({ latitudeDeg, longitudeDeg });
@@ -90,4 +90,11 @@ test('the box about a longitude is no wider than its places', () => {
     assert.deepEqual(box, { west: -181, south: 50, east: -175, north: 52 });
     const east = boxAbout(179, [place(50, 177), place(52, -179)]);
     assert.deepEqual(east, { west: 177, south: 50, east: 181, north: 52 });
+});
+
+test('a radar is of the view if its circle meets it (2026-11-28: of nearer views, radars beside them were forgotten)', () => {
+    const view: MapView = { center: mapPoint({ latitudeDeg: 40, longitudeDeg: -100 }), scale: 256 * 2 ** 10, width: 700, height: 400 };
+    assert.equal(reaches(view, { latitudeDeg: 40, longitudeDeg: -97 }, 230_000), true); // 256 km away, the view is 82 km wide
+    assert.equal(reaches(view, { latitudeDeg: 40, longitudeDeg: -96 }, 230_000), false);
+    assert.equal(reaches(view, { latitudeDeg: 40, longitudeDeg: -100 }, 230_000), true);
 });

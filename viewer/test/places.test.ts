@@ -61,6 +61,7 @@ test('an arrow leads to the next station in its direction', () => {
 
 test('outlines lie where the grid ends', () => {
     const facts: GridFacts = {
+        id: '',
         time: '',
         projection: 'azimuthal_equidistant',
         center: [35, -97],

@@ -26,6 +26,7 @@ const mostLatitudeDeg = 85.05;
 const leastScale = 256;
 const mostScale = 256 * 2 ** 13;
 const tileSide = 256;
+const equatorM = 40_075_017; // around the earth
 const deepestZoom = 10;
 
 export function mapPoint(place: Place): MapPoint {
@@ -154,6 +155,13 @@ export function grownBox({ west, south, east, north }: MapBox, share: number): M
     const dx = Math.min(share * wide, (360 - wide) / 2);
     const dy = share * (north - south);
     return { west: west - dx, south: Math.max(-85, south - dy), east: west + wide + dx, north: Math.min(85, north + dy) };
+}
+
+// Whether a circle about a place meets the view.
+export function reaches(view: MapView, place: Place, radiusM: number): boolean {
+    const [x, y] = pixelOf(view, mapPoint(place));
+    const aside = Math.hypot(Math.max(0, -x, x - view.width), Math.max(0, -y, y - view.height));
+    return aside <= (radiusM * view.scale) / (equatorM * Math.cos(place.latitudeDeg * radians));
 }
 
 export function holdsBox(outer: MapBox, inner: MapBox): boolean {

@@ -45,6 +45,7 @@ export interface Station {
 }
 // What a grid is, of which the page uses a part.
 export interface GridFacts {
+    id: string; // another one if it is made again
     time: string;
     projection: string;
     center: [number, number];

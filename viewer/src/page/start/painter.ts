@@ -63,7 +63,7 @@ export interface Outline {
 export interface StartScene {
     view: MapView; // in pixels of the page
     map: MapPaths | null; // none until it is loaded
-    pictures: (Picture & { outline: Outline | null; within: Rect | null })[];
+    pictures: (Picture & { outline: Outline; within: Rect })[];
     outlines: Outline[];
     stations: StationPlace[];
     chosen: string | null; // the station or domain that is pointed at
@@ -118,15 +118,12 @@ function drawPictures(pen: CanvasRenderingContext2D, scene: StartScene, tiles: T
     const shown: Tile[] = tilesOf(scene.view);
     tiles.begin();
     for (const picture of scene.pictures) {
-        const { within, outline } = picture;
         pen.save();
-        if (outline) {
-            trace(pen, pixelsOf(scene.view, outline));
-            pen.clip();
-        }
+        trace(pen, pixelsOf(scene.view, picture.outline));
+        pen.clip();
         for (const tile of shown) {
             const rect = { left: tile.x, top: tile.y, right: tile.x + tile.side, bottom: tile.y + tile.side };
-            if (!within || overlaps(rect, within)) tiles.draw(pen, picture, tile);
+            if (overlaps(rect, picture.within)) tiles.draw(pen, picture, tile);
         }
         pen.restore();
     }

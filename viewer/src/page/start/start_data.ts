@@ -2,11 +2,14 @@
 
 import { circleOf, outlineOf } from '../../map/outline';
 import { StationPlace, stationPlaces } from '../../map/places';
+import { geodesic } from '../../scene/projection';
 import { Domain, GridFacts, gridFacts, stations } from '../../wire/api';
 import { Outline } from './painter';
 
 const pictured = 'REF';
 const mostPicturedStations = 12; // at a time, where no mosaic shows what they see
+const mostBehindMs = 20 * 60 * 1000; // a mosaic that is further behind a radar within it is not what is seen now
+const usualReachM = 230_000; // of a radar's own grid
 
 export interface SeenDomain {
     domain: Domain;
@@ -16,18 +19,27 @@ export interface SeenDomain {
 
 export class StartData {
     unpictured = 0; // stations of the view whose echo is not drawn, because there are too many
+    lacks = false; // what some domain of the picture is has not come yet
     stations: StationPlace[] = [];
     mosaics: SeenDomain[] = [];
-    private seen = new Map<string, SeenDomain>(); // by domain and time
-    private asked = new Set<string>();
+    reachM = usualReachM; // of the station whose grid is the largest
+    private seen = new Map<string, SeenDomain>(); // by domain
+    private asked = new Set<string>(); // domains with the times of their grids
+    private drawn: Domain[] = []; // stations of the last picture
 
     constructor(private changed: () => void) {}
 
-    async load(domains: Domain[]): Promise<void> {
+    // A grid that is made again keeps its time, so that all that is drawn or `chosen` is asked for anew.
+    async load(domains: Domain[], chosen: string | null): Promise<void> {
         this.stations = stationPlaces(await stations());
         const known = new Set(this.stations.map(one => one.icao));
         const others = domains.filter(domain => !known.has(domain.domain));
-        this.mosaics = await Promise.all(others.map(domain => this.see(domain, false)));
+        const again = domains.filter(({ domain }) => known.has(domain) && (domain === chosen || this.drawn.some(one => one.domain === domain)));
+        const kept = new Set([...others, ...again].map(({ domain }) => domain));
+        for (const domain of this.seen.keys()) if (!kept.has(domain)) this.seen.delete(domain);
+        this.asked.clear();
+        const [mosaics] = await Promise.all([Promise.all(others.map(domain => this.see(domain, false))), ...again.map(domain => this.see(domain, true))]);
+        this.mosaics = mosaics;
         this.changed();
     }
 
@@ -35,30 +47,30 @@ export class StartData {
         return domain.moments.find(one => one.moment === pictured) ?? domain.moments[0];
     }
 
-    // What a domain's newest grid is; asked once for each grid.
+    // Asks what a domain's newest grid is.
     private async see(domain: Domain, isStation: boolean): Promise<SeenDomain> {
         const moment = StartData.momentOf(domain);
-        const key = `${domain.domain} ${moment?.newest ?? ''}`;
-        const known = this.seen.get(key);
-        if (known) return known;
-        const facts = moment ? await gridFacts(domain.domain, moment.moment, moment.newest).catch(() => null) : null;
+        const facts = moment ? await gridFacts(domain.domain, moment.moment, moment.newest).catch(() => this.known(domain)?.facts ?? null) : null;
         const places = facts && (isStation ? circleOf(facts) : outlineOf(facts));
+        if (facts && isStation) this.reachM = Math.max(this.reachM, geodesic({ latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] }, places![0]!).distanceM);
         const seen: SeenDomain = { domain, facts, outline: places && { domain: domain.domain, places } };
-        this.seen.set(key, seen);
+        this.seen.set(domain.domain, seen);
         return seen;
+    }
+    private known(domain: Domain): SeenDomain | undefined {
+        const known = this.seen.get(domain.domain);
+        return known && StartData.momentOf(known.domain)?.newest === StartData.momentOf(domain)?.newest ? known : undefined;
     }
 
     // The same of a station, if it is known; else it is asked for.
     find(domain: Domain): SeenDomain | null {
-        const moment = StartData.momentOf(domain);
-        const key = `${domain.domain} ${moment?.newest ?? ''}`;
-        const known = this.seen.get(key);
-        if (known) return known;
-        if (moment && !this.asked.has(key)) {
+        const key = `${domain.domain} ${StartData.momentOf(domain)?.newest ?? ''}`;
+        if (!this.known(domain) && !this.asked.has(key)) {
             this.asked.add(key);
             void this.see(domain, true).then(() => this.changed());
         }
-        return null;
+        // Until it is known what is new, what was before is drawn.
+        return this.seen.get(domain.domain) ?? null;
     }
 
     // The newest time of what can be pictured.
@@ -66,17 +78,20 @@ export class StartData {
         return domain.moments.find(one => one.moment === pictured)?.newest ?? null;
     }
 
-    // Of stations, the first so many that are not within what a mosaic shows; the oldest first, as they are drawn.
-    pictures(domains: Domain[], visible: StationPlace[], isCovered: (station: StationPlace) => boolean, isSeen: (station: StationPlace) => boolean): SeenDomain[] {
-        const open = visible.filter(one => one.hasGrids && !isCovered(one));
-        this.unpictured = open.slice(mostPicturedStations).filter(isSeen).length;
-        const own = open
-            .slice(0, mostPicturedStations)
-            .sort((a, b) => (b.ageS ?? 0) - (a.ageS ?? 0))
-            .map(station => domains.find(domain => domain.domain === station.icao))
-            .filter((domain): domain is Domain => domain !== undefined && StartData.pictureTime(domain) !== null)
-            .map(domain => this.find(domain))
-            .filter((seen): seen is SeenDomain => seen !== null);
-        return [...own, ...this.mosaics.filter(({ domain }) => StartData.pictureTime(domain) !== null)];
+    // What is drawn: of the `visible` stations, the nearest first, so many that no mosaic shows, the oldest first; then the
+    // mosaics that show what is seen now.
+    pictures(domains: Domain[], visible: StationPlace[], isWithin: (outline: Outline, station: StationPlace) => boolean): SeenDomain[] {
+        const newestMs = (outline: Outline) => Math.max(...this.stations.filter(one => isWithin(outline, one)).map(one => Date.parse(one.newestGrid ?? '') || 0), 0);
+        const mosaics = this.mosaics.filter(({ domain, outline }) => outline && Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs);
+        const isShown = (one: StationPlace) => mosaics.some(({ facts, outline }) => facts!.provenance.stations.includes(one.icao) && isWithin(outline!, one));
+        const own = visible.flatMap(station => {
+            const domain = domains.find(one => one.domain === station.icao);
+            return domain && StartData.pictureTime(domain) !== null && !isShown(station) ? [{ domain, ageS: station.ageS ?? 0 }] : [];
+        });
+        this.unpictured = Math.max(0, own.length - mostPicturedStations);
+        this.drawn = own.slice(0, mostPicturedStations).sort((a, b) => b.ageS - a.ageS).map(({ domain }) => domain);
+        const stationsSeen = this.drawn.map(domain => this.find(domain)).filter((seen): seen is SeenDomain => seen !== null && seen.facts !== null);
+        this.lacks = stationsSeen.length < this.drawn.length || this.mosaics.some(({ facts }) => !facts);
+        return [...stationsSeen, ...mosaics];
     }
 }

@@ -1,6 +1,6 @@
 // The map of all stations, from which a user enters: by a click, a touch, the keys or the list.
 
-import { MapBox, MapView, boxBetween, draggedMap, fittedMap, isInBox, mapPoint, pixelOf, scaledMap } from '../../map/mercator';
+import { MapBox, MapView, boxBetween, draggedMap, fittedMap, isInBox, mapPoint, pixelOf, reaches, scaledMap } from '../../map/mercator';
 import { Pixel, StationPlace, isInside, nearestPixel, pixelToward, search } from '../../map/places';
 import { isRegion, regionName } from '../../wire/api';
 import { App } from '../app';
@@ -9,7 +9,7 @@ import { Rect } from '../labels';
 import { texts } from '../texts';
 import { BaseMap } from './base_map';
 import { MapPointers } from './map_pointers';
-import { StartScene, paint, pixelsOf } from './painter';
+import { Outline, StartScene, paint, pixelsOf } from './painter';
 import { PlaceList, ListedPlace, listedStation } from './place_list';
 import { StartData } from './start_data';
 import { Tiles } from './tiles';
@@ -17,6 +17,7 @@ import { Tiles } from './tiles';
 const reach = 28; // pixels about a station that mean it
 const lookAgainAfterMs = 30_000;
 const mostScaleAtFirst = 12_000; // a lone station has its surroundings
+const toldAfterMs = 1000; // what has not come until then
 const edge = 60; // pixels left free about what is shown
 
 export class StartMap {
@@ -33,6 +34,7 @@ export class StartMap {
     private isDrawing = false;
     private timer = 0;
     private said = '';
+    private lacksSince = Infinity; // ms
     boxes = false; // a drag makes a box instead of moving the map
 
     constructor(private app: App) {
@@ -82,7 +84,7 @@ export class StartMap {
         if (document.hidden) return;
         try {
             await this.app.findDomains();
-            await this.data.load(this.app.domains.filter(one => !isRegion(one.domain)));
+            await this.data.load(this.app.domains.filter(one => !isRegion(one.domain)), this.chosen);
         } catch (error) {
             this.say(texts.failed(error instanceof Error ? error.message : String(error)));
         }
@@ -146,6 +148,9 @@ export class StartMap {
         const [width, height] = [Math.round(view.width * ratio), Math.round(view.height * ratio)];
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
         paint(canvas.getContext('2d')!, this.scene(view), this.tiles, ratio);
+        const lacks = this.tiles.lacks || this.data.lacks;
+        if (lacks && this.lacksSince === Infinity) window.setTimeout(() => this.draw(), toldAfterMs);
+        this.lacksSince = lacks ? Math.min(this.lacksSince, performance.now()) : Infinity;
         this.putCard();
         // Where the stations are, for whoever looks at the page from outside.
         const places = this.data.stations.map(one => [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '));
@@ -155,22 +160,24 @@ export class StartMap {
     private scene(view: MapView): StartScene {
         const { data, app } = this;
         const mosaics = data.mosaics.map(({ outline }) => outline).filter((one): one is NonNullable<typeof one> => one !== null);
-        const polygons = mosaics.map(one => pixelsOf(view, one));
+        const polygons = new Map(mosaics.map(one => [one, pixelsOf(view, one)]));
         const middle: Pixel = [view.width / 2, view.height / 2];
         const away = (one: StationPlace): number => {
             const [x, y] = pixelOf(view, mapPoint(one));
             return Math.hypot(x - middle[0], y - middle[1]);
         };
-        const seen = boxBetween(view, [0, 0], [view.width, view.height]);
-        const visible = data.stations.filter(one => away(one) < view.width).sort((a, b) => away(a) - away(b));
-        const isCovered = (one: StationPlace) => polygons.some(polygon => isInside(polygon, ...pixelOf(view, mapPoint(one))));
+        const visible = data.stations.filter(one => reaches(view, one, data.reachM)).sort((a, b) => away(a) - away(b));
+        const isWithin = (outline: Outline, one: StationPlace) => isInside(polygons.get(outline)!, ...pixelOf(view, mapPoint(one)));
         return {
             view,
             map: this.base.for(view),
-            pictures: data.pictures(app.domains, visible, isCovered, one => isInBox(one, seen)).map(({ domain, outline }) => {
-                const within = outline ? boundsOf(pixelsOf(view, outline)) : null;
-                return { domain: domain.domain, time: StartData.pictureTime(domain)!, outline, within };
-            }),
+            pictures: data.pictures(app.domains, visible, isWithin).map(({ domain, facts, outline }) => ({
+                domain: domain.domain,
+                time: StartData.pictureTime(domain)!,
+                id: facts!.id,
+                outline: outline!,
+                within: boundsOf(pixelsOf(view, outline!)),
+            })),
             outlines: mosaics,
             stations: data.stations,
             chosen: this.chosen,
@@ -237,7 +244,7 @@ export class StartMap {
         this.putCard();
     }
     private putCard(): void {
-        const card = [this.said, this.data.unpictured > 0 ? texts.start.unpictured(this.data.unpictured) : '', this.tiles.lacks ? texts.start.lacksEcho : ''].filter(Boolean).join(' ');
+        const card = [this.said, this.data.unpictured > 0 ? texts.start.unpictured(this.data.unpictured) : '', performance.now() - this.lacksSince >= toldAfterMs ? texts.start.lacksEcho : ''].filter(Boolean).join(' ');
         if (element('start-card').textContent !== card) element('start-card').textContent = card;
     }
 

@@ -7,7 +7,7 @@ const mostAtOnce = 4;
 const mostKept = 400;
 const againAfterMs = 1500; // the server draws a few pictures at a time, and says so
 const longestPause = 10; // times that; a tile is asked for until it comes: without it the map shows no echo there
-const toldAfterTries = 2;
+const mostUp = 5; // zooms of a coarser tile that is drawn until then
 
 interface Kept {
     image: HTMLImageElement;
@@ -19,54 +19,58 @@ interface Kept {
 export interface Picture {
     domain: string;
     time: string;
+    id: string; // of the grid
 }
 
+type TilePlace = Pick<Tile, 'zoom' | 'column' | 'row'>;
+
 export class Tiles {
-    private kept = new Map<string, Kept>(); // the least recently asked first
+    private kept = new Map<string, Kept>(); // the least recently asked first, by path and id
     private waiting: string[] = [];
     private loading = 0;
-    lacks = false; // some tile of what was drawn last did not come
+    private drawn = new Map<string, Picture[]>(); // of a domain: the last picture, and the one before it
+    lacks = false; // some tile of what was drawn last has not come
 
     constructor(private loaded: () => void) {}
 
-    private static path({ domain, time }: Picture, { zoom, column, row }: Pick<Tile, 'zoom' | 'column' | 'row'>): string {
-        return `tiles/${encodeURIComponent(domain)}/composite.REF/${encodeURIComponent(time)}/${zoom}/${column}/${row}.png`;
+    private static key({ domain, time, id }: Picture, { zoom, column, row }: TilePlace): string {
+        return `tiles/${encodeURIComponent(domain)}/composite.REF/${encodeURIComponent(time)}/${zoom}/${column}/${row}.png#${id}`;
     }
 
     // What waits to be loaded is forgotten: another view is drawn.
     begin(): void {
-        for (const path of this.waiting) this.kept.delete(path);
+        for (const key of this.waiting) this.kept.delete(key);
         this.waiting = [];
         this.lacks = false;
     }
 
-    // Draws a tile, or the part of a coarser one that is there, and asks for it.
+    // Draws a tile, and asks for it. Until it is there, that of the grid before or the part of a coarser one is drawn.
     draw(pen: CanvasRenderingContext2D, picture: Picture, tile: Tile): void {
-        const own = this.find(Tiles.path(picture, tile));
-        if (own) {
-            pen.drawImage(own, tile.x, tile.y, tile.side, tile.side);
-            return;
-        }
-        for (let up = 1; up <= Math.min(5, tile.zoom); ++up) {
+        const before = this.drawn.get(picture.domain) ?? [];
+        if (before[0]?.id !== picture.id) this.drawn.set(picture.domain, [picture, ...before.slice(0, 1)]);
+        const own = this.find(Tiles.key(picture, tile));
+        if (own) return void pen.drawImage(own, tile.x, tile.y, tile.side, tile.side);
+        this.lacks = true;
+        for (let up = 0; up <= Math.min(mostUp, tile.zoom); ++up) {
             const [column, row] = [tile.column >> up, tile.row >> up];
-            const coarse = this.kept.get(Tiles.path(picture, { zoom: tile.zoom - up, column, row }));
-            if (!coarse?.isThere) continue;
-            const side = coarse.image.width / 2 ** up;
-            pen.drawImage(coarse.image, (tile.column - (column << up)) * side, (tile.row - (row << up)) * side, side, side, tile.x, tile.y, tile.side, tile.side);
+            const place = { zoom: tile.zoom - up, column, row };
+            const other = this.drawn.get(picture.domain)!.map(one => this.kept.get(Tiles.key(one, place))).find(one => one?.isThere);
+            if (!other) continue;
+            const side = other.image.width / 2 ** up;
+            pen.drawImage(other.image, (tile.column - (column << up)) * side, (tile.row - (row << up)) * side, side, side, tile.x, tile.y, tile.side, tile.side);
             return;
         }
     }
 
-    private find(path: string): HTMLImageElement | null {
-        const known = this.kept.get(path);
+    private find(key: string): HTMLImageElement | null {
+        const known = this.kept.get(key);
         if (known) {
-            this.kept.delete(path);
-            this.kept.set(path, known);
-            this.lacks ||= !known.isThere && known.tries >= toldAfterTries;
+            this.kept.delete(key);
+            this.kept.set(key, known);
             return known.isThere ? known.image : null;
         }
-        this.kept.set(path, { image: new Image(), isThere: false, tries: 0 });
-        this.waiting.push(path);
+        this.kept.set(key, { image: new Image(), isThere: false, tries: 0 });
+        this.waiting.push(key);
         this.next();
         for (const old of this.kept.keys()) {
             if (this.kept.size <= mostKept) break;
@@ -77,31 +81,35 @@ export class Tiles {
 
     private next(): void {
         while (this.loading < mostAtOnce) {
-            const path = this.waiting.shift();
-            if (path === undefined) return;
-            const kept = this.kept.get(path);
+            const key = this.waiting.shift();
+            if (key === undefined) return;
+            const kept = this.kept.get(key);
             if (!kept) continue;
             ++this.loading;
-            kept.image.onload = () => {
-                kept.isThere = true;
-                this.ended();
-                this.loaded();
-            };
-            kept.image.onerror = () => {
-                this.ended();
-                window.setTimeout(() => this.again(path), againAfterMs * Math.min(++kept.tries, longestPause));
-                if (kept.tries === toldAfterTries) this.loaded();
-            };
-            kept.image.src = address(path);
+            void this.load(key.split('#')[0]!, kept.image)
+                .then(
+                    () => {
+                        kept.isThere = true;
+                        this.loaded();
+                    },
+                    () => void window.setTimeout(() => this.again(key), againAfterMs * Math.min(++kept.tries, longestPause)),
+                )
+                .then(() => {
+                    --this.loading;
+                    this.next();
+                });
         }
     }
-    private ended(): void {
-        --this.loading;
-        this.next();
+    // The browser may keep a tile of a grid that was made again.
+    private async load(path: string, image: HTMLImageElement): Promise<void> {
+        const answer = await fetch(address(path), { cache: 'no-cache' });
+        if (!answer.ok) throw new Error(answer.statusText);
+        image.src = URL.createObjectURL(await answer.blob());
+        await image.decode().finally(() => URL.revokeObjectURL(image.src));
     }
-    private again(path: string): void {
-        if (!this.kept.has(path)) return;
-        this.waiting.push(path);
+    private again(key: string): void {
+        if (!this.kept.has(key)) return;
+        this.waiting.push(key);
         this.next();
     }
 }
