@@ -5,11 +5,11 @@ import test from 'node:test';
 import type { App } from '../src/page/app';
 import { ServerState } from '../src/page/server_state';
 
-const server = { isUp: true, streams: new Set<ReadableStreamDefaultController<Uint8Array>>() };
+const server = { isUp: true, isHanging: false, waits: new Map<number, number>(), streams: new Set<ReadableStreamDefaultController<Uint8Array>>() };
 // Timers and channels of pages do not keep the test from ending.
 const unref = <Waits>(waits: Waits): Waits => ((waits as unknown as { unref: () => void }).unref(), waits);
 Object.assign(globalThis, {
-    window: { setTimeout: (act: () => void, ms: number) => unref(setTimeout(act, ms)), clearTimeout },
+    window: { setTimeout: (act: () => void, ms: number) => unref(setTimeout(act, server.waits.get(ms) ?? ms)), clearTimeout },
     BroadcastChannel: class extends BroadcastChannel {
         constructor(name: string) {
             super(name);
@@ -19,6 +19,7 @@ Object.assign(globalThis, {
     document: { baseURI: 'http://localhost/view/' },
     fetch: (url: string, options: RequestInit): Promise<Response> => {
         if (!server.isUp) return Promise.reject(new TypeError('no answer'));
+        if (server.isHanging) return new Promise((_, failed) => options?.signal?.addEventListener('abort', () => failed(new TypeError('aborted'))));
         if (!String(url).includes('events')) return Promise.resolve(new Response('{"stations":[]}'));
         const body = new ReadableStream<Uint8Array>({
             start(stream) {
@@ -68,4 +69,19 @@ test('three pages of a browser listen, and the others ask for lists', async () =
         withPlace.every(page => page.server.isCutOff),
         true,
     );
+});
+
+// 2026-11-28: the fourth page of a browser said nothing when the server hung, and went on looking live.
+test('a page without a stream tells that the server hangs', async () => {
+    await pause(3500); // the pages of the test above listen again
+    server.isUp = true;
+    server.waits.set(30_000, 500);
+    const pages = await Promise.all([open(), open(), open(), open()]);
+    await pause(1400);
+    const without = pages.find(page => page.asked() > 0)!;
+    assert.equal(without.server.isCutOff, false);
+    server.isHanging = true;
+    server.waits.set(40_000, 1300); // longer than it takes to find that there is no place
+    await pause(4000);
+    assert.equal(without.server.isCutOff, true);
 });

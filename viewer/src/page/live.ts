@@ -19,10 +19,14 @@ const refusedAgainAfterMs = 30_000;
 const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
 
 const pause = (ms: number): Promise<void> => new Promise(done => window.setTimeout(done, ms));
+const noAnswer = (): never => {
+    throw new TypeError('no answer');
+};
 
 export class Live {
     private last = ''; // the id of the last event
     private isBehind = false; // news may be lost: all lists are to be asked for
+    private isCatchingUp = false; // without a stream
     private readonly places = new StreamPlaces();
 
     // News are taken once the page has `begun`; what comes before waits.
@@ -51,12 +55,14 @@ export class Live {
         });
         try {
             const answer = await askEvents(this.last, abort.signal);
+            const wasCutOff = this.app.server.isCutOff;
+            this.app.server.take(true, Date.parse(answer.headers.get('Date') ?? ''));
             if (!answer.ok || !answer.body) {
                 this.places.leave();
                 await this.doWithout();
                 return false;
             }
-            this.connected(answer);
+            this.connected(wasCutOff);
             const [reader, decoder, text] = [answer.body.getReader(), new TextDecoder(), new EventText()];
             for (let part = await reader.read(); !part.done; part = await reader.read()) {
                 wait();
@@ -79,9 +85,7 @@ export class Live {
         return true;
     }
 
-    private connected(answer: Response): void {
-        const wasCutOff = this.app.server.isCutOff;
-        this.app.server.take(true, Date.parse(answer.headers.get('Date') ?? ''));
+    private connected(wasCutOff: boolean): void {
         // What was asked for meanwhile got no answer. Lists that came before the stream may lack what came between.
         this.isBehind = this.isBehind || wasCutOff || (this.last === '' && this.app.hasLists);
         void this.begun.then(() => this.askSilences()).catch(() => undefined);
@@ -90,12 +94,14 @@ export class Live {
     private async askSilences(): Promise<void> {
         this.app.server.takeSilences(await silences());
     }
-    // There is no place for another stream, or the server has none: the lists tell as much, if later.
+    // There is no place for another stream, or the server has none: the lists tell as much, if later. Pictures may take
+    // long; a server that does not tell who is silent does not answer.
     private async doWithout(): Promise<void> {
-        await this.begun;
-        await this.app.catchUp();
-        await this.askSilences();
+        await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);
         this.app.server.take(true);
+        if (this.isCatchingUp) return;
+        this.isCatchingUp = true;
+        this.do(() => this.app.catchUp().finally(() => (this.isCatchingUp = false)));
     }
 
     private async hasDoneWithout(): Promise<boolean> {
