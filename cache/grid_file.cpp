@@ -151,11 +151,9 @@ Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size,
     const auto at = checked_layout(metadata.header);
     if (!at) return pass_on(at);
     metadata.at = *at;
-    const std::uint64_t read_bytes =
-        at->codes_offset + (is_packed(metadata.header) ? at->codes_size : 0);
-    if (read_bytes > most_read_bytes) {
+    if (at->codes_offset > most_read_bytes) {
         return fail(ErrorCode::unsupported, "{} bytes of it are read to memory, more than {}",
-                    read_bytes, most_read_bytes);
+                    at->codes_offset, most_read_bytes);
     }
     if (Status whole = check_size(file_size, at->file_size); !whole) return pass_on(whole);
 
@@ -202,14 +200,35 @@ struct Codes {
     std::span<const std::byte> view;
 };
 
-// Unpacks each stored brick into its place and compares it with the checksum of its entry.
-Status unpack_all(std::span<const std::byte> packed, const grid::BrickView& view,
+// Unpacks each stored brick into its place and compares it with the checksum of its entry. A
+// stretch of packed bricks is in memory at a time.
+Status unpack_all(const Descriptor& file, std::uint64_t offset, const grid::BrickView& view,
                   std::span<std::byte> places) {
+    constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
     const std::size_t brick_bytes =
         grid::brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
+    std::vector<std::byte> stretch;
+    std::span<const std::byte> packed;
+    std::size_t read_until = 0;  // the brick behind the stretch
+    const auto read_stretch = [&](std::size_t first) -> Status {
+        std::size_t bytes = 0;
+        for (read_until = first; read_until < view.bricks.size(); ++read_until) {
+            const BrickEntry& entry = view.bricks[read_until];
+            if (entry.kind != grid::BrickKind::stored) continue;
+            if (bytes > 0 && bytes + entry.packed_bytes > stretch_bytes) break;
+            bytes += entry.packed_bytes;
+        }
+        stretch.resize(bytes);
+        packed = stretch;
+        offset += bytes;
+        return read_at(file, offset - bytes, stretch);
+    };
     for (std::size_t i = 0; i < view.bricks.size(); ++i) {
         const BrickEntry& entry = view.bricks[i];
         if (entry.kind != grid::BrickKind::stored) continue;
+        if (i >= read_until) {
+            if (Status read = read_stretch(i); !read) return read;
+        }
         const auto place = places.subspan(i * brick_bytes, brick_bytes);
         Status unpacked = unpack_brick(packed.first(entry.packed_bytes), place);
         if (unpacked && xxh3_64(place) != entry.checksum) {
@@ -245,13 +264,12 @@ Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
         return fail(ErrorCode::unsupported, "its codes unpack to {} bytes, more than {}", bytes,
                     most_unpacked_bytes);
     }
-    std::vector<std::byte> packed(at.codes_size);
-    if (Status read = read_at(file, at.codes_offset, packed); !read) return pass_on(read);
     Result<SparseMemory> places =
         SparseMemory::of(view.bricks.size() * grid::brick_cells *
                          static_cast<std::uint64_t>(view.quantization.code_bytes));
     if (!places) return pass_on(places);
-    if (Status all = unpack_all(packed, view, places->bytes()); !all) return pass_on(all);
+    const Status all = unpack_all(file, at.codes_offset, view, places->bytes());
+    if (!all) return pass_on(all);
     codes.view = places->bytes();
     return Codes{std::nullopt, std::move(*places), codes.view};
 }

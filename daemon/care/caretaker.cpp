@@ -18,6 +18,7 @@ using pipeline::MendDepth;
 namespace {
 
 constexpr std::chrono::milliseconds look_again{100};
+constexpr std::chrono::milliseconds pause_after_failure{60'000};
 
 void log_problem(std::string_view what, const Error& error) {
     log_warning({.event = Event::care_failed, .reason = name_of(error.code)}, "{}: {}", what,
@@ -82,19 +83,28 @@ bool Caretaker::compare_sites() {
     return true;
 }
 
+bool Caretaker::look_at_all() {
+    if (!pause({})) return false;
+    examine_databases();
+    return check_grids(MendDepth::header, {});
+}
+
+bool Caretaker::round() {
+    refill();
+    return check_grids(MendDepth::all, times_.between_grids) && rest(times_.between_rounds);
+}
+
 void Caretaker::run() {
     ::pthread_setname_np(::pthread_self(), "caretaker");
-    try {
-        if (!pause({})) return;
-        examine_databases();
-        if (!check_grids(MendDepth::header, {})) return;
-        do {
-            refill();
-            if (!check_grids(MendDepth::all, times_.between_grids)) return;
-        } while (rest(times_.between_rounds));
-    } catch (const std::exception& error) {
-        log_error({Event::care_failed},
-                  "the service no longer verifies or mends grids: {}; restart it", error.what());
+    for (bool is_first = true, goes_on = true; goes_on;) {
+        try {
+            goes_on = (!is_first || look_at_all()) && round();
+            is_first = false;
+        } catch (const std::exception& error) {  // no memory
+            log_error({Event::care_failed},
+                      "cannot verify and mend grids: {}; the service tries again", error.what());
+            goes_on = pause(std::min(times_.between_rounds, pause_after_failure));
+        }
     }
     pulse_.rest();
 }

@@ -56,6 +56,9 @@ class Caretaker {
 
   private:
     void run();
+    // Both return false if the thread is to end.
+    bool look_at_all();
+    bool round();
     void examine_databases();
     // Returns true if all were checked.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);

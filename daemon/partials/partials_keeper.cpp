@@ -142,7 +142,12 @@ bool PartialsKeeper::take_one() {
         const auto name = machine.directory->take_news();
         if (!name) continue;
         pulse_.beat();
-        take(machine, *name);
+        try {
+            take(machine, *name);
+        } catch (...) {  // it may be in the cache, and its frames not made
+            machine.directory->forget(*name);
+            throw;
+        }
         took = true;
     }
     return took;

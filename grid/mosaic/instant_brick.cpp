@@ -48,10 +48,11 @@ std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
 InstantMaker::End InstantMaker::end_of(const TimedView& timed, const ColumnGeometry& geometry,
                                        const InstantOptions& options) {
     End end{timed, seconds_between(options.instant, timed.middle), std::nullopt};
-    if (options.sweep_times && !timed.sweeps.empty()) {
+    if (options.sweep_times) {
         const SitePosition& site = geometry.site();
-        end.clock.emplace(timed.sweeps, BeamGeometry(site.latitude_deg, site.altitude_m),
-                          options.instant);
+        end.clock =
+            SweepClock::of_volume(timed.sweeps, BeamGeometry(site.latitude_deg, site.altitude_m),
+                                  options.instant, timed.middle);
     }
     return end;
 }

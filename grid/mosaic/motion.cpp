@@ -173,9 +173,15 @@ Result<std::optional<MotionField>> estimate_motion(const BrickView& before, cons
                            1 + reach_of(options.block_differs_mps, seconds, images.pixel_height_m)};
     const std::vector<Vote> votes = votes_of(images, blocks, near, options.threads);
     const int cells = images.before.cells;
+    // What is searched ends at whole pixels, which may be far for the time between the grids.
+    const double fastest_mps = options.greatest_mps + options.block_differs_mps;
+    const auto columns_per_s = [&](double pixels, double pixel_m) {
+        const double most = fastest_mps * cells / pixel_m;
+        return static_cast<float>(std::clamp(pixels * cells / seconds, -most, most));
+    };
     const auto motion_of = [&](const Vote& vote) {
-        return CellMotion{static_cast<float>(vote.x * cells / seconds),
-                          static_cast<float>(vote.y * cells / seconds)};
+        return CellMotion{columns_per_s(vote.x, images.pixel_width_m),
+                          columns_per_s(vote.y, images.pixel_height_m)};
     };
     std::vector<CellMotion> nodes;
     for (int row = 0; row < blocks.height; ++row) {

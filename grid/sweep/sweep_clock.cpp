@@ -31,11 +31,13 @@ double turned(const level2::Sweep& sweep, const std::vector<std::uint32_t>& radi
 std::vector<SweepTime> sweep_times(const level2::Volume& volume,
                                    std::span<const ChosenSweep> sweeps) {
     std::vector<SweepTime> times;
+    const std::optional<UtcTime> start = volume.start_time();
     for (const ChosenSweep& chosen : sweeps) {
         const level2::Sweep& sweep = volume.sweeps[chosen.sweep_index];
         std::vector<std::uint32_t> dated;
         for (const std::uint32_t radial : chosen.radials) {
-            if (level2::is_plausible(sweep.radials[radial].time)) dated.push_back(radial);
+            if (level2::is_time_of_volume(sweep.radials[radial].time, start))
+                dated.push_back(radial);
         }
         if (dated.empty()) continue;
         const level2::Radial& first = sweep.radials[dated.front()];
@@ -49,6 +51,18 @@ std::vector<SweepTime> sweep_times(const level2::Volume& volume,
                          known ? degrees / seconds : 0});
     }
     return times;
+}
+
+std::optional<SweepClock> SweepClock::of_volume(std::span<const SweepTime> sweeps,
+                                                BeamGeometry beam, UtcTime origin, UtcTime middle) {
+    constexpr double farthest_s = 1200;
+    if (sweeps.empty()) return std::nullopt;
+    SweepClock clock(sweeps, beam, origin);
+    const double middle_s = seconds_between(origin, middle);
+    const bool is_near =
+        clock.earliest_s() >= middle_s - farthest_s && clock.latest_s() <= middle_s + farthest_s;
+    if (!is_near) return std::nullopt;
+    return clock;
 }
 
 SweepClock::SweepClock(std::span<const SweepTime> sweeps, BeamGeometry beam, UtcTime origin)

@@ -14,6 +14,7 @@
 // Threads   Immutable.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,12 @@ inline constexpr double fastest_turn_deg_per_s = 360;
 
 class SweepClock {
   public:
+    // Returns none where there are no sweeps, and where one lies further than 20 minutes from the
+    // middle of its volume: such times are wrong, and what moves with them would go too far. The
+    // volume is then taken as if it had one time.
+    [[nodiscard]] static std::optional<SweepClock> of_volume(std::span<const SweepTime> sweeps,
+                                                             BeamGeometry beam, UtcTime origin,
+                                                             UtcTime middle);
     // Times are in seconds since `origin`. `sweeps` holds at least one sweep, in order of rising
     // elevation.
     SweepClock(std::span<const SweepTime> sweeps, BeamGeometry beam, UtcTime origin);

@@ -4,12 +4,14 @@
 // OpenArchive.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "base/steady_time.h"
 #include "pipeline/drop/file_facts.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/descriptor.h"
@@ -26,8 +28,9 @@ struct OpenArchive {
     std::size_t known = 0;  // members that the catalog knows from an earlier time
 };
 
-// The archives that wait for their next turn. A few of them stay open; the others are opened again
-// and read from their beginning.
+// The archives that wait for their next turn. The first few stay open until they end or are
+// deleted; the others are opened again and read from their beginning. So some archives always come
+// further.
 class OpenArchives {
   public:
     // None if the archive is not open, or has changed since.
@@ -37,10 +40,15 @@ class OpenArchives {
 
   private:
     static constexpr std::size_t most_open = 4;
+    static constexpr std::chrono::hours longest_wait{1};  // then its turns have ended
+
+    struct Waiting {
+        OpenArchive archive;
+        SteadyTime since;
+    };
 
     std::mutex mutex_;
-    std::vector<OpenArchive>
-        open_;  // the one that has waited longest comes first; guarded by mutex_
+    std::vector<Waiting> open_;  // guarded by mutex_
 };
 
 }  // namespace stormcellar::pipeline

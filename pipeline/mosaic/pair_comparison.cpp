@@ -49,11 +49,9 @@ Result<grid::CellDetails> ages_of(const PartialView& partial, const grid::GridSp
     const grid::SitePosition& site = partial.site();
     const auto geometry = grid::make_column_geometry(site, spec);
     if (!geometry) return pass_on(geometry);
-    std::optional<grid::SweepClock> clock;
-    const auto& sweeps = partial.description->provenance.sweeps;
-    if (!sweeps.empty()) {
-        clock.emplace(sweeps, grid::BeamGeometry(site.latitude_deg, site.altitude_m), instant);
-    }
+    const auto clock = grid::SweepClock::of_volume(
+        partial.description->provenance.sweeps,
+        grid::BeamGeometry(site.latitude_deg, site.altitude_m), instant, partial.middle());
     grid::DetailSet set;
     set.add(grid::Detail::age);
     grid::CellDetails ages(set, spec.cell_count());

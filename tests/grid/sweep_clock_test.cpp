@@ -109,6 +109,31 @@ TEST(SweepTimes, AreThoseOfTheRadials) {
     EXPECT_NEAR(seconds[3], high_s, 1e-4);
 }
 
+// 2026-11-28: half a volume with the date of another year moved echo by 8.7 GB of columns.
+TEST(SweepTimes, OfAnotherDayAreNone) {
+    level2::Volume volume =
+        make_volume({{.elevation_deg = 0.5, .cut = 1}, {.elevation_deg = 2.4, .cut = 2}});
+    const auto chosen = choose_sweeps(volume, level2::Moment::ref, 0.475);
+    ASSERT_EQ(sweep_times(volume, chosen).size(), 2U);
+    volume.sweeps[0].radials.back().time += std::chrono::days{365};
+    const auto but_one = sweep_times(volume, chosen);
+    ASSERT_EQ(but_one.size(), 2U);
+    EXPECT_NEAR(but_one[0].degrees_per_s, 20, 1);
+    for (level2::Radial& radial : volume.sweeps[1].radials)
+        radial.time += std::chrono::days{365};
+    EXPECT_EQ(sweep_times(volume, chosen).size(), 1U);
+
+    const BeamGeometry beam(35, 300);
+    const UtcTime start = but_one[0].start, middle = start + std::chrono::minutes{2};
+    EXPECT_TRUE(SweepClock::of_volume(but_one, beam, start, middle));
+    EXPECT_FALSE(SweepClock::of_volume({}, beam, start, middle));
+    auto late = but_one, slow = but_one;
+    late[1].start += std::chrono::hours{2};
+    slow[1].degrees_per_s = 1e-9;
+    EXPECT_FALSE(SweepClock::of_volume(late, beam, start, middle));
+    EXPECT_FALSE(SweepClock::of_volume(slow, beam, start, middle));
+}
+
 TEST(SweepTimes, OfASweepOfOneRadialOrOfNoDateAreNotInvented) {
     level2::Volume volume = make_volume(
         {{.elevation_deg = 0.5, .cut = 1, .radials = 1}, {.elevation_deg = 2.4, .cut = 2}});

@@ -185,6 +185,20 @@ TEST(GridAt, EachSweepIsMovedFromItsOwnTime) {
     EXPECT_GT(rms_error(pair, to_dense(as_one->view()), 200), 1.5);
 }
 
+TEST(GridAt, SweepsOfAnotherDayCountAsNone) {
+    const Pair pair(moving);
+    const MotionField motion({0.02F, 0.01F});
+    InstantOptions options = options_at(77, TimeMethod::advected, &motion);
+    const std::vector<SweepTime> sweeps = {{0.5, start, 0, 0},
+                                           {3.5, start + std::chrono::days{365}, 0, 0}};
+    TimedView view = pair.early();
+    const auto without = grid_at(view, std::nullopt, *pair.geometry, options);
+    view.sweeps = sweeps;
+    const auto with = grid_at(view, std::nullopt, *pair.geometry, options);
+    ASSERT_TRUE(with && without);
+    EXPECT_EQ(to_dense(with->view()).values, to_dense(without->view()).values);
+}
+
 TEST(GridAt, HasTheSameBitsOnAnyNumberOfThreads) {
     const Pair pair(moving);
     const MotionField motion({0.02F, 0.01F});

@@ -116,6 +116,24 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
 }
 
+// 2026-11-28: of five that waited, each was closed before its next turn, and none came further.
+TEST_F(IngestArchiveTest, ManyLongOnesComeToTheirEnds) {
+    IngestOptions options = small_grid();
+    options.archive_turn = std::chrono::milliseconds{0};
+    Ingestor by_turns(catalog_, store_, options);
+    std::vector<fs::path> waiting;
+    for (int i = 0; i < 5; ++i)
+        waiting.push_back(put(fmt::format("order{}.tar", i),
+                              archive::make_archive(archive::Kind::tar, two_volumes())));
+    for (int round = 0; round < 8; ++round) {
+        std::erase_if(waiting, [&](const fs::path& path) {
+            return by_turns.ingest(path, true)->result() != IngestResult::incomplete;
+        });
+    }
+    EXPECT_TRUE(waiting.empty());
+    EXPECT_EQ(grid_count(), 2U);
+}
+
 TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
     IngestOptions options = small_grid();
     options.archive_turn = std::chrono::milliseconds{0};

@@ -60,16 +60,16 @@ struct GridDescription {
                                                const grid::BrickView& view,
                                                std::uint64_t block_bytes);
 
-// Table, states and packed bricks are read to memory, and the bricks may take many times their size
-// there. So whoever opens a stranger's file bounds both. Bricks that are not packed are mapped.
+// Table and states are read to memory, and packed bricks may take many times their size there. So
+// whoever opens a stranger's file bounds both. Bricks that are not packed are mapped.
 struct GridFileLimits {
     std::uint64_t read_bytes = ~std::uint64_t{0};
     std::uint64_t unpacked_bytes = ~std::uint64_t{0};
 };
 // More than the grid of any site takes: one of a WSR-88D with cells of 500 m on 48 levels has 330
 // MB of codes if every brick is stored, of a moment with two bytes a cell.
-constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{256} << 20U,
-                                        .unpacked_bytes = std::uint64_t{512} << 20U};
+constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{64} << 20U,
+                                        .unpacked_bytes = std::uint64_t{352} << 20U};
 
 class GridFile {
   public:
