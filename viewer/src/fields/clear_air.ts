@@ -19,10 +19,10 @@ export function isClearAir(grid: PackedGrid): boolean {
     const reached = new Uint8Array(grid.nx * grid.ny); // how many of the limits a column reaches
     const km2 = [0, 0];
     let hasEcho = false;
-    grid.kind.forEach((kind, brick) => {
-        if (kind !== BrickKind.codes) return;
+    for (let brick = 0; brick < grid.kind.length; ++brick) {
+        if (grid.kind[brick] !== BrickKind.codes) continue;
         hasEcho = true;
-        if (grid.greatestCode[brick]! < leastCodes[0]!) return;
+        if (grid.greatestCode[brick]! < leastCodes[0]!) continue;
         const column = Math.floor(brick / grid.bricks[2]);
         const [x0, y0] = [Math.floor(column / grid.bricks[1]) * edge, (column % grid.bricks[1]) * edge];
         const from = grid.block[brick]! * edge ** 3;
@@ -32,6 +32,7 @@ export function isClearAir(grid: PackedGrid): boolean {
             const at = (y0 + (Math.floor(i / edge) % edge)) * grid.nx + x0 + Math.floor(i / edge ** 2);
             while (reached[at]! < limits.length && code >= leastCodes[reached[at]!]!) km2[reached[at]++]! += cellKm2;
         }
-    });
-    return hasEcho && limits.every((limit, i) => km2[i]! < limit.km2);
+        if (limits.some((limit, i) => km2[i]! >= limit.km2)) return false;
+    }
+    return hasEcho;
 }
