@@ -249,7 +249,7 @@ export class App {
                 await this.findRegion(domain);
             } catch (error) {
                 if (choice !== this.choices) return;
-                if (this.shown) this.state = { ...this.state, domain: this.shown.domain, moment: this.shown.moment };
+                this.backToShown();
                 this.miss(error instanceof Error ? error.message : '');
                 return this.fail(error);
             }
@@ -258,7 +258,7 @@ export class App {
         domain = this.domains.find(one => one.domain.toLowerCase() === domain.toLowerCase())?.domain ?? domain;
         const isThere = domain === '' || this.domains.some(one => one.domain === domain);
         if (!isThere && this.domains.length > 1) {
-            if (this.shown) this.state = { ...this.state, domain: this.shown.domain, moment: this.shown.moment };
+            this.backToShown();
             this.openMap();
             return this.miss(texts.notice.noDomain(domain));
         }
@@ -297,6 +297,11 @@ export class App {
         } catch (error) {
             if (choice === this.choices) this.fail(error);
         }
+    }
+    // The threshold of another moment is in another unit.
+    private backToShown(): void {
+        const { shown, state } = this;
+        if (shown) this.state = { ...state, domain: shown.domain, moment: shown.moment, least: shown.moment === state.moment ? state.least : null };
     }
     // Who does not follow any more, and was shown no other time yet, stays where the player is.
     private stayWhoPaused(): void {
