@@ -24,6 +24,14 @@ void keep_freed_memory() {
 #endif
 }
 
+void hold_arenas(int most) {
+#ifdef __GLIBC__
+    mallopt(M_ARENA_MAX, most);
+#else
+    static_cast<void>(most);
+#endif
+}
+
 #ifdef __GLIBC__
 namespace {
 

@@ -15,6 +15,11 @@ namespace stormcellar {
 // does nothing with another C library.
 void keep_freed_memory();
 
+// Holds malloc to this many arenas, each of which may keep 64 MiB and more at its end for good.
+// glibc makes eight a processor, which the threads of a program that starts new ones again and
+// again come to use all. It does nothing with another C library.
+void hold_arenas(int most);
+
 // Returns all freed memory to the system if more than `most_kept_bytes` of it are resident, in
 // pieces of any size. Returns true if it did. This is for a program that runs for long, because
 // memory that many small objects have used would otherwise stay. It does nothing with another C

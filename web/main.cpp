@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -105,6 +106,7 @@ void take_turn(WebService& service, const std::filesystem::path& file, bool relo
 
 int serve(const WebSetup& setup, const std::filesystem::path& file) {
     keep_freed_memory();
+    hold_arenas(2 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
     cache::install_map_guard();
     raise_descriptor_limit();
     set_log_level(setup.log_level);

@@ -76,8 +76,11 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
 }
 
 Result<SourceVolume> decode_volume(std::span<const std::byte> bytes, const std::string& file,
-                                   const GridRequest& request, const ChooseCuts& choose_cuts) {
-    return grid::decode_source(bytes, file, wish_of(request, choose_cuts));
+                                   const GridRequest& request, UtcTime start,
+                                   const ChooseCuts& choose_cuts) {
+    grid::SourceWish wish = wish_of(request, choose_cuts);
+    wish.start = start;
+    return grid::decode_source(bytes, file, wish);
 }
 
 }  // namespace stormcellar::cli

@@ -20,10 +20,11 @@ using grid::SourceVolume;
 // and all sweeps where that gives none with a moment.
 [[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request,
                                                const ChooseCuts& choose_cuts = {});
-// The same for the bytes of a file that is in memory; `file` is its name.
+// The same for the bytes of a file that is in memory; `file` is its name. Of several volumes in it,
+// the one that begins at `start` is taken.
 [[nodiscard]] Result<SourceVolume> decode_volume(std::span<const std::byte> bytes,
                                                  const std::string& file,
-                                                 const GridRequest& request,
+                                                 const GridRequest& request, UtcTime start,
                                                  const ChooseCuts& choose_cuts = {});
 
 }  // namespace stormcellar::cli

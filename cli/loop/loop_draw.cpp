@@ -37,7 +37,9 @@ Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::Betwee
         auto made = between->at(frame.time);
         if (!made) return pass_on(made);
         if (!*made) {
-            return fail(ErrorCode::not_found, "there is no volume near {}", format_utc(frame.time));
+            return fail(ErrorCode::not_found,
+                        "there are no two volumes between whose middles {} lies",
+                        format_utc(frame.time));
         }
         drawing.made = std::move(**made);
         drawing.made_for = frame.time;

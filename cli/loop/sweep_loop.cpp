@@ -142,8 +142,8 @@ Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t nu
     drawing.decoded.reset();
     const auto raw = sources.volumes[number].read(*sources.catalog);
     if (!raw) return pass_on(raw);
-    auto volume = decode_sweeps(raw->bytes, raw->file, drawing.grid,
-                                drawing.all_elevations ? nullptr : &drawing.scene);
+    auto volume =
+        decode_sweeps(*raw, drawing.grid, drawing.all_elevations ? nullptr : &drawing.scene);
     if (!volume) return pass_on(volume);
     drawing.volume.emplace(std::move(*volume));
     drawing.decoded = number;

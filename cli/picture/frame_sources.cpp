@@ -110,7 +110,7 @@ Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const ren
         print_note(printable(note));
     options.grid.moment = options.scene.moment;
     options.grid.threads = render::thread_count(options.scene);
-    auto volume = decode_sweeps(raw->bytes, raw->file, options.grid, &scene);
+    auto volume = decode_sweeps(*raw, options.grid, &scene);
     if (!volume) return pass_on(volume);
     auto sweep = PictureGrid::of_sweep(std::move(*volume), scene);
     if (!sweep) return pass_on(sweep);

@@ -23,7 +23,9 @@ Result<RawVolume> read_volume(const catalog::CatalogReader& catalog, const std::
     }
     const catalog::CatalogEntry& entry = **found;
     auto volume = pipeline::read_cataloged_volume(catalog, entry);
-    if (volume) return RawVolume{entry.path.native(), std::move(volume->bytes), volume->notes};
+    if (volume)
+        return RawVolume{entry.path.native(), entry.volume.start_time.value_or(start),
+                         std::move(volume->bytes), volume->notes};
     if (volume.error().code != ErrorCode::not_found) return pass_on(volume);
     return fail(ErrorCode::not_found,
                 "{}: the raw file of {} {} is gone, and a ppi cannot be drawn from the grid that "

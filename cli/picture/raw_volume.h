@@ -21,6 +21,7 @@ namespace stormcellar::cli {
 // A volume as the catalog has it, which may still be growing.
 struct RawVolume {
     std::string file;
+    UtcTime start;  // of the volume; the file may hold others
     std::vector<std::byte> bytes;
     std::vector<std::string> notes;  // such as that chunks are missing
 };

@@ -61,13 +61,14 @@ Result<SweptVolume> read_sweeps(GridOptions options, const render::Scene* shown)
     return swept_volume(file, std::move(*request), options, std::move(*source));
 }
 
-Result<SweptVolume> decode_sweeps(std::span<const std::byte> bytes, const std::string& file,
-                                  const GridOptions& options, const render::Scene* shown) {
+Result<SweptVolume> decode_sweeps(const RawVolume& raw, const GridOptions& options,
+                                  const render::Scene* shown) {
     auto request = parse_request(options);
     if (!request) return pass_on(request);
-    auto source = decode_volume(bytes, file, *request, chooser_of(shown, *request));
+    auto source =
+        decode_volume(raw.bytes, raw.file, *request, raw.start, chooser_of(shown, *request));
     if (!source) return pass_on(source);
-    return swept_volume(file, std::move(*request), options, std::move(*source));
+    return swept_volume(raw.file, std::move(*request), options, std::move(*source));
 }
 
 Result<PlacedSweep> place_sweep(const SweptVolume& volume, const render::Scene& scene,

@@ -5,15 +5,14 @@
 // Errors    See each function; they name the file or the option.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/grid/grid_request.h"
 #include "cli/grid/volume_source.h"
+#include "cli/picture/raw_volume.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/sweep_lookup.h"
@@ -40,9 +39,8 @@ struct PlacedSweep {
 // decoded where the pattern of the volume says which those are; without one, all. Errors:
 // bad_argument for several files and for options; those of load_volume().
 [[nodiscard]] Result<SweptVolume> read_sweeps(GridOptions options, const render::Scene* shown);
-// The same for the bytes of a file.
-[[nodiscard]] Result<SweptVolume> decode_sweeps(std::span<const std::byte> bytes,
-                                                const std::string& file, const GridOptions& options,
+// The same for a volume that the catalog has.
+[[nodiscard]] Result<SweptVolume> decode_sweeps(const RawVolume& raw, const GridOptions& options,
                                                 const render::Scene* shown);
 
 // Finds the sweep that the scene names. Its plane, about the site or about the center that the

@@ -32,6 +32,8 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     if (options.selection.all_cuts()) return std::nullopt;
     auto decoded = level2::decode(bytes, options);
     if (!decoded || !holds_any(decoded->volume, options.selection.moments)) return std::nullopt;
+    // Further volumes may have patterns of their own.
+    if (!decoded->report.further_volume_starts.empty()) return std::nullopt;
     return std::move(*decoded);
 }
 
@@ -40,8 +42,14 @@ Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wi
                                    SourceVolume& source) {
     const bool damaged = decoded.report.damaged;
     std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
-    const auto found = std::ranges::find_if(
-        volumes, [&](const auto& volume) { return holds_any(volume, wish.moments); });
+    const bool by_start = wish.start && volumes.size() > 1;
+    const auto found = std::ranges::find_if(volumes, [&](const auto& volume) {
+        return by_start ? volume.start_time() == wish.start : holds_any(volume, wish.moments);
+    });
+    if (by_start && found == volumes.end()) {
+        return fail(ErrorCode::not_found, "holds no volume that starts at {}",
+                    format_utc(*wish.start));
+    }
     std::size_t index =
         found == volumes.end() ? 0 : static_cast<std::size_t>(found - volumes.begin());
     if (wish.volume > 0) index = static_cast<std::size_t>(wish.volume) - 1;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,8 @@ struct SourceWish {
     std::string_view how_to_place = {};
     int threads = 1;
     int volume = 0;  // its number in the file, from 1; 0: the first that holds one of the moments
+    // Of several volumes in the file, the one that starts then is wanted.
+    std::optional<UtcTime> start = std::nullopt;
 };
 
 // Returns what to decode for the wish. The station in the name counts where the file names none.
@@ -55,9 +58,9 @@ struct SourceWish {
                                                     const level2::DecodeOptions& options,
                                                     const ChooseCuts& choose_cuts);
 
-// Takes the volume of the number that is wanted, or the first that holds one of the moments. Errors
-// name the file: bad_argument if it has not so many volumes; those of `place`; not_found if the
-// position of the radar is not known.
+// Takes the volume of the number or the start that is wanted, or the first that holds one of the
+// moments. Errors name the file: bad_argument if it has not so many volumes; those of `place`;
+// not_found if none of several starts then, or the position of the radar is not known.
 [[nodiscard]] Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
                                                const SourceWish& wish);
 

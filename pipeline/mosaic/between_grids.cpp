@@ -65,6 +65,7 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
     std::optional<cache::GridDescription> newest;
     for (const cache::StoreEntry& entry : *entries) {
         const auto file = cache::GridFile::open(entry.path);
+        if (!file && is_shortage(file.error().code)) return pass_on(file);
         if (!file) {
             problems.push_back(file.error().message);
             continue;
@@ -75,7 +76,10 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
         all.grids_.push_back(
             {entry.path, middle, newest->spec, !newest->provenance.sweeps.empty()});
     }
-    if (!newest) return fail(ErrorCode::not_found, "the cache has no grid of {}", domain);
+    if (!newest) {
+        return fail(ErrorCode::not_found, "the cache has no grid of {}{}", domain,
+                    options.from || options.to ? " near these times" : "");
+    }
     std::stable_sort(all.grids_.begin(), all.grids_.end(),
                      [](const Stored& a, const Stored& b) { return a.middle < b.middle; });
     if (newest->provenance.recipe == 0 && newest->sites.size() == 1) return all;

@@ -1,4 +1,6 @@
 // The list of a volume's sweeps, and which of them pictures show.
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -6,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "grid/place/source_volume.h"
 #include "tests/web/served_volumes.h"
 #include "web/service/sources.h"
 
@@ -41,6 +44,52 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     EXPECT_EQ(chosen["REF"], (std::vector<int>{0, 2, 4, 5, 6}));
     EXPECT_EQ(chosen["VEL"], (std::vector<int>{1, 3, 4, 5, 6}));
     EXPECT_EQ(chosen["ZDR"], (std::vector<int>{0, 2, 4, 5, 6}));
+}
+
+// 2026-11-28: of a file with two volumes, the second one had the gates, and the pictures, of the
+// first.
+TEST(ApiSweeps, EachOfTwoVolumesInAFileHasItsOwnGates) {
+    STORMCELLAR_NEED_DATA();
+    ServedVolumes volumes(false);
+    const testing::TemporaryDirectory directory;
+    const std::filesystem::path both = directory / "KBGM20050822_024414.gz";
+    std::vector<std::byte> bytes;
+    for (const char* const name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
+        const auto one = read_file(*testing::data_directory() / "sequence-kbgm" / name);
+        ASSERT_TRUE(one);
+        bytes.insert(bytes.end(), one->begin(), one->end());
+    }
+    std::ofstream(both, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    ASSERT_NE(volumes.take(both, both.filename()), pipeline::IngestResult::rejected);
+    WebSetup setup;
+    setup.catalog = volumes.state() / "catalog";
+    setup.cache = directory / "cache";
+    const auto sources = open_sources(setup);
+    ASSERT_TRUE(sources) << sources.error().message;
+    Measures measures;
+    const auto doors = doors_to(*sources, measures);
+    const auto gates_of = [&](const char* start) {
+        const std::string path =
+            std::string("/api/v1/stations/KBGM/volumes/") + start + "/sweeps/0/REF";
+        const Answer answer = asked(*doors->find(path), path);
+        EXPECT_EQ(answer.status, 200U) << body_of(answer);
+        return body_of(answer);
+    };
+    EXPECT_NE(gates_of("2005-08-22T02:44:14Z"), gates_of("2005-08-22T02:50:01Z"));
+
+    grid::SourceWish wish{.moments = {level2::Moment::ref}};
+    const auto first = grid::decode_source(bytes, "KBGM", wish);
+    ASSERT_TRUE(first) << first.error().message;
+    EXPECT_EQ(format_utc(*first->volume.start_time()), "2005-08-22T02:44:14Z");
+    wish.start = *parse_utc("2005-08-22T02:50:01Z", UtcTime{});
+    wish.choose_cuts = [](const level2::Volume&) { return std::vector<int>{1}; };
+    const auto second = grid::decode_source(bytes, "KBGM", wish);
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_EQ(second->volume.start_time(), wish.start);
+    wish.start = *wish.start + std::chrono::seconds{1};
+    EXPECT_EQ(grid::decode_source(bytes, "KBGM", wish).error().code, ErrorCode::not_found);
 }
 
 }  // namespace

@@ -110,6 +110,36 @@ TEST_F(S3, MembersOfAnArchiveHideNoFiles) {
     EXPECT_EQ((*files)[0].name, "KTLX20170101_030027_V06");
 }
 
+class UnreadableFiles final : public RawFiles {
+  public:
+    Result<std::vector<RawStation>> stations() override {
+        return std::vector{raw_station("KTLX", nullptr)};
+    }
+    Result<std::vector<RawVolume>> list(std::string_view, const RawRange&) override {
+        return fail(ErrorCode::permission, "{}: the database cannot be opened, for the test",
+                    std::string(64, 'x'));
+    }
+    OpenedOrMissing open(std::string_view, std::string_view) override {
+        return tl::unexpected(RawFailure{RawMissing::trouble, "no"});
+    }
+    std::optional<OpenedVolume> open_kept(std::string_view, std::string_view) override {
+        return std::nullopt;
+    }
+};
+
+// 2026-11-28: GCC 12 compiled the return of an error so that its text was freed twice, and the
+// server ended.
+TEST(S3Unreadable, AnErrorOfTheCatalogIsAnAnswer) {
+    S3Door door(std::make_shared<UnreadableFiles>(), "unidata-nexrad-level2");
+    for (int i = 0; i < 20; ++i) {
+        for (const char* const query : {"?list-type=2", "?list-type=2&delimiter=/", "?max-keys=1",
+                                        "?list-type=2&prefix=2017/01/01/KTLX/"}) {
+            const Answer answer = asked(door, std::string(bucket) + query);
+            EXPECT_GE(answer.status, 500U) << query;
+        }
+    }
+}
+
 // Page after page, until there is no token: everything comes once.
 TEST_F(S3, PagesHaveEverythingOnce) {
     for (const std::string most : {"1", "2"}) {

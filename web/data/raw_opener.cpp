@@ -230,6 +230,7 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
     if (!root) return missing(RawMissing::trouble, root.error().message);
     for (const CatalogEntry& chunk : *chunks) {
         const auto there = look_beneath(*root, chunk.path);
+        if (!there && there.error().code != ErrorCode::not_found) return missing(there.error());
         if (chunk.state == FileState::gone || !there) {
             if (grows && &chunk != &chunks->front()) break;
             return missing(RawMissing::gone, chunk.path.native() + ": is deleted");

@@ -25,7 +25,7 @@ struct PlacedSweep {
 // Decodes the sweep that a panel shows; the picture names the volume, not the file, whose name may
 // be another one on another machine. All panels are drawn on the plane of the first.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
-                                 const std::string& shown_name, const render::PanelScene& panel,
+                                 std::optional<UtcTime> start, const render::PanelScene& panel,
                                  const grid::GridSpec* plane, int threads) {
     const grid::SweepWish wish = render::sweep_wish_of(panel.scene);
     auto decoded = grid::decode_source(
@@ -33,14 +33,16 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
         {.moments = {panel.moment},
          .choose_cuts =
              [&](const level2::Volume& volume) { return render::cuts_of_wish(volume, wish); },
-         .threads = threads});
+         .threads = threads,
+         .start = start});
     if (!decoded) return pass_on(decoded);
     auto source = std::make_shared<const grid::SourceVolume>(std::move(*decoded));
     auto sweep = grid::SweepLookup::find({source, &source->volume}, source->site, panel.moment,
                                          grid::beam_width_of(source->site.icao) / 2, wish);
     if (!sweep) return fail(sweep.error().code, "{}: {}", file, sweep.error().message);
     auto description = render::describe_sweep(
-        *sweep, plane != nullptr ? *plane : render::plane_of_sweep(*sweep), *source, shown_name);
+        *sweep, plane != nullptr ? *plane : render::plane_of_sweep(*sweep), *source,
+        start ? level2::volume_name(source->site.icao, *start) : std::string{});
     return PlacedSweep{std::move(source), std::move(*sweep), std::move(description)};
 }
 
@@ -88,8 +90,6 @@ Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
     if (!catalog) return pass_on(catalog);
     const std::string file = picture.volume.path.filename().string();
     const auto start = picture.volume.volume.start_time;
-    const std::string name =
-        start ? level2::volume_name(picture.volume.station, *start) : std::string{};
     const auto raw = pipeline::read_cataloged_volume(**catalog, picture.volume);
     if (!raw) {
         const bool is_gone = raw.error().code == ErrorCode::not_found;
@@ -100,7 +100,7 @@ Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
     for (const render::PanelScene& panel : picture.style.panels) {
         const grid::GridSpec* const plane =
             sweeps.empty() ? nullptr : &sweeps.front().description.spec;
-        auto sweep = decode_sweep(raw->bytes, file, name, panel, plane, options_.threads);
+        auto sweep = decode_sweep(raw->bytes, file, start, panel, plane, options_.threads);
         if (!sweep) return pass_on(sweep);
         sweeps.push_back(std::move(*sweep));
     }

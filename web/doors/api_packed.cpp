@@ -262,8 +262,9 @@ Result<Kept> make_between(const ApiCall& call, const NamedGrid& named, Coding co
     const auto frame = between->at(named.time);
     if (!frame) return pass_on(frame);
     if (!*frame) {
-        return fail(ErrorCode::not_found, "there is no volume near {} in {}",
-                    format_utc(named.time), named.domain);
+        return fail(ErrorCode::not_found,
+                    "there are no two volumes of {} between whose middles {} lies", named.domain,
+                    format_utc(named.time));
     }
     return pack_frame(**frame, coding, {});
 }

@@ -23,7 +23,7 @@ constexpr std::uint64_t most_volume_bytes = std::uint64_t{256} << 20;
 struct FoundVolume {
     std::shared_ptr<const catalog::CatalogReader> catalog;
     catalog::CatalogEntry entry;
-    std::string key;  // changes when the file does
+    std::string key;  // of this volume; changes when its file does
 };
 
 // The last of those that start at the time: a volume that was sent again replaces the others.
@@ -51,8 +51,10 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     if (found->state == catalog::FileState::gone) {
         return refuse(json_error(410, "the file of the volume was removed by its owner"));
     }
-    std::string key = fmt::format("{}/{}/{}/{}", found->path.native(), found->size_bytes,
-                                  found->modified_ns, found->content_hash);
+    const auto start = found->volume.start_time;
+    std::string key =
+        fmt::format("{}/{}/{}/{}/{}", found->path.native(), found->size_bytes, found->modified_ns,
+                    found->content_hash, start ? format_utc(*start) : "");
     return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
 }
 
@@ -75,14 +77,11 @@ Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
 
 // Decoding takes long, unless the volume is the one that was decoded last.
 Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolume& found) {
-    const std::string key = fmt::format(
-        "{}/{}", found.key,
-        found.entry.volume.start_time ? format_utc(*found.entry.volume.start_time) : "");
-    if (auto kept = call.state.find_volume(key)) return kept;
+    if (auto kept = call.state.find_volume(found.key)) return kept;
     if (call.must_be_quick) return refuse(takes_long());
     auto decoded = decode_found(found);
     if (!decoded) return refuse(decoded.error());
-    call.state.keep_volume(key, *decoded);
+    call.state.keep_volume(found.key, *decoded);
     return *decoded;
 }
 

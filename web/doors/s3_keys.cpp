@@ -129,7 +129,8 @@ Result<std::vector<S3Object>> S3Keys::between(std::string_view from, std::string
     std::optional<sys_days> day = day_not_less(from.substr(0, day_size));
     while (day && (end.empty() || day_text(*day) < end)) {
         auto objects = of_day(*day, within(from, *day), within(end, *day), most);
-        if (!objects || !objects->empty()) return objects;
+        if (!objects) return pass_on(objects);
+        if (!objects->empty()) return objects;
         const sys_days following = *day + days{1};
         if (!end.empty() && day_text(following) >= end) break;
         const auto next = next_day(following);

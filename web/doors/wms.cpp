@@ -161,7 +161,11 @@ WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
         if (!grid) return tl::unexpected(grid.error());
         if ((*grid)->may_change()) timed.max_age.reset();
         timed.picture.layers.push_back({std::move(*grid), layer.style});
-        if (!shown->warning.empty()) timed.warnings.emplace_back("Warning", shown->warning);
+        if (!shown->warning.empty()) {
+            // Another grid may come that is nearer.
+            timed.max_age.reset();
+            timed.warnings.emplace_back("Warning", shown->warning);
+        }
     }
     return timed;
 }

@@ -337,7 +337,8 @@ void Server::Impl::take_budget(Exchange& exchange) {
     if (exchange.holds_budget) return;
     watch.memory_is_short();
     exchange.answer = come_back(std::chrono::seconds{10},
-                                "As many bytes are on their way as this server holds; ask again.");
+                                "As many bytes are on their way as this server, or one client, may "
+                                "hold; ask again.");
 }
 
 MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
