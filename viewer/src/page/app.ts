@@ -7,10 +7,11 @@ import { LoadedGrid } from '../renderer/renderer';
 import { ViewState, addressOf } from '../scene/view_state';
 import { ColorTable } from '../tables/color_table';
 import { outdatedBy } from '../time/outdated';
-import { PlayerState, advanced, at, looped, nextOf, stepped, stopped } from '../time/player';
+import { PlayerState, advanced, at, looped, stepped, stopped } from '../time/player';
 import { Timeline, toleratedFutureMs } from '../time/timeline';
 import { Units } from '../tables/units';
 import { ApiError, Domain, Region, domains, isRegion, region, tables, times } from '../wire/api';
+import { Ahead } from './ahead';
 import { AddressBar, stateOfAddress, timeThatIsNone } from './address_bar';
 import { element } from './dom';
 import { Loader } from './loader';
@@ -21,8 +22,6 @@ import { texts } from './texts';
 
 const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
-const loadedAhead = 12; // of a loop
-const betweenAhead = 3; // of what is made on request
 // From the time of a grid to the instants of regions that it is in: it takes some minutes, and they are at most 15 away.
 const farthestMadeMs = 30 * 60 * 1000;
 
@@ -55,13 +54,14 @@ export class App {
     readonly server = new ServerState(() => this.tell('notice'));
     missed = ''; // what was asked for and is not there
     private missedTime = ''; // a time of that
-    private timeline = new Timeline(
+    readonly timeline = new Timeline(
         this.state.time === 'latest',
         () => this.state.betweenS,
         () => Math.max(this.server.nowMs + toleratedFutureMs, Date.parse(this.domain?.moments.find(one => one.moment === this.state.moment)?.newest ?? '') || 0),
     );
     private heard = new Map<Happening, (() => void)[]>();
     private coming = 0; // times that are not shown yet
+    private readonly ahead = new Ahead(this);
     private addressBar = new AddressBar(() => addressOf(this.state));
     private turn = 0; // of what is to be shown
     private choices = 0; // of domains and moments
@@ -75,9 +75,6 @@ export class App {
     }
     private set player(player: PlayerState) {
         this.timeline.player = player;
-    }
-    get newest(): string | undefined {
-        return this.timeline.newest;
     }
 
     on(happening: Happening, action: () => void): void {
@@ -344,7 +341,7 @@ export class App {
     }
 
     // Tells later whether another domain or moment was chosen.
-    private whetherLeft(): () => boolean {
+    whetherLeft(): () => boolean {
         const { domain, moment } = this.state;
         return () => domain !== this.state.domain || moment !== this.state.moment;
     }
@@ -377,25 +374,15 @@ export class App {
             --this.coming;
         }
     }
-    private shownOf(time: string, loaded: LoadedGrid): Shown {
+    shownOf(time: string, loaded: LoadedGrid): Shown {
         const { domain, moment } = this.state;
         return { key: Loader.key(domain, moment, time), loaded, domain, moment, time, isBetween: this.timeline.isBetween(time) };
     }
-    // With what is drawn beside it.
-    private async loadWhole(time: string, isAhead: boolean): Promise<void> {
-        const isLeft = this.whetherLeft();
-        const loaded = await this.load(time);
-        if (!isLeft()) await this.alongside(this.shownOf(time, loaded), isAhead);
-    }
-    private isWhole(time: string): boolean {
-        const loaded = this.loader.find(Loader.key(this.state.domain, this.state.moment, time));
-        return loaded !== undefined && this.alongside(this.shownOf(time, loaded), true) === null;
-    }
-    private load(time: string): Promise<LoadedGrid> {
+    load(time: string): Promise<LoadedGrid> {
         return this.loader.load(this.state.domain, this.state.moment, time, this.timeline.isBetween(time));
     }
     // Returns false if the time stays, and so the failure is to be told.
-    private leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
+    leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
         // The server also answers 410 for a grid in parts that was made again meanwhile.
         const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
         if (isLeft() || !isGone || !this.timeline.leaveOut(time)) return false;
@@ -411,7 +398,7 @@ export class App {
         this.shown = shown;
         this.unreadTime = '';
         this.state.time = this.player.follows ? 'latest' : shown.time;
-        this.loadAhead();
+        this.ahead.load();
         this.tell('shown');
         this.changed();
     }
@@ -422,25 +409,6 @@ export class App {
     }
 
     // -- time
-
-    // The neighbors in time, so that a step shows at once; of a loop more.
-    private loadAhead(): void {
-        const { times: all, at: now, isPlaying } = this.player;
-        const isLeft = this.whetherLeft();
-        const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(this.player, i + 1)) : [now + 1, now - 1];
-        // The server computes what is halved: of grids in parts one is asked for after the other.
-        const isInParts = this.shown?.loaded.stream != null;
-        let before = Promise.resolve();
-        for (const [i, index] of next.entries()) {
-            const time = all[index ?? -1];
-            // What is made on request is not made in vain.
-            if (time === undefined || (this.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
-            const load = async () => {
-                if (!isLeft()) await this.loadWhole(time, true).catch(error => this.leaveOut(time, error, isLeft));
-            };
-            before = isInParts ? before.then(load) : load();
-        }
-    }
 
     goTo(index: number): void {
         this.miss('');
@@ -462,19 +430,19 @@ export class App {
         this.player = { ...this.player, isPlaying: !this.player.isPlaying, follows: false };
         this.tell('time');
         if (this.player.isPlaying) {
-            this.loadAhead();
+            this.ahead.load();
             this.tick();
         }
     }
 
     private tick(): void {
         if (!this.player.isPlaying) return;
-        const { player, waitsFor } = this.coming === 0 && this.isShownWhole() ? advanced(this.player, time => this.isWhole(time)) : { player: this.player, waitsFor: null };
+        const { player, waitsFor } = this.coming === 0 && this.isShownWhole() ? advanced(this.player, time => this.ahead.has(time)) : { player: this.player, waitsFor: null };
         if (this.coming > 0) this.say(texts.waiting(this.timeline.now ?? ''), false);
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
             const isLeft = this.whetherLeft();
-            this.loadWhole(waitsFor, false).catch(error => this.leaveOut(waitsFor, error, isLeft) || this.failed(error, this.player.isPlaying && !isLeft()));
+            this.ahead.take(waitsFor, false).catch(error => this.leaveOut(waitsFor, error, isLeft) || this.failed(error, this.player.isPlaying && !isLeft()));
         } else if (player !== this.player) {
             this.player = player;
             void this.showTime();

@@ -61,7 +61,7 @@ function putNotice(app: App): void {
     document.documentElement.classList.toggle('lost', app.isGraphicsLost);
     element('reload').hidden = !app.isGraphicsLost;
     press('follow', app.player.follows && !app.server.isCutOff && silent.length === 0);
-    const ageMs = app.server.nowMs - Date.parse(app.newest ?? '');
+    const ageMs = app.server.nowMs - Date.parse(app.timeline.newest ?? '');
     const isLive = ageMs >= -toleratedFutureMs && ageMs < 1000 * liveS;
     element('follow').textContent = isLive ? texts.live : texts.latest;
 }

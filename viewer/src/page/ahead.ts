@@ -1,0 +1,43 @@
+// Loads what is shown next, whole: the grid, and what is drawn beside it.
+
+import { nextOf } from '../time/player';
+import { App } from './app';
+import { Loader } from './loader';
+
+const loadedAhead = 12; // of a loop
+const betweenAhead = 3; // of what is made on request
+
+export class Ahead {
+    constructor(private app: App) {}
+
+    has(time: string): boolean {
+        const { app } = this;
+        const loaded = app.loader.find(Loader.key(app.state.domain, app.state.moment, time));
+        return loaded !== undefined && app.alongside(app.shownOf(time, loaded), true) === null;
+    }
+    async take(time: string, isAhead: boolean): Promise<void> {
+        const { app } = this;
+        const isLeft = app.whetherLeft();
+        const loaded = await app.load(time);
+        if (!isLeft()) await app.alongside(app.shownOf(time, loaded), isAhead);
+    }
+    // The neighbors in time, so that a step shows at once; of a loop more.
+    load(): void {
+        const { app } = this;
+        const { times, at, isPlaying } = app.player;
+        const isLeft = app.whetherLeft();
+        const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(app.player, i + 1)) : [at + 1, at - 1];
+        // The server computes what is halved: of grids in parts one is asked for after the other.
+        const isInParts = app.shown?.loaded.stream != null;
+        let before = Promise.resolve();
+        for (const [i, index] of next.entries()) {
+            const time = times[index ?? -1];
+            // What is made on request is not made in vain.
+            if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
+            const load = async () => {
+                if (!isLeft()) await this.take(time, true).catch(error => app.leaveOut(time, error, isLeft));
+            };
+            before = isInParts ? before.then(load) : load();
+        }
+    }
+}
