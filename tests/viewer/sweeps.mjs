@@ -43,6 +43,12 @@ try {
   await viewer.show(`${above}&surface=20&surface-moment=ZZZ`);
   const notShown = await page.until("document.getElementById('layers-told').textContent.includes('not shown') && document.getElementById('layers-told').textContent", 20).catch(told);
   check(`a surface of a moment that is not there: ${notShown}`, notShown.includes('not shown: no ZZZ'));
+  // Ten seconds, after which the page asks again, pass in half of one.
+  await evaluate(`{
+    const [clock, timer] = [performance.now.bind(performance), setTimeout];
+    performance.now = () => 20 * clock();
+    window.setTimeout = (act, ms, ...more) => timer(act, ms > 10_000 && ms < 11_000 ? ms / 20 : ms, ...more);
+  }`);
   await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/sweeps/*' }] });
   const cut = ({ method, params }) => void (method === 'Fetch.requestPaused' && page.send('Fetch.failRequest', { requestId: params.requestId, errorReason: 'ConnectionReset' }));
   browser.listeners.push(cut);
@@ -51,7 +57,23 @@ try {
   check(`a sweep that does not come: ${failed}`, failed.includes('could not be loaded'));
   browser.listeners.splice(browser.listeners.indexOf(cut), 1);
   await page.send('Fetch.disable');
-  page.trouble = page.trouble.filter((one) => !one.includes('404') && !one.includes('ERR_CONNECTION_RESET'));
+  const comes = (part) => page.until(`document.getElementById('layers-told').textContent.includes(${JSON.stringify(part)})`, 20).then(() => true, () => false);
+  check('it is asked for again', await comes(`sweep of ${station}: `));
+  // 2026-11-28: one failed answer said for good that there is no such moment.
+  let failures = 0;
+  const fail = ({ method, params }) => {
+    if (method !== 'Fetch.requestPaused') return;
+    if (++failures > 1) page.send('Fetch.continueRequest', { requestId: params.requestId });
+    else page.send('Fetch.fulfillRequest', { requestId: params.requestId, responseCode: 500, body: Buffer.from('{"error":"trouble"}').toString('base64') });
+  };
+  browser.listeners.push(fail);
+  await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/VEL/*/packed*' }] });
+  await viewer.show(`${above}&surface=20&surface-moment=VEL`);
+  check(`a surface that does not come: ${await told()}`, failures === 1 && (await told()).includes('VEL could not be loaded'));
+  check('it is asked for again', await page.until("document.getElementById('layers-told').textContent.endsWith('m/s')", 20).then(() => true, () => false));
+  browser.listeners.splice(browser.listeners.indexOf(fail), 1);
+  await page.send('Fetch.disable');
+  page.trouble = page.trouble.filter((one) => !/404|500|ERR_CONNECTION_RESET/.test(one));
 
   // ---- The whole sweep is drawn, also beyond the grid (2026-11-28: it was cut off at the grid's box)
   const echo = (more) => evaluate(`(() => {

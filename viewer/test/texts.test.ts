@@ -17,3 +17,9 @@ test('each site that is left out of a region has the reason that the server give
     const sites: [string, string][] = [['KENX', 'it has no volume within 15 minutes'], ['ROP5', 'it has no grids of VEL'], ['KOKX', 'it has no volume within 15 minutes'], ['KBGM', '']];
     assert.equal(texts.start.leftOut(sites), 'not in the picture: KENX, KOKX (they have no volume within 15 minutes), ROP5 (it has no grids of VEL), KBGM');
 });
+
+test('of a grid that is gone nothing is said to be loading (2026-11-28: it was)', () => {
+    assert.equal(texts.detail({ coarsest: 2, missing: 3, isGone: true }), 'coarse: greatest of 4 x 4 cells, finer ones are gone');
+    assert.equal(texts.detail({ coarsest: 1, missing: 3, isGone: false }), 'coarse: greatest of 2 x 2 cells, finer ones are loading');
+    assert.equal(texts.detail({ coarsest: 0, missing: 0, isGone: true }), '');
+});

@@ -3,11 +3,13 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
+import type { Decoder } from '../src/atlas/decoder';
 import { Pyramid, pyramidOf } from '../src/atlas/pyramid';
 import { BrickWindow, boundsAbout, holds, windowAbout, windowQuery, windowSeen } from '../src/atlas/window_choice';
 import { ViewGeometry, usualCamera } from '../src/camera/geometry';
 import { maximumField, planeField } from '../src/fields/flat_field';
 import { cutSection } from '../src/fields/section';
+import type { LoadedGrid } from '../src/renderer/renderer';
 import { firstVisible, wayWithin } from '../src/scene/first_visible';
 import { boxOf, extentOf, placingOf } from '../src/scene/grid_box';
 import { cellSizeM, middleOn, planeOf } from '../src/scene/projection';
@@ -145,4 +147,35 @@ test('what a ray meets in its window is what it meets in the grid', () => {
         }
     }
     assert(met > 20);
+});
+
+// 2026-11-28: after one failed answer a plane was empty for good, as if there were no storm.
+test('a window that failed is asked for again, and a frame waits for it', async () => {
+    Object.assign(globalThis, { document: { baseURI: 'http://localhost/view/' } });
+    const { Windows } = await import('../src/page/windows');
+    const statuses = [500, 500, 200, 410];
+    const seconds: number[] = [];
+    Object.assign(globalThis, {
+        fetch: (): Promise<Response> => Promise.resolve(new Response('{"error":"trouble"}', { status: statuses.shift()! })),
+        setTimeout: (act: () => void, ms: number) => (seconds.push(ms / 1000), queueMicrotask(act)),
+    });
+    const decoder = { ask: () => Promise.resolve({ grid }) } as unknown as Decoder;
+    const failures: string[] = [];
+    const windows = new Windows(decoder, 256e6, () => undefined, error => void failures.push(String(error)));
+    const loadedNow = (): LoadedGrid => ({ grid, stream: { domain: 'D', moment: 'REF', time: 'T', pyramid } }) as unknown as LoadedGrid;
+    const seen = (loaded: LoadedGrid) => windows.seen(loaded, 'layers', viewOf(1, 0, 0), false);
+
+    const first = loadedNow();
+    const next = windows.next(first, () => seen(first))!;
+    seen(first);
+    assert(windows.isWaiting);
+    await next;
+    assert(!windows.isWaiting && seen(first)?.grid === grid);
+    assert.deepEqual([failures, seconds], [['Error: trouble', 'Error: trouble'], [3, 3]]);
+
+    const gone = loadedNow();
+    let error = '';
+    await windows.next(gone, () => seen(gone))!.catch(one => (error = String(one)));
+    seen(gone);
+    assert.deepEqual([error, windows.isWaiting, statuses], ['Error: trouble', true, []]);
 });

@@ -222,7 +222,7 @@ export class Drawing {
         const detail = this.streaming!.detail;
         const said = [
             texts.drawn(ms, rung, fetches),
-            detail && texts.detail(detail.coarsest, detail.missing),
+            detail && texts.detail(detail),
             this.windows!.coarsest !== (detail?.coarsest ?? 0) && texts.detailOfLayers(this.windows!.coarsest),
         ];
         app.say(said.filter(Boolean).join(' · '), false);

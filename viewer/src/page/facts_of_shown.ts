@@ -1,4 +1,4 @@
-// What the server says of the grid that is shown, asked once for each grid: one that was made again is another one.
+// What the server says of the grid that is shown, asked until it has answered once: a grid that was made again is another one.
 
 import { LoadedGrid } from '../renderer/renderer';
 import { GridFacts, RegionSites, gridFacts, isRegion, regionSites } from '../wire/api';
@@ -29,9 +29,15 @@ export class FactsOfShown {
         if (this.sitesOf === shown.loaded) return this.askingSites;
         const of = (this.sitesOf = shown.loaded);
         this.regionSites = null;
-        this.askingSites = regionSites(shown.domain, shown.moment, shown.time).then(found => {
-            if (this.sitesOf === of) this.regionSites = found;
-        });
+        this.askingSites = regionSites(shown.domain, shown.moment, shown.time).then(
+            found => {
+                if (this.sitesOf === of) this.regionSites = found;
+            },
+            error => {
+                if (this.sitesOf === of) this.sitesOf = null;
+                throw error;
+            },
+        );
         return this.askingSites;
     }
 
@@ -46,7 +52,9 @@ export class FactsOfShown {
                 facts => {
                     if (this.of === of) this.facts = facts;
                 },
-                () => undefined,
+                () => {
+                    if (this.of === of) this.asking = null;
+                },
             );
         }
         return this.asking;

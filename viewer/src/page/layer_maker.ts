@@ -17,7 +17,7 @@ import { Place, Plane, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
-import { ApiError, SweepRow, gates, rawBefore, sweeps } from '../wire/api';
+import { ApiError, SweepRow, gates, isAbsent, rawBefore, sweeps } from '../wire/api';
 import { PackedGrid, valueOf } from '../wire/packed_grid';
 import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
@@ -30,7 +30,7 @@ const sectionColumns = 480;
 const sectionRows = 192;
 const oldestVolumeMs = 30 * 60 * 1000; // no radar takes so long for one volume
 const sweepsOfBudget = 0.2; // of the bytes that the page may hold
-const againAfterMs = 10_000; // a grid of another moment that could not be had
+const againAfterMs = 10_000; // a sweep, or a grid of another moment, that could not be had
 
 // A sweep as it is drawn, and the sweeps of its volume.
 interface PlacedSweep {
@@ -55,9 +55,6 @@ class Kept {
     }
 }
 
-// The server has no such volume or sweep: not that it could not be asked.
-const isAbsent = (error: unknown): boolean => error instanceof ApiError && (error.status === 404 || error.status === 410);
-
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
 
@@ -69,7 +66,7 @@ function movedBy(section: Section, [x, y]: Plane): Section {
 export class LayerMaker {
     private kept = new Kept();
     private comingOthers = new Set<string>(); // grids of another moment
-    private missingOthers = new Map<string, number>(); // when they could not be had
+    private missingOthers = new Map<string, { at: number; error: unknown }>(); // when they could not be had, and why
     private sweeps: FetchedInTurn<PlacedSweep>;
     private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
     private numbers = new WeakMap<LoadedGrid, number>();
@@ -209,14 +206,19 @@ export class LayerMaker {
         return other === moment ? null : { key: Loader.key(domain, other, time), moment: other };
     }
     private isMissing(key: string): boolean {
-        return performance.now() - (this.missingOthers.get(key) ?? -Infinity) < againAfterMs;
+        return performance.now() - (this.missingOthers.get(key)?.at ?? -Infinity) < againAfterMs;
     }
     private async takeOther({ domain, time, isBetween }: Shown, { key, moment }: { key: string; moment: string }): Promise<void> {
         try {
             await this.app.loader.load(domain, moment, time, isBetween);
-        } catch {
-            this.missingOthers.set(key, performance.now());
+        } catch (error) {
+            this.missingOthers.set(key, { at: performance.now(), error });
+            if (!isAbsent(error)) this.askLater();
         }
+    }
+    // The next picture asks again.
+    private askLater(): void {
+        window.setTimeout(this.came, againAfterMs + 1);
     }
     // Why the surface is not in the picture; empty if it is.
     private whyNoSurface(shown: Shown): string {
@@ -225,7 +227,8 @@ export class LayerMaker {
         if (shown.loaded.stream) return texts.surfaceLeftOut;
         const of = this.app.loader.find(other.key);
         if (of) return hasSameCells(of.grid, shown.loaded.grid) ? '' : texts.layers.otherCells;
-        return this.isMissing(other.key) ? texts.layers.noOther(other.moment) : texts.layers.otherComes;
+        if (!this.isMissing(other.key)) return texts.layers.otherComes;
+        return isAbsent(this.missingOthers.get(other.key)?.error) ? texts.layers.noOther(other.moment) : texts.layers.otherFailed(other.moment);
     }
 
     // The sweeps of the volume of which one is drawn, and which; null until they are known.
@@ -330,7 +333,7 @@ export class LayerMaker {
         const last = this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep : null;
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
         if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
-        if (found || this.sweeps.isSettled(key)) {
+        if (found || isAbsent(this.sweeps.errorOf(key)) || !this.sweeps.isNeeded(key)) {
             // No other event tells of a sweep that has come or failed before. The listener may be the caller, so it is told later.
             if (this.toldSweep !== key) queueMicrotask(() => this.layerCame());
             this.toldSweep = key;
@@ -341,7 +344,10 @@ export class LayerMaker {
             void this.takeSweep(shown, false).then(() => {
                 this.askedSweep = '';
                 const error = this.sweeps.errorOf(key);
-                if (error !== undefined && !isAbsent(error)) this.app.fail(error);
+                if (error !== undefined && !isAbsent(error)) {
+                    this.app.fail(error);
+                    this.askLater();
+                }
                 this.layerCame();
                 this.came();
             });

@@ -7,7 +7,7 @@ import { SlotPool, columnKey } from '../atlas/slot_pool';
 import { WantedColumn, wantedColumns } from '../atlas/view_choice';
 import { GridInParts, LoadedGrid, Renderer } from '../renderer/renderer';
 import { ViewGeometry } from '../camera/geometry';
-import { ApiError, packed } from '../wire/api';
+import { isAbsent, packed } from '../wire/api';
 import { BrickRange, rangesOf } from '../wire/ranges';
 import { Decoder } from '../atlas/decoder';
 
@@ -20,12 +20,13 @@ const mostPlannedBytes = 4 * mostRequestBytes;
 // What a range may hold in a row that is not needed.
 const mostSkippedBytes = 64 * 1024;
 const retryMs = 1000;
-const mostFailures = 5;
+const mostFailures = 5; // that are not told
 
 // How much of what the view needs is there.
 export interface Detail {
     missing: number; // columns of bricks
     coarsest: number; // how often the grid was halved, of what is shown in the picture
+    isGone: boolean; // what is missing does not come
 }
 
 interface Flight {
@@ -80,7 +81,7 @@ class Stream {
             if (!isThere) ++missing;
             coarsest = Math.max(coarsest, isThere ? level : this.parts.level);
         }
-        return { missing, coarsest };
+        return { missing, coarsest, isGone: this.hasEnded };
     }
 
     private isThere(level: number, key: string): boolean {
@@ -255,18 +256,14 @@ class Stream {
             .catch(error => this.fail(error));
     }
 
-    // Too much is asked at once, or the network fails: it is asked again a little later. A grid that is gone
-    // is told.
+    // Too much is asked at once, or the network or the server fails: it is asked again later. A grid that is gone is told.
     private stumble(error: unknown): void {
         if (this.hasEnded || (error instanceof DOMException && error.name === 'AbortError')) return;
-        const isGone = error instanceof ApiError && error.status !== 503;
-        if (isGone || ++this.failures > mostFailures) {
-            this.hasEnded = true;
-            this.fail(error);
-        } else {
-            this.waitsUntil = performance.now() + retryMs;
-            window.setTimeout(() => this.fetchMore(), retryMs + 1);
-        }
+        this.hasEnded = isAbsent(error);
+        if (++this.failures > mostFailures || this.hasEnded) this.fail(error);
+        const waitMs = retryMs * Math.min(this.failures, mostFailures);
+        this.waitsUntil = performance.now() + waitMs;
+        window.setTimeout(() => this.fetchMore(), waitMs + 1);
     }
 }
 

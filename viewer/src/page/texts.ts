@@ -45,7 +45,7 @@ export const texts = {
     drawing: 'Drawing',
     noGrids: 'There are no grids yet. The page shows the first one as soon as it is there.',
     noWebgl: 'This browser has no WebGL 2, which the view needs.',
-    notFound: 'There is no picture of this radar, moment and time any more.',
+    notFound: 'There is no picture of this domain, moment and time.',
     notice: {
         noServer: 'The server does not answer. Trying again …',
         noGraphics: 'The graphics processor was lost: nothing is drawn. If it does not come back, reload the page.',
@@ -186,9 +186,9 @@ export const texts = {
     held: (bytes: number, most: number) => `Grids take ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
     surfaceLeftOut: 'not shown: this grid is too large for the surface of another moment',
     detailOfLayers: (halvings: number) => (halvings > 0 ? `layers: ${greatestOf(halvings)}` : ''),
-    detail: (halvings: number, missing: number) => {
-        const cells = halvings > 0 ? greatestOf(halvings) : '';
-        return missing > 0 ? `coarse: ${cells}, finer ones are loading` : cells;
+    detail: ({ coarsest, missing, isGone }: { coarsest: number; missing: number; isGone: boolean }) => {
+        const cells = coarsest > 0 ? greatestOf(coarsest) : '';
+        return missing > 0 ? `coarse: ${cells}, finer ones are ${isGone ? 'gone' : 'loading'}` : cells;
     },
     drawn: (ms: number, how: { name: string; dE: number }, fetches: number | null) =>
         `${ms} ms, dE ${how.dE} (${how.name}${fetches === null ? '' : `, ${fetches.toFixed(1)} texels a pixel`})`,
@@ -237,6 +237,7 @@ export const texts = {
         otherCells: 'not shown: its cells are others',
         otherComes: 'loading',
         noOther: (moment: string) => `not shown: no ${moment} for this time`,
+        otherFailed: (moment: string) => `not shown: ${moment} could not be loaded`,
         noVolume: (station: string) => `There is no raw volume of ${station} for this time.`,
     },
     hover: {

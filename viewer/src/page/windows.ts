@@ -7,7 +7,7 @@ import { ViewGeometry } from '../camera/geometry';
 import { GridInParts, LoadedGrid } from '../renderer/renderer';
 import { Cells } from '../scene/grid_box';
 import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } from '../scene/projection';
-import { packed } from '../wire/api';
+import { isAbsent, packed } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 
 // What a window is for. Of each there is one at a time.
@@ -20,14 +20,15 @@ const bytesOfFields = 10; // of a column, in two of them
 const fallsOfLight = 0.05;
 const columnsOfSection = 480;
 const pointsOfLine = 32;
+const againAfterMs = 3000; // what failed
 
 interface Held {
     of: LoadedGrid; // whose window it is
     asked: BrickWindow | null;
     has: BrickWindow | null; // the last one that came
     cells: Cells | null; // of it
-    abort: AbortController | null; // of the request on its way
-    done: Promise<void>; // it came, or failed
+    abort: AbortController | null; // of the request on its way, or of one that failed: the picture is not complete
+    done: Promise<void>; // it came, or is not wanted any more; it fails if the grid is gone
 }
 
 export class Windows {
@@ -132,23 +133,32 @@ export class Windows {
             held = known?.of === loaded ? known : { of: loaded, asked: null, has: null, cells: null, abort: null, done: Promise.resolve() };
             this.taken.set(purpose, held);
         }
-        if (!held.asked || !holds(held.asked, window)) held.done = this.fetch(held, loaded, stream, window);
+        if (!held.asked || !holds(held.asked, window)) {
+            held.done = this.fetch(held, loaded, stream, window);
+            held.done.catch(() => undefined);
+        }
         return held.cells;
     }
 
-    private async fetch(held: Held, { grid }: LoadedGrid, { domain, moment, time }: GridInParts, window: BrickWindow): Promise<void> {
+    // What failed is asked for again, because a picture without its layer looks like clear air.
+    private async fetch(held: Held, loaded: LoadedGrid, stream: GridInParts, window: BrickWindow): Promise<void> {
+        const { grid } = loaded;
+        const { domain, moment, time } = stream;
         held.abort?.abort();
         const abort = (held.abort = new AbortController());
         held.asked = window;
         try {
             const bytes = await packed(domain, moment, time, { ...windowQuery(window), codes: 'values', id: grid.id }, abort.signal);
             const { grid: cells } = await this.decoder.ask({ kind: 'cells', bytes });
-            if (held.abort !== abort) return;
+            if (abort.signal.aborted) return;
             held.cells = { grid: cells!, middle: middleOn(grid, cells!) };
             held.has = window;
         } catch (error) {
-            if (held.abort !== abort || abort.signal.aborted) return;
+            if (abort.signal.aborted) return;
             this.fail(error);
+            if (isAbsent(error)) throw error;
+            await new Promise(done => setTimeout(done, againAfterMs));
+            return abort.signal.aborted ? undefined : this.fetch(held, loaded, stream, window);
         }
         held.abort = null;
         this.came();

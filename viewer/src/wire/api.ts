@@ -16,6 +16,9 @@ export class ApiError extends Error {
     }
 }
 
+// The server has no such thing: not that it could not be asked.
+export const isAbsent = (error: unknown): boolean => error instanceof ApiError && (error.status === 404 || error.status === 410);
+
 export interface MomentOfDomain {
     moment: string;
     units: string;

@@ -93,7 +93,9 @@ export function addChoices(app: App, facts: FactsOfShown): void {
     element('reload').hidden = true;
     app.on('choices', () => putChoices(app));
     for (const happening of ['notice', 'time', 'shown', 'map'] as const) app.on(happening, () => putNotice(app));
+    const askSites = () => void facts.askSites().then(() => putSites(app, facts), () => undefined);
     window.setInterval(() => {
+        askSites();
         if (app.shown && !app.isOnMap) putTitle(app);
         putNotice(app);
     }, againAfterMs);
@@ -101,7 +103,7 @@ export function addChoices(app: App, facts: FactsOfShown): void {
         putTitle(app);
         putMoment(app);
         putSites(app, facts);
-        void facts.askSites().then(() => putSites(app, facts), () => undefined);
+        askSites();
     });
     element<HTMLSelectElement>('domain').addEventListener('change', event => void app.chooseDomain((event.target as HTMLSelectElement).value));
 }
