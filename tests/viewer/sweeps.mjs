@@ -75,6 +75,19 @@ try {
   await page.send('Fetch.disable');
   page.trouble = page.trouble.filter((one) => !/404|500|ERR_CONNECTION_RESET/.test(one));
 
+  // ---- What is hidden is said (2026-11-28: a box, layers that are off, and a veil that is off looked like clear air)
+  for (const [view, words] of [
+    ['moment=REF&crop-km=-50,50,-50,50,14,16', 'echo outside the box from 14.0 km to 16.0 km is hidden'],
+    ['moment=REF&volume=0', 'echo is hidden'],
+    ['moment=REF&opacity=0.01', 'opacity × 0.01'],
+    ['moment=VEL&folded=0', 'range-folded air is hidden'],
+    ['moment=REF&folded=0', ''],
+    ['moment=VEL', ''],
+  ]) {
+    await viewer.show(`domain=${station}&${view}`);
+    check(`${view}: ${await told()}`, (await told()) === words);
+  }
+
   // ---- The whole sweep is drawn, also beyond the grid (2026-11-28: it was cut off at the grid's box)
   const echo = (more) => evaluate(`(() => {
     const picture = document.getElementById('picture');

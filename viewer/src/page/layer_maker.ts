@@ -12,7 +12,7 @@ import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layers';
 import { LoadedGrid } from '../renderer/renderer';
 import { Cells, extentOf, placingOf } from '../scene/grid_box';
-import { Layers, isBelow, usualLayers, veilsFolded } from '../scene/layers';
+import { Layers, echoLayers, isBelow, usualLayers, veilsFolded } from '../scene/layers';
 import { Place, Plane, planeOf } from '../scene/projection';
 import { ColorTable } from '../tables/color_table';
 import { heightText, valueText } from '../tables/units';
@@ -249,12 +249,16 @@ export class LayerMaker {
         const hasVisible = atlas.brickCount > 0 && valueOf(grid, atlas.greatest) >= least;
         return hasVisible ? [] : [texts.layers.noEchoFrom(valueText(least, unit, state.units))];
     }
-    // What is drawn beside the volume, in words.
+    // What is drawn beside the volume, and what is hidden, in words.
     told(): string[] {
         const { shown, state } = this.app;
         const { layers, units } = state;
         if (!shown) return [];
+        if (echoLayers(layers) === 0) return [texts.layers.hidden];
         const said = layers.hasVolume ? this.emptyTold(shown) : [];
+        if (layers.hasVolume && state.opacity < 1) said.push(texts.layers.fainter(state.opacity));
+        if (layers.crop && (layers.hasVolume || layers.surface)) said.push(texts.layers.hiddenOutside(heightText(layers.crop.bottomM, units), heightText(layers.crop.topM, units)));
+        if (layers.hasFolded === false && veilsFolded({ ...layers, hasFolded: null }, shown.moment)) said.push(texts.layers.hiddenFolded);
         if (state.least !== null) said.push(texts.layers.hiddenBelow(valueText(state.least, this.app.shownTable?.unit ?? '', units)));
         if (layers.planeM !== null) {
             const isBeyond = levelsAbout(shown.loaded.grid.levelsM, layers.planeM) === null;

@@ -133,13 +133,17 @@ export function layersOf(query: URLSearchParams): Layers {
     };
 }
 
+// How many layers show echo.
+export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sweepDeg }: Layers): number =>
+    [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null].filter(Boolean).length;
+
 // What keeps `stormcellar frame` from drawing the layers as they are: it draws one, without surfaces and boxes, and a sweep of
 // one radar.
 export function beyondCommand(layers: Layers, siteCount: number): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
     if (layers.surface) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
     if (!layers.hasVolume && (layers.hasHaze || layers.hasFolded === true)) return 'haze';
-    const drawn = [layers.hasVolume, layers.planeM !== null, layers.section !== null, layers.hasMaximum, layers.sweepDeg !== null].filter(Boolean).length;
+    const drawn = echoLayers(layers);
     if (drawn !== 1) return drawn === 0 ? 'none' : 'several';
     return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;
 }
