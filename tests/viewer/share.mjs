@@ -122,6 +122,15 @@ try {
   const ofCache = await page.until('window.copied');
   check(`the command reads the cache then, and the page says so: ${ofCache}`, ofCache.startsWith(`stormcellar frame ${station} `) && (await evaluate("document.getElementById('state').textContent")).includes('cache'));
 
+  // ---- Its volume came in chunks (2026-11-28: it was saved under the name of the first one)
+  const began = (await evaluate('document.documentElement.dataset.drawn')).split('/').pop();
+  const joinedName = station + began.slice(0, 19).replace(/[-:]/g, '').replace('T', '_');
+  await evaluate(`window.fetch = (url, ...more) => String(url).includes('/volumes?to=') ? Promise.resolve(new Response(JSON.stringify({ volumes: [{ name: '20160601-150025-001-S', time: '${began}' }] }))) : own(url, ...more);
+    HTMLAnchorElement.prototype.click = function () { window.taken = { href: this.href, name: this.download }; }; undefined`);
+  await press('raw');
+  const joined = await page.until('window.taken');
+  check(`Raw volume gives the volume: ${joined.name}`, joined.name === joinedName && (await fetch(joined.href, { method: 'HEAD' })).status === 200);
+
   // ---- Its grid is another one than the program makes of the raw file (2026-11-28: the command drew that one)
   const spacingAt = 64; // of a packed grid
   await evaluate(`window.told = false;
@@ -143,6 +152,17 @@ try {
   await press('command');
   const ofOther = await page.until('window.copied');
   check(`the command of another grid reads the cache: ${ofOther}`, ofOther.startsWith(`stormcellar frame ${station} `));
+
+  // ---- Without a clipboard, as over plain HTTP (2026-11-28: it was said that the link is there)
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF`);
+  await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: undefined }); window.prompt = (said, text) => (window.asked = [said, text], null); undefined`);
+  for (const [id, part] of [['share', 'domain='], ['command', 'stormcellar frame']]) {
+    await evaluate('window.asked = undefined');
+    await press(id);
+    const [said, copied] = await page.until('window.asked');
+    check(`without a clipboard the page says so: ${said}`, said.includes('not available') && !said.includes('in the clipboard') && copied.includes(part));
+  }
 
   // ---- The link, opened by somebody else
   await page.goto('about:blank');

@@ -123,6 +123,7 @@ export const texts = {
     oblique: 'Oblique',
     share: 'Copy link',
     shared: 'The link is in the clipboard.',
+    copyByHand: 'The clipboard is not available. Copy the text below.',
     save: 'Save picture',
     saving: 'Saving the picture',
     notSaved: 'No picture was saved, because it did not become complete. Try again.',
@@ -130,7 +131,7 @@ export const texts = {
     commandCopied: 'The command is in the clipboard.',
     commandReads: (raw: string) => `It reads ${raw}, which Raw volume gives.`,
     commandReadsCache: 'It reads the cache of this server.',
-    commandWithFile: (name: string) => `The command is in the clipboard; it reads ${name}, which was saved.`,
+    commandColors: (name: string) => `Its colors are in ${name}, which was saved.`,
     commandFlat: 'It draws the layer as a map of the grid.',
     noCommand: {
         nothing: 'There is no picture yet.',

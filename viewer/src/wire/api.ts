@@ -225,17 +225,23 @@ export interface SweepRow {
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
 
+export interface RawVolume {
+    name: string;
+    time: string | null;
+}
 // The newest volume of a station that began at a time or before.
-export async function rawBefore(station: string, time: string): Promise<{ name: string; time: string | null } | null> {
-    const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: { name: string; time: string | null }[] };
+export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
+    const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: RawVolume[] };
     return volumes[volumes.length - 1] ?? null;
 }
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
-// The file of the volume that began at a time; null if it is gone, where the newest before would be an older one.
-export async function rawNameAt(station: string, time: string): Promise<string | null> {
+// The volume that began at a time; null if it is gone, where the newest before would be an older one.
+export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
-    return volume?.time != null && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume.name : null;
+    return volume?.time != null && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
 }
+// A name that chunks of a volume have: the volume has none of its own.
+export const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;
 }

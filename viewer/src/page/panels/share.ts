@@ -4,7 +4,7 @@ import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
 import { commandOf, isBeyondLimits, isUsualGrid } from '../../scene/view_state';
 import { LoadedGrid } from '../../renderer/renderer';
-import { address, gridPath, isRegion, rawNameAt } from '../../wire/api';
+import { address, gridPath, isChunk, isRegion, rawAt } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
@@ -14,11 +14,11 @@ import { TableEditing } from '../table_editing';
 import { texts } from '../texts';
 
 // Browsers give no clipboard to pages that came over plain HTTP from another machine.
-function copy(app: App, text: string, said: string): void {
+function copy(app: App, text: string, said: string, ...notes: string[]): void {
     const clipboard: Clipboard | undefined = navigator.clipboard;
     (clipboard ? clipboard.writeText(text) : Promise.reject(new Error('no clipboard'))).then(
-        () => app.say(said),
-        () => window.prompt(said, text),
+        () => app.say([said, ...notes].join(' ')),
+        () => window.prompt([texts.copyByHand, ...notes].join(' '), text),
     );
 }
 
@@ -38,8 +38,6 @@ function save(app: App, drawing: Drawing): void {
 }
 
 const savedFiles = new Set<string>(); // of commands that were copied
-
-const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);
 
 // The raw file of which the grid was made, if it is one: whoever has it needs no cache for the command. A
 // browser lets the page copy only at once, so that it is asked for before.
@@ -63,9 +61,9 @@ class RawFile {
         const { provenance } = await this.facts.ask();
         // A mosaic may be of one station at an instant.
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
-        const name = isOne ? await rawNameAt(provenance.stations[0]!, shown.time) : null;
+        const volume = isOne ? await rawAt(provenance.stations[0]!, shown.time) : null;
         // A chunk is not its volume.
-        [this.of, this.name] = [shown.loaded, name !== null && !isChunk(name) ? name : ''];
+        [this.of, this.name] = [shown.loaded, volume && !isChunk(volume.name) ? volume.name : ''];
     }
 }
 
@@ -97,16 +95,14 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     // The cut that is drawn, whichever rule has chosen it.
     const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
-    const notes = [
-        raw ? texts.commandReads(raw) : texts.commandReadsCache,
-        state.layers.hasVolume || state.layers.section ? '' : texts.commandFlat,
-    ];
-    const give = (colors: string, said: string) => copy(app, commandOf(state, size.width, size.height, colors, raw), [said, ...notes].filter(Boolean).join(' '));
-    if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '', texts.commandCopied);
+    const notes = [raw ? texts.commandReads(raw) : texts.commandReadsCache];
+    if (!state.layers.hasVolume && !state.layers.section) notes.push(texts.commandFlat);
+    const give = (colors: string, ...of: string[]) => copy(app, commandOf(state, size.width, size.height, colors, raw), texts.commandCopied, ...of, ...notes);
+    if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '');
     const file = editing.tomlForCommand();
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
     savedFiles.add(file.name);
-    give(file.name, texts.commandWithFile(file.name));
+    give(file.name, texts.commandColors(file.name));
 }
 
 export function addShare(app: App, drawing: Drawing, editing: TableEditing, facts: FactsOfShown): void {

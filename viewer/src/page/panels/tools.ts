@@ -1,6 +1,6 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
-import { rawBefore, rawNameAt, rawPath } from '../../wire/api';
+import { RawVolume, isAbsent, isChunk, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
 import { Drawing } from '../drawing';
@@ -16,10 +16,16 @@ interface RawFile {
     name: string; // its own, which a user may have given
 }
 
+// The server joins the chunks of a volume, and knows it by its station and time.
+function fileOf(station: string, { name, time }: RawVolume): RawFile {
+    const [date, seconds] = (time ?? '').replace(/[-:]/g, '').split(/[T.Z]/);
+    return { station, name: isChunk(name) ? `${station}${date}_${seconds}` : name };
+}
+
 // The files of volumes that began at these times, as far as they are there.
 async function filesOf(volumes: { station: string; time: string }[]): Promise<RawFile[]> {
-    const names = await Promise.all(volumes.map(({ station, time }) => rawNameAt(station, time)));
-    return volumes.flatMap(({ station }, i) => (names[i] === null ? [] : [{ station, name: names[i]! }]));
+    const found = await Promise.all(volumes.map(({ station, time }) => rawAt(station, time)));
+    return volumes.flatMap(({ station }, i) => (found[i] ? [fileOf(station, found[i]!)] : []));
 }
 
 export class ToolsPanel {
@@ -88,7 +94,7 @@ export class ToolsPanel {
         if (sites) return filesOf(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => ({ station: site, time }))));
         if (shown.isBetween) {
             const before = await rawBefore(shown.domain, shown.time);
-            return before ? [{ station: shown.domain, name: before.name }] : [];
+            return before ? [fileOf(shown.domain, before)] : [];
         }
         const { source_files, stations } = (await this.facts.ask()).provenance;
         const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
@@ -97,10 +103,8 @@ export class ToolsPanel {
 
     // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
     private async download(): Promise<void> {
-        const files = await this.rawFiles().catch(error => {
-            this.app.fail(error);
-            return [];
-        });
+        const files = await this.rawFiles().catch(error => (isAbsent(error) ? [] : (this.app.fail(error), null)));
+        if (!files) return this.tell('');
         const links = files.map(({ station, name }) => {
             const link = document.createElement('a');
             link.href = rawPath(station, name);
