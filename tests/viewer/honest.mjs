@@ -16,12 +16,12 @@ let listed = (path, body) => body;
 let isRefusing = false; // it has no place for another stream
 let isHanging = false; // it takes connections, and sends nothing
 let isBreaking = (path) => false; // it breaks off before it answers
-let isSlow = (path) => false; // it answers a second later
+let isSlow = (path) => false; // it answers two seconds later
 const streams = new Set();
 setInterval(() => isHanging || streams.forEach((stream) => stream.write(': heartbeat\n\n')), 200).unref();
 function pass(asked, answer, waited = false) {
   if (isHanging) return;
-  if (!waited && isSlow(asked.url)) return void setTimeout(() => pass(asked, answer, true), 1000);
+  if (!waited && isSlow(asked.url)) return void setTimeout(() => pass(asked, answer, true), 2000);
   if (isBreaking(asked.url)) return void answer.destroy();
   if (asked.url.startsWith('/api/v1/events')) {
     if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10' }).end('{"error": "as many as there may be"}');
@@ -77,6 +77,16 @@ try {
   check(`a surface of a moment that is not there: ${await says('layers-told', 'no XXX for this time')}`, (await text('layers-told')).includes('no XXX for this time'));
   await page.goto('about:blank');
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  if (!isAlone) {
+    isSlow = (path) => path.startsWith('/tiles/');
+    await page.goto('about:blank');
+    await page.goto(`${viewer.address}/view/`);
+    check(`echo that is on its way (2026-11-28: it looked like clear air): ${await says('start-card', 'not loaded yet')}`, (await text('start-card')).includes('not loaded yet'));
+    isSlow = () => false;
+    check('it has come', await page.until("document.getElementById('start-card').textContent === ''", 30).then(() => true, () => false));
+    await page.goto('about:blank');
+    await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  }
   check('what is there needs no notice', (await text('notice')) === '');
   await page.evaluate(`location.hash = 'domain=${station}&moment=REF&time=tomorrow'`);
   check(`a time that is none in the same window (2026-11-28: nothing was said): ${await says('notice', 'tomorrow is no time')}`, (await text('notice')).includes('tomorrow'));
@@ -183,6 +193,18 @@ try {
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
   check(`silent before: ${await says('notice', 'silent')}`, (await text('notice')).includes(`${station} is silent: nothing came for 14 min`));
 
+  // ---- A volume of a wrong time in the future (2026-11-28: the page followed it for good)
+  listed = (path, body) => {
+    if (body.length === 0 || !path.startsWith('/api/v1/grids?')) return body;
+    const all = JSON.parse(body.toString());
+    all.grids.push({ ...all.grids.at(-1), time: '2099-01-01T00:00:00Z' });
+    return Buffer.from(JSON.stringify(all));
+  };
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  const followed = await page.evaluate('document.documentElement.dataset.drawn');
+  check(`what is followed is not of the future: ${followed}`, followed.endsWith(time) && (await text('follow')) === 'Newest');
+
   // ---- A list that does not come, before anything is shown (2026-11-28: it said that it tries again, and did not)
   const old = ['2001-01-01T00:00:00Z', '2001-01-01T00:05:00Z'];
   listed = (path, body) => {
@@ -206,7 +228,7 @@ try {
   // evicted (2026-11-28: the timeline kept them, and a loop waited for them)
   isSlow = (path) => path.includes('2001-01-01');
   await page.evaluate("document.getElementById('earlier').click(); document.getElementById('later').click()");
-  await new Promise((done) => setTimeout(done, 2500));
+  await new Promise((done) => setTimeout(done, 3500));
   check(`what fails late is not said of what is shown (2026-11-28: it was): ${await text('state')}`, !(await text('state')).includes('no picture'));
   isSlow = () => false;
   let hasMore = true; // than those of a list
