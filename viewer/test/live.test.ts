@@ -20,7 +20,7 @@ Object.assign(globalThis, {
     fetch: (url: string, options: RequestInit): Promise<Response> => {
         if (!server.isUp) return Promise.reject(new TypeError('no answer'));
         if (server.isHanging) return new Promise((_, failed) => options?.signal?.addEventListener('abort', () => failed(new TypeError('aborted'))));
-        if (!String(url).includes('events')) return Promise.resolve(new Response('{"stations":[]}'));
+        if (!String(url).includes('events')) return Promise.resolve(new Response('{"stations":[]}', { headers: { Date: new Date(Date.now() + 3600e3).toUTCString() } }));
         const body = new ReadableStream<Uint8Array>({
             start(stream) {
                 server.streams.add(stream);
@@ -58,6 +58,11 @@ test('three pages of a browser listen, and the others ask for lists', async () =
     const withPlace = pages.filter(page => page.asked() === 0);
     assert.equal(withPlace.length, 3);
     assert.equal(withPlace.includes(first), true);
+    // 2026-11-28: they told ages by the clock of the browser.
+    assert.equal(
+        pages.every(page => page.server.nowMs > Date.now() + 3500e3),
+        true,
+    );
     assert.equal(
         pages.some(page => page.server.isCutOff),
         false,

@@ -1,6 +1,6 @@
 // What the server tells of new and changed grids, and whether it still tells anything.
 
-import { ApiError, askEvents, silences } from '../wire/api';
+import { ApiError, askEvents, silences, timeOf } from '../wire/api';
 import { EventText, ServerEvent } from '../wire/events';
 import { App } from './app';
 import { StreamPlaces } from './stream_places';
@@ -56,7 +56,7 @@ export class Live {
         try {
             const answer = await askEvents(this.last, abort.signal);
             const wasCutOff = this.app.server.isCutOff;
-            this.app.server.take(true, Date.parse(answer.headers.get('Date') ?? ''));
+            this.app.server.take(true, timeOf(answer));
             if (!answer.ok || !answer.body) {
                 this.places.leave();
                 await this.doWithout();
@@ -92,13 +92,14 @@ export class Live {
     }
     // Of who fell silent before, there are no news.
     private async askSilences(): Promise<void> {
-        this.app.server.takeSilences(await silences());
+        const { silent, serverMs } = await silences();
+        this.app.server.take(true, serverMs);
+        this.app.server.takeSilences(silent);
     }
     // There is no place for another stream, or the server has none: the lists tell as much, if later. Pictures may take
     // long; a server that does not tell who is silent does not answer.
     private async doWithout(): Promise<void> {
         await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);
-        this.app.server.take(true);
         if (this.isCatchingUp) return;
         this.isCatchingUp = true;
         this.do(() => this.app.catchUp().finally(() => (this.isCatchingUp = false)));

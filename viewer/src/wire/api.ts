@@ -118,6 +118,9 @@ const mostWideDeg = 359.99;
 const busy = 503;
 const mostTries = 10;
 
+// The server's, ms since 1970; NaN if it does not say.
+export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
+
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
     let answer = await fetch(address(path), options);
     for (let tries = 0; answer.status === busy && tries < mostTries; ++tries) {
@@ -140,9 +143,12 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return ((await (await ask('api/v1/stations')).json()) as { stations: Station[] }).stations;
 }
-// For how many seconds nothing came from each station that is silent.
-export async function silences(): Promise<[string, number][]> {
-    return (await stations()).flatMap(({ station, silent_s }): [string, number][] => (silent_s == null ? [] : [[station, silent_s]]));
+// For how many seconds nothing came from each station that is silent; and the time of the server.
+export async function silences(): Promise<{ silent: [string, number][]; serverMs: number }> {
+    const answer = await ask('api/v1/stations');
+    const { stations } = (await answer.json()) as { stations: Station[] };
+    const silent = stations.flatMap(({ station, silent_s }): [string, number][] => (silent_s == null ? [] : [[station, silent_s]]));
+    return { silent, serverMs: timeOf(answer) };
 }
 export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
