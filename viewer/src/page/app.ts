@@ -61,6 +61,7 @@ export class App {
     );
     private heard = new Map<Happening, (() => void)[]>();
     private coming = 0; // times that are not shown yet
+    private ticking = 0; // the timer of playback
     private readonly ahead = new Ahead(this);
     private addressBar = new AddressBar(() => addressOf(this.state));
     private turn = 0; // of what is to be shown
@@ -447,7 +448,8 @@ export class App {
             this.player = player;
             void this.showTime();
         }
-        window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
+        window.clearTimeout(this.ticking);
+        this.ticking = window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
     }
     // Playback stays in a part of the times: one of its ends is now; none: in all.
     setLoop(end: 'from' | 'to' | null): void {
