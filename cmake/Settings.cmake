@@ -12,6 +12,12 @@ endif()
 
 # No fused multiply-add unless the code asks for it: the same bits on every machine.
 add_compile_options(-ffp-contract=off)
+# GCC 12 frees an error's text twice where a function returns a Result in this way:
+# `if (!r || !r->empty()) return r;` (S3Unreadable.AnErrorOfTheCatalogIsAnAnswer). Without this
+# analysis it does not.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  add_compile_options(-fno-ipa-modref)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast
     -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
