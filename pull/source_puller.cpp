@@ -149,10 +149,17 @@ bool SourcePuller::may_fetch() const {
 // Makes room at once, of the oldest grids first. Returns false if the one that came had to go.
 bool SourcePuller::make_room_for(const cache::GridName& name) {
     if (grids_.bytes() <= config_.bytes_a_source) return true;
+    const std::uint64_t bytes = grids_.bytes();
     const std::size_t removed = grids_.prune(now_utc());
+    if (!grids_.has(name)) no_room_ = {name.time, bytes - grids_.bytes()};
     const std::scoped_lock lock(mutex_);
     status_.removed += removed;
     return grids_.has(name);
+}
+
+bool SourcePuller::has_room_for(const cache::GridName& name) const {
+    return !no_room_ || name.time > no_room_->time ||
+           grids_.bytes() + no_room_->bytes <= config_.bytes_a_source;
 }
 
 void SourcePuller::complain(const Error& why) {
@@ -163,6 +170,7 @@ Status SourcePuller::fetch_missing() {
     for (const cache::GridName& name : listed_) {
         if (!may_fetch()) return {};
         if (grids_.has(name)) continue;
+        if (!has_room_for(name)) return {};
         if (Status fetched = fetch(name); !fetched) return fetched;
         // The newest come first: where one of them has no room, older ones have none either.
         if (!make_room_for(name)) return {};

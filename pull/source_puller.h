@@ -17,6 +17,7 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "base/rate_limit.h"
@@ -65,6 +66,12 @@ class SourcePuller {
         int tries = 0;
         SteadyTime next{};
     };
+    // The last grid that had to go as soon as it came, because all others are newer.
+    struct NoRoom {
+        UtcTime time;
+        std::uint64_t bytes = 0;
+    };
+    [[nodiscard]] bool has_room_for(const cache::GridName& name) const;
     const PullSource source_;
     const PullConfig config_;
     PulledGrids grids_;
@@ -76,6 +83,7 @@ class SourcePuller {
     SteadyTime next_long_list_{};
     std::map<cache::GridName, SteadyTime> asked_;  // when a young grid was last asked for
     std::map<cache::GridName, Bad> bad_;
+    std::optional<NoRoom> no_room_;
     int failures_ = 0;          // turns, one after the other
     int fetched_ = 0;           // requests of the turn
     int refused_in_a_row_ = 0;  // of the turn

@@ -182,6 +182,24 @@ TEST_F(Pulling, AtItsLimitAllThatIsNewComesAndTheOldestGo) {
         EXPECT_EQ(pulled(number).empty(), number < 2) << number;
 }
 
+// 2026-11-28: a machine at its limit fetched the same grid in each turn, and removed it again.
+TEST_F(Pulling, AtItsLimitNothingIsFetchedInVainAgain) {
+    {
+        const auto north = puller();
+        ASSERT_TRUE(north->turn());
+        config_.bytes_a_source = north->status().bytes;
+    }
+    other_.add(std::chrono::minutes{5}, 2);
+    other_.add(std::chrono::minutes{4}, 3);
+    const auto north = puller();
+    ASSERT_TRUE(north->turn());
+    const auto first = north->status();
+    for (int turn = 0; turn < 3; ++turn)
+        ASSERT_TRUE(north->turn());
+    EXPECT_EQ(north->status().removed, first.removed);
+    EXPECT_EQ(north->status().pulled, first.pulled);
+}
+
 TEST_F(Pulling, WhatComesCutOrChangedIsRefusedAndComesLater) {
     const std::vector<std::function<Reply(Reply)>> faults = {
         [](Reply reply) { return reply.way = Reply::Way::cut, reply; },
