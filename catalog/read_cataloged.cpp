@@ -78,6 +78,9 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
         for (const MemberName& name : member_names_in(entry.path)) {
             const auto archive = open_beneath(*root, name.archive);
             if (archive) return read_member(entry, Descriptor{*archive}, name);
+            const ErrorCode why = archive.error().code;
+            if (why != ErrorCode::not_found && why != ErrorCode::not_a_file)
+                return pass_on(archive);
         }
     }
     if (!opened) return pass_on(opened);

@@ -23,6 +23,8 @@ constexpr const char* entry_columns =
 // their order, and a query with a limit stops there. Left to itself, SQLite may read a whole table.
 constexpr const char* entry_join =
     "FROM volume v CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id ";
+// True of what is no member of an archive: its path has no member_mark, or nothing behind it.
+constexpr const char* is_no_member = "instr(f.path, x'21') IN (0, length(f.path)) ";
 constexpr const char* columns_without_volume =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "
     "0, 0, 0, f.modified_ns, f.content_hash FROM file f ";
@@ -124,10 +126,8 @@ std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) 
     static const auto text = [](const char* order) {
         return std::string{entry_columns} + entry_join +
                "WHERE v.start_ms BETWEEN ? AND ? AND p.ordinal = 0 "
-               "AND (? OR f.state <> 'gone') AND (? OR instr(f.path, x'21') IN (0, "
-               "length(f.path))) "  // member_mark
-               "ORDER BY v.start_ms " +
-               order + " LIMIT ?";
+               "AND (? OR f.state <> 'gone') AND (? OR " +
+               is_no_member + ") ORDER BY v.start_ms " + order + " LIMIT ?";
     };
     static const std::string ascending = text(""), descending = text("DESC");
     LentStatement rows = prepared((stretch.newest_first ? descending : ascending).c_str());
@@ -141,11 +141,11 @@ std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) 
 
 std::optional<UtcTime> StationDatabase::oldest_kept() {
     constexpr std::int64_t most_tried = 500;
+    static const std::string counts = "f.state <> 'gone' AND " + std::string{is_no_member};
+    static const std::string of_oldest =
+        "SELECT " + counts + ", v.start_ms " + entry_join + "ORDER BY v.start_ms LIMIT ?";
     {
-        LentStatement oldest = prepared(
-            "SELECT f.state <> 'gone', v.start_ms FROM volume v "
-            "CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id "
-            "ORDER BY v.start_ms LIMIT ?");
+        LentStatement oldest = prepared(of_oldest.c_str());
         oldest->bind(1, most_tried);
         std::int64_t tried = 0;
         for (; oldest->executeStep(); ++tried) {
@@ -155,9 +155,11 @@ std::optional<UtcTime> StationDatabase::oldest_kept() {
     }
     // Whoever deletes old files leaves few: the table of files is read, and their volumes looked
     // up.
-    LentStatement kept = prepared(
+    static const std::string of_all =
         "SELECT min(v.start_ms) FROM file f CROSS JOIN part p ON p.file_id = f.id "
-        "CROSS JOIN volume v ON v.id = p.volume_id WHERE f.state <> 'gone'");
+        "CROSS JOIN volume v ON v.id = p.volume_id WHERE " +
+        counts;
+    LentStatement kept = prepared(of_all.c_str());
     kept->executeStep();
     return optional_time(kept->getColumn(0));
 }

@@ -38,7 +38,8 @@ Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::Betwee
         if (!made) return pass_on(made);
         if (!*made) {
             return fail(ErrorCode::not_found,
-                        "there are no two volumes between whose middles {} lies",
+                        "there are no two volumes, near enough to each other, between whose "
+                        "middles {} lies",
                         format_utc(frame.time));
         }
         drawing.made = std::move(**made);

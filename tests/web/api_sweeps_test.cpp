@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,53 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     EXPECT_EQ(chosen["REF"], (std::vector<int>{0, 2, 4, 5, 6}));
     EXPECT_EQ(chosen["VEL"], (std::vector<int>{1, 3, 4, 5, 6}));
     EXPECT_EQ(chosen["ZDR"], (std::vector<int>{0, 2, 4, 5, 6}));
+}
+
+// 2026-11-28: a volume that comes as chunks was decoded once, and no sweep came to it afterwards.
+TEST(ApiSweeps, OfAVolumeThatGrowsAreThoseThatHaveCome) {
+    STORMCELLAR_NEED_DATA();
+    ServedVolumes volumes(false);
+    const testing::TemporaryDirectory cache;
+    WebSetup setup;
+    setup.catalog = volumes.state() / "catalog";
+    setup.cache = cache.path();
+    std::set<std::size_t> counts;
+    (void)volumes.take_chunks(4);
+    const auto sources = open_sources(setup);
+    ASSERT_TRUE(sources) << sources.error().message;
+    Measures measures;
+    const auto doors = doors_to(*sources, measures);
+    for (const std::size_t chunks : {10U, 25U, 55U}) {
+        (void)volumes.take_chunks(chunks);
+        const std::string path = "/api/v1/stations/KLOT/volumes/latest/sweeps";
+        const Answer answer = asked(*doors->find(path), path);
+        ASSERT_EQ(answer.status, 200U) << body_of(answer);
+        counts.insert(nlohmann::json::parse(body_of(answer)).at("sweeps").size());
+    }
+    EXPECT_EQ(counts.size(), 3U);
+}
+
+// 2026-11-28: of a volume in two files one was deleted, and the volume was said to be gone.
+TEST(ApiSweeps, AFileThatIsLeftIsTaken) {
+    STORMCELLAR_NEED_DATA();
+    ServedVolumes volumes(false);
+    const auto file = *testing::data_directory() / "volumes/KTLX20170101_030027_V06";
+    (void)volumes.take(file, "KTLX20170101_030027_V06");
+    (void)volumes.take(file, "copy_KTLX20170101_030027_V06");
+    ASSERT_TRUE(volumes.catalog().mark_gone(std::filesystem::canonical(volumes.drop()) /
+                                            "copy_KTLX20170101_030027_V06"));
+    const testing::TemporaryDirectory cache;
+    WebSetup setup;
+    setup.catalog = volumes.state() / "catalog";
+    setup.cache = cache.path();
+    const auto sources = open_sources(setup);
+    ASSERT_TRUE(sources) << sources.error().message;
+    Measures measures;
+    const auto doors = doors_to(*sources, measures);
+    for (const std::string time : {"2017-01-01T03:00:27Z", "latest"}) {
+        const std::string path = "/api/v1/stations/KTLX/volumes/" + time + "/sweeps";
+        EXPECT_EQ(asked(*doors->find(path), path).status, 200U) << time;
+    }
 }
 
 // 2026-11-28: of a file with two volumes, the second one had the gates, and the pictures, of the

@@ -86,18 +86,18 @@ TEST_F(S3, DirectoriesAreCommonPrefixes) {
 // 2026-11-28: an archive of a day hid the files of its station, and the bucket was empty.
 TEST_F(S3, MembersOfAnArchiveHideNoFiles) {
     ServedVolumes served;
-    std::vector<catalog::FileFacts> members;
-    for (int i = 0; i < 300; ++i) {
-        catalog::FileFacts member;
-        member.path = served.drop() / fmt::format("day.tar!KTLX{:03}", i);
-        member.station = "KTLX";
-        member.state = catalog::FileState::complete;
-        member.volumes.resize(1);
-        member.volumes[0].start_time =
-            *parse_utc("2016-12-31T00:00:00Z", UtcTime{}) + std::chrono::minutes{4 * i};
-        members.push_back(std::move(member));
+    for (const std::string station : {"KTLX", "KABC"}) {
+        std::vector<catalog::FileFacts> members(600);
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            members[i].path = served.drop() / fmt::format("day.tar!{}{:03}", station, i);
+            members[i].station = station;
+            members[i].state = catalog::FileState::complete;
+            members[i].volumes.resize(1);
+            members[i].volumes[0].start_time = *parse_utc("1991-01-01T00:00:00Z", UtcTime{}) +
+                                               std::chrono::days{15} * static_cast<int>(i);
+        }
+        ASSERT_TRUE(served.catalog().register_files(station, members));
     }
-    ASSERT_TRUE(served.catalog().register_files("KTLX", members));
     door_ = std::make_unique<S3Door>(served.files(), "unidata-nexrad-level2");
     EXPECT_EQ(keys("?list-type=2").size(), 3U);
     EXPECT_EQ(prefixes("?list-type=2&delimiter=/"), (Texts{"1991/", "2005/", "2017/"}));
@@ -108,6 +108,8 @@ TEST_F(S3, MembersOfAnArchiveHideNoFiles) {
     const auto files = served.files()->list("KTLX", newest);
     ASSERT_TRUE(files && files->size() == 1);
     EXPECT_EQ((*files)[0].name, "KTLX20170101_030027_V06");
+    EXPECT_FALSE(served.catalog().oldest_kept("KABC")->has_value());
+    EXPECT_EQ(format_utc(**served.catalog().oldest_kept("KTLX")), "1991-07-20T16:05:18Z");
 }
 
 class UnreadableFiles final : public RawFiles {

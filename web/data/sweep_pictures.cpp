@@ -53,8 +53,8 @@ std::string SweepPicture::key() const {
     const std::string state = catalog::has_final_hash(volume)
                                   ? std::string{}
                                   : fmt::format("{} {}", volume.path.native(), volume.modified_ns);
-    return fmt::format("sweep {}\n{}\n{} {} {} {}", domain, style.key, grid_id, volume.size_bytes,
-                       volume.content_hash, state);
+    return fmt::format("sweep {}\n{}\n{} {} {} {} {}", domain, style.key, grid_id,
+                       volume.size_bytes, volume.content_hash, volume.volume.radial_count, state);
 }
 
 std::string SweepPicture::etag() const {

@@ -263,8 +263,9 @@ Result<Kept> make_between(const ApiCall& call, const NamedGrid& named, Coding co
     if (!frame) return pass_on(frame);
     if (!*frame) {
         return fail(ErrorCode::not_found,
-                    "there are no two volumes of {} between whose middles {} lies", named.domain,
-                    format_utc(named.time));
+                    "there are no two volumes of {}, near enough to each other, between whose "
+                    "middles {} lies",
+                    named.domain, format_utc(named.time));
     }
     return pack_frame(**frame, coding, {});
 }

@@ -26,35 +26,42 @@ struct FoundVolume {
     std::string key;  // of this volume; changes when its file does
 };
 
-// The last of those that start at the time: a volume that was sent again replaces the others.
+// The last of those that start at the time: a volume that was sent again replaces the others. One
+// whose file is gone counts only if all are.
 Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     const auto icao = icao_of(call.path_value("station"));
     if (!icao) return refuse(json_error(404, "there is no such station"));
     auto catalog = call.state.catalog();
     if (!catalog) return refuse(catalog.error());
-    std::optional<catalog::CatalogEntry> found;
+    std::optional<UtcTime> start;
     const std::string time_text = call.path_value("time");
     if (time_text == "latest") {
-        auto latest = (*catalog)->latest(*icao);
+        const auto latest = (*catalog)->latest(*icao);
         if (!latest) return refuse(latest.error());
-        found = std::move(*latest);
+        if (*latest) start = (*latest)->volume.start_time;
     } else {
         const auto time = parse_utc(time_text, now_utc());
         if (!time) return refuse(json_error(400, "time: " + time.error().message));
-        const auto entries = (*catalog)->list(*icao, {*time, *time, false});
+        start = *time;
+    }
+    std::optional<catalog::CatalogEntry> found;
+    if (start) {
+        const auto entries = (*catalog)->list(*icao, {*start, *start, false});
         if (!entries) return refuse(entries.error());
-        for (const catalog::CatalogEntry& entry : *entries) {
-            if (!found || entry.generation >= found->generation) found = entry;
-        }
+        const auto rank = [](const catalog::CatalogEntry& entry) {
+            return std::pair(entry.state != catalog::FileState::gone, entry.generation);
+        };
+        for (const catalog::CatalogEntry& entry : *entries)
+            if (!found || rank(entry) >= rank(*found)) found = entry;
     }
     if (!found) return refuse(json_error(404, "there is no such volume"));
     if (found->state == catalog::FileState::gone) {
         return refuse(json_error(410, "the file of the volume was removed by its owner"));
     }
-    const auto start = found->volume.start_time;
-    std::string key =
-        fmt::format("{}/{}/{}/{}/{}", found->path.native(), found->size_bytes, found->modified_ns,
-                    found->content_hash, start ? format_utc(*start) : "");
+    // Of a volume of chunks the row has the first one's path, and grows in radials alone.
+    std::string key = fmt::format("{}/{}/{}/{}/{}/{}", found->path.native(), found->size_bytes,
+                                  found->modified_ns, found->content_hash,
+                                  start ? format_utc(*start) : "", found->volume.radial_count);
     return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
 }
 

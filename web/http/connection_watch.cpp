@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <tuple>
 #include <utility>
 
 #include <linux/sockios.h>
@@ -209,24 +210,27 @@ ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
         if (open.is_cut || open.phase != Phase::request) continue;
         if (oldest == nullptr || open.since < oldest->since) oldest = &open;
     }
-    return oldest;
+    // A newcomer may be about to send its first request.
+    const bool is_new =
+        oldest != nullptr && std::chrono::steady_clock::now() - oldest->since < first_words_within;
+    return is_new ? nullptr : oldest;
 }
 
-// A proxy stands for many clients, so the number of its connections says nothing.
+// Those of all clients that take hardly anything go first, then those of the client that has most
+// connections. A proxy stands for many clients, so the number of its connections says nothing.
 ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
+    const auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
     Open* slowest = nullptr;
-    unsigned most = 0;
-    double least_rate = 0;
+    std::tuple<bool, unsigned, double> most;
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.phase != Phase::body || now - open.began < rate_is_known_after)
             continue;
         const unsigned theirs = exempt_.contains(open.client) ? 1 : by_client_[open.client];
-        if (theirs < most) continue;
         const double rate = rate_of(open, now);
-        if (theirs == most && slowest != nullptr && rate >= least_rate) continue;
+        const std::tuple rank{rate < least_rate, theirs, -rate};
+        if (slowest != nullptr && rank <= most) continue;
         slowest = &open;
-        most = theirs;
-        least_rate = rate;
+        most = rank;
     }
     return slowest;
 }

@@ -217,8 +217,9 @@ class CatalogReader {
     // time for what it returns and for what it passes over, and not for all that the station has.
     [[nodiscard]] Result<std::vector<CatalogEntry>> list_stretch(std::string_view station,
                                                                  const Stretch& stretch) const;
-    // Returns the start of the oldest volume whose file is not gone; none if there is none. If the
-    // files of the oldest volumes are gone it reads the table of files once: 30 ms for 100,000.
+    // Returns the start of the oldest volume whose file is not gone and is no member of an archive;
+    // none if there is none. If the oldest volumes have no such file it reads the table of files
+    // once: 30 ms for 100,000.
     [[nodiscard]] Result<std::optional<UtcTime>> oldest_kept(std::string_view station) const;
     // Returns the rows of files, without a volume, whose paths begin with these bytes, in any
     // state, by path. It goes by the index.
