@@ -137,6 +137,7 @@ void PartialsKeeper::take_lost(Machine& machine) {
 // Takes the newest partial of all machines. Returns true if there was one.
 bool PartialsKeeper::take_one() {
     bool took = false;
+    std::exception_ptr failure;
     for (Machine& machine : machines_) {
         if (stopping_) return false;
         const auto name = machine.directory->take_news();
@@ -146,10 +147,11 @@ bool PartialsKeeper::take_one() {
             take(machine, *name);
         } catch (...) {  // it may be in the cache, and its frames not made
             machine.directory->forget(*name);
-            throw;
+            failure = std::current_exception();
         }
         took = true;
     }
+    if (failure) std::rethrow_exception(failure);
     return took;
 }
 

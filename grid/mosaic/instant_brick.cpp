@@ -154,6 +154,13 @@ void InstantBrick::find_box(std::size_t end) {
             }
         }
     }
+    // No volume is that long. Without this bound a frame could take minutes.
+    constexpr float most_columns = 256;
+    const bool is_too_wide = east - west > most_columns || north - south > most_columns;
+    if (is_too_wide && *early != *late) {
+        source.seconds.fill(static_cast<float>(maker_.ends_[end].middle_s));
+        return find_box(end);
+    }
     source.box = {static_cast<int>(std::floor(west)) - 1, static_cast<int>(std::floor(south)) - 1,
                   static_cast<int>(std::floor(east)) + 2, static_cast<int>(std::floor(north)) + 2};
 }

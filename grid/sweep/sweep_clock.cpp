@@ -55,7 +55,7 @@ std::vector<SweepTime> sweep_times(const level2::Volume& volume,
 
 std::optional<SweepClock> SweepClock::of_volume(std::span<const SweepTime> sweeps,
                                                 BeamGeometry beam, UtcTime origin, UtcTime middle) {
-    constexpr double farthest_s = 1200;
+    constexpr double farthest_s = 600;
     if (sweeps.empty()) return std::nullopt;
     SweepClock clock(sweeps, beam, origin);
     const double middle_s = seconds_between(origin, middle);

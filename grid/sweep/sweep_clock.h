@@ -35,7 +35,7 @@ inline constexpr double fastest_turn_deg_per_s = 360;
 
 class SweepClock {
   public:
-    // Returns none where there are no sweeps, and where one lies further than 20 minutes from the
+    // Returns none where there are no sweeps, and where one lies further than 10 minutes from the
     // middle of its volume: such times are wrong, and what moves with them would go too far. The
     // volume is then taken as if it had one time.
     [[nodiscard]] static std::optional<SweepClock> of_volume(std::span<const SweepTime> sweeps,

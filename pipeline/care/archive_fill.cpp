@@ -98,12 +98,11 @@ class CatalogedFiles {
     std::map<std::string, std::string> stations_;
 };
 
-void take_in(Ingestor& ingestor, const ArchiveVolume& volume, const std::filesystem::path& root,
-             level2::Moment moment, Ledger& ledger) {
+void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment moment,
+             Ledger& ledger) {
     const auto outcome = ingestor.ingest_again(volume.path);
     if (!outcome) {
-        const auto stamp = stamp_of(volume.path, root);
-        if (!stamp && stamp.error().code == ErrorCode::not_found) {
+        if (outcome.error().code == ErrorCode::not_found) {
             ledger.left_out(volume.path, "is gone");
         } else {
             ledger.failed(outcome.error());
@@ -264,7 +263,7 @@ Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillPr
     const int workers = std::clamp(options_.threads, 1, most_workers);
     for_each_piece(static_cast<int>(missing.size()), workers, [&](int piece) {
         if (stop || ledger.has_failed()) return;
-        take_in(ingestor, missing[static_cast<std::size_t>(piece)], *root, options_.moment, ledger);
+        take_in(ingestor, missing[static_cast<std::size_t>(piece)], options_.moment, ledger);
     });
     const auto by_path = [](const LeftOut& a, const LeftOut& b) { return a.path < b.path; };
     std::sort(report.left_out.begin(), report.left_out.end(), by_path);

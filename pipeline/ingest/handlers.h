@@ -120,9 +120,10 @@ class TakeArchive {
     TakeArchive(IngestContext& context, const OfferedFile& file, OpenArchive open)
         : context_(context), file_(file), open_(std::move(open)) {}
     // The archive at the path, already open or opened anew; none if the file is not an archive.
-    [[nodiscard]] static std::optional<OpenArchive> open(IngestContext& context,
-                                                         const std::filesystem::path& path,
-                                                         const FileStamp& stamp);
+    // Errors: it cannot be opened.
+    [[nodiscard]] static Result<std::optional<OpenArchive>> open(IngestContext& context,
+                                                                 const std::filesystem::path& path,
+                                                                 const FileStamp& stamp);
     Result<IngestOutcome> take();
 
   private:

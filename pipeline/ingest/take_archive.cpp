@@ -94,15 +94,16 @@ Result<IngestOutcome> take_member(IngestContext& context, const fs::path& archiv
 
 }  // namespace
 
-std::optional<OpenArchive> TakeArchive::open(IngestContext& context, const fs::path& path,
-                                             const FileStamp& stamp) {
-    if (auto waiting = context.archives.take(path, stamp)) return waiting;
+Result<std::optional<OpenArchive>> TakeArchive::open(IngestContext& context, const fs::path& path,
+                                                     const FileStamp& stamp) {
+    std::optional<OpenArchive> archive = context.archives.take(path, stamp);
+    if (archive) return archive;
     const auto opened = open_beneath(context.options.beneath, path);
-    if (!opened) return std::nullopt;
+    if (!opened) return pass_on(opened);
     Descriptor file{*opened};
     auto reader = archive::ArchiveReader::open(file.number(), limits_of(context.options));
-    if (!reader) return std::nullopt;
-    return OpenArchive{path, stamp, std::move(file), std::move(*reader)};
+    if (reader) archive.emplace(OpenArchive{path, stamp, std::move(file), std::move(*reader)});
+    return archive;
 }
 
 Result<IngestOutcome> TakeArchive::take() {

@@ -22,8 +22,12 @@ Result<IngestOutcome> TakeWhole::take() {
         return reject({ErrorCode::not_a_file, fmt::format("is {}", kind_of_file(stamp_.kind))});
     // Chunks are never archives, and there are thousands of them.
     if (!file_.is_the_same && stamp_.size_bytes > 0 && !is_chunk_name(file_.path)) {
-        if (auto archive = TakeArchive::open(context_, file_.path, stamp_))
-            return TakeArchive(context_, file_, std::move(*archive)).take();
+        auto archive = TakeArchive::open(context_, file_.path, stamp_);
+        // What is not there any more is noticed when it is read.
+        const bool is_there = archive || (archive.error().code != ErrorCode::not_found &&
+                                          archive.error().code != ErrorCode::not_a_file);
+        if (!archive && is_there) return take_unread(archive.error());
+        if (archive && *archive) return TakeArchive(context_, file_, std::move(**archive)).take();
     }
     if (stamp_.size_bytes > most) {
         return reject(

@@ -54,30 +54,34 @@ struct RadialTimes {
 
 }  // namespace
 
-std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
-                                          const Candidate& candidate) {
+Result<std::optional<std::string>> reason_to_keep(const std::filesystem::path& path,
+                                                  const Candidate& candidate) {
+    const std::optional<std::string> none;
     const cache::GridDescription& made = candidate.description;
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) return std::nullopt;
+    if (!std::filesystem::exists(path, error)) return none;
     const auto file = cache::GridFile::open(path);
-    if (!file) return std::nullopt;
+    if (!file && is_shortage(file.error().code)) return pass_on(file);
+    if (!file) return none;
     const auto& stands = file->description();
-    if (stands.spec != made.spec || stands.moment != made.moment) return std::nullopt;
+    if (stands.spec != made.spec || stands.moment != made.moment) return none;
     const auto& old = stands.provenance;
     const bool stands_living = is_living(old);
     const bool made_living = is_living(made.provenance);
-    if (stands_living && !made_living) return std::nullopt;
+    if (stands_living && !made_living) return none;
     if (!stands_living && made_living)
-        return "not replaced: the cache has a grid of the ended volume";
+        return std::optional<std::string>{"not replaced: the cache has a grid of the ended volume"};
     const bool better = !old.partial && made.provenance.partial;
     const bool worse = old.partial && !made.provenance.partial;
-    if (better) return "not replaced: the cache has a grid of the whole volume";
-    if (worse || !candidate.has_rival || stands_living) return std::nullopt;
+    if (better)
+        return std::optional<std::string>{"not replaced: the cache has a grid of the whole volume"};
+    if (worse || !candidate.has_rival || stands_living) return none;
     const bool later = stands.end_time > made.end_time;
     const bool before =
         stands.end_time == made.end_time && order_of(file->view()) < order_of(candidate.view);
-    if (!later && !before) return std::nullopt;
-    return "not replaced: the cache has a grid of another file of this volume";
+    if (!later && !before) return none;
+    return std::optional<std::string>{
+        "not replaced: the cache has a grid of another file of this volume"};
 }
 
 bool has_an_hours_volumes(const cache::StoreReader& store, const std::string& domain,

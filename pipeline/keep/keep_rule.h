@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/level2/volume.h"
@@ -32,9 +33,9 @@ struct Candidate {
 // cells. All of this depends on volumes alone, so that machines which have the same files keep the
 // same grid, whichever file came last. A living grid is always replaced by one of a volume that has
 // ended. None: it is to be replaced. That is always so if it is damaged, missing or made in another
-// way.
-[[nodiscard]] std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
-                                                        const Candidate& made);
+// way. Errors: exhausted, if there is no descriptor to look at it with.
+[[nodiscard]] Result<std::optional<std::string>> reason_to_keep(const std::filesystem::path& path,
+                                                                const Candidate& made);
 
 // A radar begins at most this many volumes within an hour: the fastest pattern takes three minutes.
 inline constexpr std::size_t most_volumes_an_hour = 120;

@@ -96,8 +96,10 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
     }
     const std::scoped_lock lock(commits_.at(fs::hash_value(*path) % commits_.size()));
     const cache::GridDescription description = cache::describe(grid);
-    if (auto reason = reason_to_keep(*path, {description, bricks.view(), source.has_rival})) {
-        outcome.reason = std::move(*reason);
+    auto reason = reason_to_keep(*path, {description, bricks.view(), source.has_rival});
+    if (!reason) return pass_on(reason);
+    if (*reason) {
+        outcome.reason = std::move(**reason);
         return path;
     }
     return store_.commit(

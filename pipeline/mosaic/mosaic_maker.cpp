@@ -147,7 +147,10 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     const std::string name = site_domain(domain.name, source.site.icao);
     const auto path = store_->path_of(name, moment, description.time);
     if (!path) return of_gridding(path.error());
-    if (reason_to_keep(*path, {description, (*made)->bricks.view(), source.has_rival})) return {};
+    const auto reason =
+        reason_to_keep(*path, {description, (*made)->bricks.view(), source.has_rival});
+    if (!reason) return of_storing(reason.error());
+    if (*reason) return {};
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
     if (!committed) return of_storing(committed.error());
     if (committed->empty()) return {};  // older than what the budgets keep
@@ -284,9 +287,19 @@ Result<std::optional<StaleFrame>> MosaicMaker::make_stale(int threads,
         frame.made = std::move(*made);
         return {};
     };
-    if (Status looked = look(); !looked) {
+    const auto look_later = [&] {
         const std::scoped_lock lock(mutex_);
-        if (may_pass(looked.error())) unchecked_.insert(frame.name);
+        unchecked_.insert(frame.name);
+    };
+    Status looked;
+    try {
+        looked = look();
+    } catch (...) {  // no memory
+        look_later();
+        throw;
+    }
+    if (!looked) {
+        if (may_pass(looked.error())) look_later();
         return pass_on(looked);
     }
     return std::optional{std::move(frame)};

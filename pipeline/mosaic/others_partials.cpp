@@ -144,6 +144,7 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     if (!path) return pass_on(path);
     Kept kept;
     const auto stands = cache::GridFile::open(*path);
+    if (!stands && is_shortage(stands.error().code)) return pass_on(stands);
     if (stands && stands->checksum() == file->checksum()) {
         note_frames(*domain, partial, view.middle());
         return kept;
@@ -151,7 +152,9 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
     const bool are_rivals =
         stands && !stands->description().provenance.partial && !grid.provenance.partial;
     if (are_rivals) kept.won = false;
-    if (reason_to_keep(*path, {grid, view.view, true})) return kept;
+    const auto reason = reason_to_keep(*path, {grid, view.view, true});
+    if (!reason) return pass_on(reason);
+    if (*reason) return kept;
     if (are_rivals) kept.won = true;
     const auto committed = store_->commit(partial.name.domain, grid, view.view);
     if (!committed) return of_storing(committed.error());

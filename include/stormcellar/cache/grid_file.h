@@ -67,8 +67,9 @@ struct GridFileLimits {
     std::uint64_t unpacked_bytes = ~std::uint64_t{0};
 };
 // More than the grid of any site takes: one of a WSR-88D with cells of 500 m on 48 levels has 330
-// MB of codes if every brick is stored, of a moment with two bytes a cell.
-constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{64} << 20U,
+// MB of codes if every brick is stored, of a moment with two bytes a cell; one with cells of 250 m
+// has 80 MB of table and states.
+constexpr GridFileLimits limits_of_site{.read_bytes = std::uint64_t{128} << 20U,
                                         .unpacked_bytes = std::uint64_t{352} << 20U};
 
 class GridFile {
