@@ -109,7 +109,7 @@ TEST_F(S3, MembersOfAnArchiveHideNoFiles) {
     ASSERT_TRUE(files && files->size() == 1);
     EXPECT_EQ((*files)[0].name, "KTLX20170101_030027_V06");
     EXPECT_FALSE(served.catalog().oldest_kept("KABC")->has_value());
-    EXPECT_EQ(format_utc(**served.catalog().oldest_kept("KTLX")), "1991-07-20T16:05:18Z");
+    EXPECT_EQ(format_utc(**served.catalog().oldest_kept("KTLX")), "1991-07-20T16:05:18.171Z");
 }
 
 class UnreadableFiles final : public RawFiles {

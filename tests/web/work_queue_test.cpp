@@ -62,6 +62,15 @@ TEST_F(SharedQueue, ClientsTakeTurns) {
     EXPECT_TRUE(refused_.empty());
 }
 
+// 2026-11-28: among clients of one request at a time the one that sorts first by name always went
+// first, and others waited for as long as these asked.
+TEST_F(SharedQueue, WhoCameFirstGoesFirstWhateverItsName) {
+    for (const char* name : {"z", "m", "a"})
+        ASSERT_TRUE(ask(name, name));
+    go_on();
+    EXPECT_EQ(served_, (std::vector<std::string>{"z", "m", "a"}));
+}
+
 TEST_F(SharedQueue, ClientsWithOneRequestEachTakeNoPlaceOfEachOther) {
     for (const char* name : {"a", "b", "c", "d"})
         ASSERT_TRUE(ask(name, name));

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -102,14 +104,23 @@ Result<std::shared_ptr<const Level3Collection::Index>> Level3Collection::index()
     if (!configured().files.empty()) {
         const auto names = names_beneath(configured().files, configured().files);
         if (!names) return pass_on(names);
-        std::size_t count = 0;
+        std::vector<std::pair<ProductName, const std::string*>> served;
         for (const std::string& name : *names) {
-            const auto product = product_of(name);
-            const bool is_served =
-                product && std::ranges::count(configured().variables, product->variable) > 0;
-            if (!is_served || ++count > most_products) continue;
-            (*fresh)[{product->station, product->variable}].insert_or_assign(product->start, name);
+            auto product = product_of(name);
+            if (product && std::ranges::count(configured().variables, product->variable) > 0)
+                served.emplace_back(std::move(*product), &name);
         }
+        // Of too many, the newest are served.
+        if (served.size() > most_products) {
+            const auto newer = [](const auto& a, const auto& b) {
+                return a.first.start > b.first.start;
+            };
+            std::ranges::nth_element(
+                served, served.begin() + static_cast<std::ptrdiff_t>(most_products), newer);
+            served.resize(most_products);
+        }
+        for (const auto& [product, name] : served)
+            (*fresh)[{product.station, product.variable}].insert_or_assign(product.start, *name);
     }
     index_ = std::move(fresh);
     made_ = steady_now();

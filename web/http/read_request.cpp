@@ -119,7 +119,7 @@ std::optional<Refusal> check_host(const RawRequest& raw, const Request& request,
         return Refusal{
             421,
             "This server does not answer under the name in the Host field. Its owner can "
-            "add the name to [web] names, or with --name."};
+            "add the name to [web] names, or with --allow-host."};
     }
     return std::nullopt;
 }
@@ -141,13 +141,15 @@ std::string base_of(const RawRequest& raw, const Request& request, const Identit
 
 Identity identity_of(const ServerOptions& options) {
     Identity identity;
+    // As it stands in the field Host.
+    const auto add_name = [&](const std::string& name) {
+        const bool is_v6 = name.find(':') != std::string::npos;
+        identity.names.insert(lower_case(is_v6 ? fmt::format("[{}]", name) : name));
+    };
     for (const std::string& name : options.names)
-        identity.names.insert(lower_case(name));
-    for (const ListenAddress& listen : options.listen) {
-        const bool is_v6 = listen.address.find(':') != std::string::npos;
-        identity.names.insert(
-            lower_case(is_v6 ? fmt::format("[{}]", listen.address) : listen.address));
-    }
+        add_name(name);
+    for (const ListenAddress& listen : options.listen)
+        add_name(listen.address);
     // An address of IPv6 may be written in several ways.
     for (const std::string& proxy : options.trusted_proxies)
         identity.proxies.insert(read_address(proxy).value_or(proxy));

@@ -42,7 +42,9 @@ bool WorkQueue::add(const std::string& client, Work work) {
             lost = take_place_of_other(known == clients_.end() ? 0 : known->second.requests());
             if (!lost) return false;
         }
-        clients_[client].waiting.push_back(std::move(work));
+        Client& own = clients_[client];
+        if (own.requests() == 0) own.last_turn = ++turns_;
+        own.waiting.push_back(std::move(work));
         ++waiting_;
     }
     more_.notify_one();
@@ -98,7 +100,6 @@ void WorkQueue::run() {
         const auto client = next();
         const Work work = std::move(client->second.waiting.front());
         client->second.waiting.pop_front();
-        client->second.last_turn = ++turns_;
         ++client->second.working;
         --waiting_;
         ++working_;
@@ -108,6 +109,7 @@ void WorkQueue::run() {
         lock.lock();
         --working_;
         --client->second.working;
+        client->second.last_turn = ++turns_;
         forget_if_idle(client);
     }
 }

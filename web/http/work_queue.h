@@ -2,8 +2,8 @@
 // wait.
 //
 // Clients share the threads: the next to be served is the client that has the fewest requests under
-// way, and among those the one whose turn was longest ago. If all places are taken, a client that
-// has fewer requests than another gets the place of that one's newest.
+// way, and among those the one that came, or whose last turn ended, longest ago. If all places are
+// taken, a client that has fewer requests than another gets the place of that one's newest.
 //
 // Threads   Many threads may add work.
 #pragma once
@@ -45,7 +45,7 @@ class WorkQueue {
     struct Client {
         std::deque<Work> waiting;
         std::size_t working = 0;
-        std::uint64_t last_turn = 0;
+        std::uint64_t last_turn = 0;  // or when it came, as turns_ counts
         [[nodiscard]] std::size_t requests() const { return waiting.size() + working; }
     };
     using Clients = std::map<std::string, Client>;
