@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,21 +17,31 @@
 namespace stormcellar::web {
 namespace {
 
+// The doors of the data server to a catalog.
+class OpenDoors {
+  public:
+    explicit OpenDoors(const ServedVolumes& volumes) {
+        WebSetup setup;
+        setup.catalog = volumes.state() / "catalog";
+        setup.cache = cache_.path();
+        doors_ = doors_to(open_sources(setup).value(), measures_);
+    }
+    Answer get(const std::string& path) { return asked(*doors_->find(path), path); }
+
+  private:
+    testing::TemporaryDirectory cache_;
+    Measures measures_;
+    std::shared_ptr<const Doors> doors_;
+};
+
 // 2026-11-28: of the split cuts of a volume the page showed the Doppler halves of reflectivity,
 // with range-folded echo and half of the range.
 TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     STORMCELLAR_NEED_DATA();
     const ServedVolumes volumes;
-    const testing::TemporaryDirectory cache;
-    WebSetup setup;
-    setup.catalog = volumes.state() / "catalog";
-    setup.cache = cache.path();
-    const auto sources = open_sources(setup);
-    ASSERT_TRUE(sources) << sources.error().message;
-    Measures measures;
-    const auto doors = doors_to(*sources, measures);
+    OpenDoors doors(volumes);
     const std::string path = "/api/v1/stations/KTLX/volumes/2017-01-01T03:00:27Z/sweeps";
-    const Answer answer = asked(*doors->find(path), path);
+    const Answer answer = doors.get(path);
     ASSERT_EQ(answer.status, 200U) << body_of(answer);
     // The table of `stormcellar info`: sweeps 0 and 2 are surveillance, 1 and 3 their Doppler
     // halves.
@@ -51,20 +62,13 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
 TEST(ApiSweeps, OfAVolumeThatGrowsAreThoseThatHaveCome) {
     STORMCELLAR_NEED_DATA();
     ServedVolumes volumes(false);
-    const testing::TemporaryDirectory cache;
-    WebSetup setup;
-    setup.catalog = volumes.state() / "catalog";
-    setup.cache = cache.path();
     std::set<std::size_t> counts;
     (void)volumes.take_chunks(4);
-    const auto sources = open_sources(setup);
-    ASSERT_TRUE(sources) << sources.error().message;
-    Measures measures;
-    const auto doors = doors_to(*sources, measures);
+    OpenDoors doors(volumes);
     for (const std::size_t chunks : {10U, 25U, 55U}) {
         (void)volumes.take_chunks(chunks);
         const std::string path = "/api/v1/stations/KLOT/volumes/latest/sweeps";
-        const Answer answer = asked(*doors->find(path), path);
+        const Answer answer = doors.get(path);
         ASSERT_EQ(answer.status, 200U) << body_of(answer);
         counts.insert(nlohmann::json::parse(body_of(answer)).at("sweeps").size());
     }
@@ -80,17 +84,10 @@ TEST(ApiSweeps, AFileThatIsLeftIsTaken) {
     (void)volumes.take(file, "copy_KTLX20170101_030027_V06");
     ASSERT_TRUE(volumes.catalog().mark_gone(std::filesystem::canonical(volumes.drop()) /
                                             "copy_KTLX20170101_030027_V06"));
-    const testing::TemporaryDirectory cache;
-    WebSetup setup;
-    setup.catalog = volumes.state() / "catalog";
-    setup.cache = cache.path();
-    const auto sources = open_sources(setup);
-    ASSERT_TRUE(sources) << sources.error().message;
-    Measures measures;
-    const auto doors = doors_to(*sources, measures);
+    OpenDoors doors(volumes);
     for (const std::string time : {"2017-01-01T03:00:27Z", "latest"}) {
         const std::string path = "/api/v1/stations/KTLX/volumes/" + time + "/sweeps";
-        EXPECT_EQ(asked(*doors->find(path), path).status, 200U) << time;
+        EXPECT_EQ(doors.get(path).status, 200U) << time;
     }
 }
 
@@ -111,17 +108,11 @@ TEST(ApiSweeps, EachOfTwoVolumesInAFileHasItsOwnGates) {
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
     ASSERT_NE(volumes.take(both, both.filename()), pipeline::IngestResult::rejected);
-    WebSetup setup;
-    setup.catalog = volumes.state() / "catalog";
-    setup.cache = directory / "cache";
-    const auto sources = open_sources(setup);
-    ASSERT_TRUE(sources) << sources.error().message;
-    Measures measures;
-    const auto doors = doors_to(*sources, measures);
+    OpenDoors doors(volumes);
     const auto gates_of = [&](const char* start) {
         const std::string path =
             std::string("/api/v1/stations/KBGM/volumes/") + start + "/sweeps/0/REF";
-        const Answer answer = asked(*doors->find(path), path);
+        const Answer answer = doors.get(path);
         EXPECT_EQ(answer.status, 200U) << body_of(answer);
         return body_of(answer);
     };
