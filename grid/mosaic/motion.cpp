@@ -173,7 +173,7 @@ Result<std::optional<MotionField>> estimate_motion(const BrickView& before, cons
                            1 + reach_of(options.block_differs_mps, seconds, images.pixel_height_m)};
     const std::vector<Vote> votes = votes_of(images, blocks, near, options.threads);
     const int cells = images.before.cells;
-    // What is searched ends at whole pixels, which may be far for the time between the grids.
+    // The search ends at whole pixels, which may be far for the time between the grids.
     const double fastest_mps = options.greatest_mps + options.block_differs_mps;
     const auto columns_per_s = [&](double pixels, double pixel_m) {
         const double most = fastest_mps * cells / pixel_m;

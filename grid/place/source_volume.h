@@ -43,7 +43,7 @@ struct SourceWish {
     std::string_view how_to_place = {};
     int threads = 1;
     int volume = 0;  // its number in the file, from 1; 0: the first that holds one of the moments
-    // Of several volumes in the file, the one that starts then is wanted.
+    // The volume that starts then is wanted, if the file holds several.
     std::optional<UtcTime> start = std::nullopt;
 };
 

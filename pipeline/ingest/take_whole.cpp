@@ -23,7 +23,7 @@ Result<IngestOutcome> TakeWhole::take() {
     // Chunks are never archives, and there are thousands of them.
     if (!file_.is_the_same && stamp_.size_bytes > 0 && !is_chunk_name(file_.path)) {
         auto archive = TakeArchive::open(context_, file_.path, stamp_);
-        // What is not there any more is noticed when it is read.
+        // A file that is not there any more is noticed when it is read.
         const bool is_there = archive || (archive.error().code != ErrorCode::not_found &&
                                           archive.error().code != ErrorCode::not_a_file);
         if (!archive && is_there) return take_unread(archive.error());

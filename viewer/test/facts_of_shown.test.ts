@@ -1,4 +1,4 @@
-// What the page knows of the grid that is shown.
+// The page's facts of the grid that is shown.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';

@@ -1,4 +1,4 @@
-// What the start map draws, and which tiles it asks for.
+// The start map's pictures, and the tiles that it asks for.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 

@@ -84,7 +84,7 @@ void CacheTree::tell_everything() {
 std::optional<bool> CacheTree::look(const Place& place, Seen& seen) {
     const std::filesystem::path path = path_of(place);
     struct stat facts {};
-    // What cannot be looked at is not gone: it stays as it was known.
+    // A directory that cannot be looked at is not gone: it stays as it was known.
     enum class Found { directory, nothing, unreadable };
     const auto find = [&] {
         if (::lstat(path.c_str(), &facts) != 0)

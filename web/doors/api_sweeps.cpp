@@ -58,7 +58,7 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     if (found->state == catalog::FileState::gone) {
         return refuse(json_error(410, "the file of the volume was removed by its owner"));
     }
-    // Of a volume of chunks the row has the first one's path, and grows in radials alone.
+    // The row of a volume of chunks has the first one's path and hash: it grows in radials alone.
     std::string key = fmt::format("{}/{}/{}/{}/{}/{}", found->path.native(), found->size_bytes,
                                   found->modified_ns, found->content_hash,
                                   start ? format_utc(*start) : "", found->volume.radial_count);

@@ -110,7 +110,7 @@ Result<std::shared_ptr<const Level3Collection::Index>> Level3Collection::index()
             if (product && std::ranges::count(configured().variables, product->variable) > 0)
                 served.emplace_back(std::move(*product), &name);
         }
-        // Of too many, the newest are served.
+        // The newest are served if there are too many.
         if (served.size() > most_products) {
             const auto newer = [](const auto& a, const auto& b) {
                 return a.first.start > b.first.start;

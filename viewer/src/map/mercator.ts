@@ -157,7 +157,7 @@ export function grownBox({ west, south, east, north }: MapBox, share: number): M
     return { west: west - dx, south: Math.max(-85, south - dy), east: west + wide + dx, north: Math.min(85, north + dy) };
 }
 
-// Whether a circle about a place meets the view.
+// Returns true if a circle about a place meets the view.
 export function reaches(view: MapView, place: Place, radiusM: number): boolean {
     const [x, y] = pixelOf(view, mapPoint(place));
     const aside = Math.hypot(Math.max(0, -x, x - view.width), Math.max(0, -y, y - view.height));

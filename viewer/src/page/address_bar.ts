@@ -8,7 +8,7 @@ import { rememberedUnits } from './remembered';
 const afterMs = 150; // less than the picture waits until it is fine
 const everyMs = 1000; // while something moves
 
-// What an address does not say of units is as the user had it last.
+// Units that an address does not name are those that the user had last.
 export function stateOfAddress(): ViewState {
     const state = stateOf(location.hash);
     return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };

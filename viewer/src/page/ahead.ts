@@ -32,7 +32,7 @@ export class Ahead {
         let before = Promise.resolve();
         for (const [i, index] of next.entries()) {
             const time = times[index ?? -1];
-            // What is made on request is not made in vain.
+            // The server makes frames in between on request: none is asked for that may not be shown.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
                 if (!isLeft()) await this.take(time, true).catch(error => app.leaveOut(time, error, isLeft));

@@ -100,7 +100,7 @@ export class App {
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
         this.say(isGone ? texts.notFound : texts.failed(error instanceof Error ? error.message : String(error)));
     }
-    // What is not wanted any more tells only that the server does not answer.
+    // A failure of what is not wanted any more says only that the server does not answer.
     private failed(error: unknown, isWanted: boolean): void {
         if (isWanted || error instanceof TypeError) this.fail(error);
     }

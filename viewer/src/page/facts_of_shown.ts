@@ -1,4 +1,5 @@
-// What the server says of the grid that is shown, asked until it has answered once: a grid that was made again is another one.
+// The server's facts of the grid that is shown, asked for until it has answered once. A grid that was made again is another
+// one.
 
 import { LoadedGrid } from '../renderer/renderer';
 import { GridFacts, RegionSites, gridFacts, isRegion, regionSites } from '../wire/api';

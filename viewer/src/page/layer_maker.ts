@@ -249,7 +249,7 @@ export class LayerMaker {
         const hasVisible = atlas.brickCount > 0 && valueOf(grid, atlas.greatest) >= least;
         return hasVisible ? [] : [texts.layers.noEchoFrom(valueText(least, unit, state.units))];
     }
-    // What is drawn beside the volume, and what is hidden, in words.
+    // Says in words which layers are drawn beside the volume, and what is hidden.
     told(): string[] {
         const { shown, state } = this.app;
         const { layers, units } = state;

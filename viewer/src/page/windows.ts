@@ -140,7 +140,7 @@ export class Windows {
         return held.cells;
     }
 
-    // What failed is asked for again, because a picture without its layer looks like clear air.
+    // A window that failed is asked for again, because a picture without its layer looks like clear air.
     private async fetch(held: Held, loaded: LoadedGrid, stream: GridInParts, window: BrickWindow): Promise<void> {
         const { grid } = loaded;
         const { domain, moment, time } = stream;

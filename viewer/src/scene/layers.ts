@@ -133,7 +133,7 @@ export function layersOf(query: URLSearchParams): Layers {
     };
 }
 
-// How many layers show echo.
+// Counts the layers that show echo.
 export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sweepDeg }: Layers): number =>
     [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null].filter(Boolean).length;
 

@@ -78,8 +78,8 @@ export class StartData {
         return domain.moments.find(one => one.moment === pictured)?.newest ?? null;
     }
 
-    // What is drawn: of the `visible` stations, the nearest first, so many that no mosaic shows, the oldest first; then the
-    // mosaics that show what is seen now.
+    // Returns what is drawn, the lowest first: the nearest of the `visible` stations that no mosaic shows, the oldest
+    // picture first, and then the mosaics that show what is seen now.
     pictures(domains: Domain[], visible: StationPlace[], isWithin: (outline: Outline, station: StationPlace) => boolean): SeenDomain[] {
         const newestMs = (outline: Outline) => Math.max(...this.stations.filter(one => isWithin(outline, one)).map(one => Date.parse(one.newestGrid ?? '') || 0), 0);
         const mosaics = this.mosaics.filter(({ domain, outline }) => outline && Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs);
