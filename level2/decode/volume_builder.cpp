@@ -45,6 +45,12 @@ bool falls_back(const Sweep& sweep, std::size_t radial) {
     return own.azimuth_number <= before.azimuth_number && goes_back(own, before.time);
 }
 
+// The end that has come stands until a radial comes that is not older.
+void note_end_of_volume(std::optional<UtcTime>& end, const Radial& radial) {
+    if (end && *end <= radial.time) end.reset();
+    if (status_of(radial) == RadialStatus::end_of_volume) end = radial.time;
+}
+
 bool continues(int elevation_number, int message_type, const Sweep& next) {
     return !begins_sweep(next.radials.front()) && elevation_number == next.elevation_number &&
            message_type == next.message_type;
@@ -246,7 +252,7 @@ bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
     const Radial& last = from.radials.back();
     const bool begins = begins_sweep_here(piece);
     std::optional<UtcTime> end_of_volume;
-    if (previous_ && previous_->end_of_volume > last.time) end_of_volume = previous_->end_of_volume;
+    if (previous_) end_of_volume = previous_->end_of_volume;
     if (begins) {
         const bool begins_another = begins_volume(piece);
         if (begins_another && !begin_volume(piece)) return false;
@@ -259,7 +265,8 @@ bool VolumeBuilder::append_in_order(Fragment::Piece piece) {
         if (!room_.begin_sweep()) return false;
     }
     if (status_of(first) == RadialStatus::start_of_volume) start_has_come_ = true;
-    if (status_of(last) == RadialStatus::end_of_volume) end_of_volume = last.time;
+    for (const Radial& radial : from.radials)
+        note_end_of_volume(end_of_volume, radial);
     if (!first_time_) first_time_ = first.time;
     previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(last),
                          end_of_volume,         last.time,         last.azimuth_number};

@@ -27,6 +27,22 @@ Bytes legacy_radials(unsigned count) {
     return all;
 }
 
+// A sweep from a minute before the others: it comes late.
+Bytes older_sweep() {
+    Bytes all;
+    for (const unsigned number : {1U, 2U, 3U}) {
+        wire::Ray ray;
+        ray.azimuth_number = number;
+        ray.azimuth_deg = static_cast<float>(number);
+        ray.elevation_number = 3;
+        ray.ms -= 60'000;
+        ray.gates = 20;
+        const Bytes message = wire::message_31(ray);
+        all.insert(all.end(), message.begin(), message.end());
+    }
+    return all;
+}
+
 // Small blocks are packed and unpacked quickly.
 Bytes ldm_volume() {
     const Bytes metadata = wire::join({wire::frame(0), wire::vcp_frame(212, elevations_deg)});
@@ -63,6 +79,7 @@ std::vector<Seed> messages_seeds() {
         {"second_volume", second_volume},
         {"bytes_lost", wire::join({radials, lost})},
         {"one_radial", wire::message_31({})},
+        {"older_sweep", older_sweep()},
     };
 }
 

@@ -159,5 +159,26 @@ TEST_F(LateMadeRecords, ALowerNumberBeginsAnotherVolumeIfTimeGoesOn) {
     EXPECT_EQ(further_volumes(joined(chunks, {0, 1, 3, 2})), 0U);
 }
 
+// Found by the fuzzer: what followed the end in one record made the volume one without an end.
+TEST(LateRadials, TheEndOfAVolumeStandsInOneRecordAsInMany) {
+    wire::Ray last, older;
+    last.azimuth_number = 2;
+    last.status = 4;
+    older.azimuth_number = 3;
+    older.ms = last.ms - 60'000;
+    const Bytes ends = wire::message_31(last);
+    const Bytes follows = wire::message_31(older);
+    const auto in_one = decode(
+        wire::join({wire::archive_header(), wire::ldm_record(wire::join({ends, follows}), true)}));
+    const auto in_two = decode(wire::join(
+        {wire::archive_header(), wire::ldm_record(ends), wire::ldm_record(follows, true)}));
+    ASSERT_TRUE(in_one && in_two);
+    EXPECT_EQ(difference(in_one->volume, in_two->volume), "");
+    for (const auto* decoded : {&in_one->report, &in_two->report})
+        EXPECT_TRUE(std::ranges::none_of(decoded->problems, [](const Problem& problem) {
+            return problem.code == "no_end_of_volume";
+        }));
+}
+
 }  // namespace
 }  // namespace stormcellar::level2
