@@ -1,6 +1,7 @@
 #include "pull/source_puller.h"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <set>
 #include <utility>
@@ -58,7 +59,7 @@ Status SourcePuller::turn() {
     fetched_ = refused_in_a_row_ = 0;
     if (const auto lines = lines_.take_held_back(steady_now()))
         say(LogLevel::warning, "{}: {} more grids were refused", source_.name, *lines);
-    Status done = pull();
+    Status done = try_to_pull();
     if (stop_) return {};
     const std::size_t removed = grids_.prune(now_utc());
     {
@@ -68,6 +69,15 @@ Status SourcePuller::turn() {
     failures_ = done ? 0 : failures_ + 1;
     note_outcome(done);
     return done;
+}
+
+// An exception ends the turn of this machine, and not the service for all.
+Status SourcePuller::try_to_pull() {
+    try {
+        return pull();
+    } catch (const std::exception& error) {  // no memory
+        return fail(ErrorCode::exhausted, "cannot take its grids: {}", error.what());
+    }
 }
 
 std::chrono::milliseconds SourcePuller::pause() const {

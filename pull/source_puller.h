@@ -51,6 +51,7 @@ class SourcePuller {
 
   private:
     Status pull();
+    Status try_to_pull();
     Result<bool> list(UtcTime from, UtcTime now);
     Status fetch_missing();
     Status ask_again(UtcTime now);
