@@ -122,6 +122,14 @@ TEST(IndexPage, NamesCannotBreakIt) {
     EXPECT_FALSE(says(html, "<script"));
 }
 
+TEST(IndexPage, ATimeInTheFutureIsNotAgo) {
+    IndexFacts facts = facts_of_a_day();
+    facts.stations[1].newest_volume = page_time + 2min;
+    const std::string html = index_html(facts);
+    EXPECT_TRUE(says(html, "; the newest volume has a time in the future."));
+    EXPECT_FALSE(says(html, "future ago"));
+}
+
 TEST(IndexPage, AgesAreRead) {
     const auto age = [](std::chrono::milliseconds ago) {
         return age_text(page_time - ago, page_time);

@@ -122,8 +122,11 @@ std::string IndexPage::summary() const {
     std::string text =
         fmt::format("{} station{}", facts_.stations.size(), facts_.stations.size() == 1 ? "" : "s");
     if (silent > 0) text += fmt::format(", {} of them silent", silent);
-    if (newest)
+    if (newest && *newest > facts_.now + minutes{1}) {
+        text += "; the newest volume has a time in the future";
+    } else if (newest) {
         text += fmt::format("; the newest volume began {} ago", age_text(*newest, facts_.now));
+    }
     return text + ".";
 }
 
