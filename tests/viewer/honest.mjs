@@ -91,6 +91,7 @@ try {
   await page.evaluate(`location.hash = 'domain=${station}&moment=REF&time=tomorrow'`);
   check(`a time that is none in the same window (2026-11-28: nothing was said): ${await says('notice', 'tomorrow is no time')}`, (await text('notice')).includes('tomorrow'));
   check('what is no link of ours is no region', await page.evaluate(`(location.hash = 'domain=' + encodeURIComponent('region:-100,33,-95,37,/REF;x'), true)`) && (await says('notice', 'No data for region')) !== '');
+  check('a link is taken though the page wrote its own address meanwhile', await page.evaluate(`(location.hash = 'domain=KYYY&moment=REF', history.replaceState(null, '', '#domain=${station}&moment=REF'), true)`) && (await says('notice', 'No data for KYYY')) !== '');
   await page.goto('about:blank');
 
   // ---- A server that is gone (2026-11-28: the page looked as if it were live)

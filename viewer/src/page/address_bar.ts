@@ -9,15 +9,15 @@ const afterMs = 150; // less than the picture waits until it is fine
 const everyMs = 1000; // while something moves
 
 // Units that an address does not name are those that the user had last.
-export function stateOfAddress(): ViewState {
-    const state = stateOf(location.hash);
+export function stateOfAddress(hash = location.hash): ViewState {
+    const state = stateOf(hash);
     return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
 }
 
 // A time of the address that is none; empty if it has a time or none at all.
-export function timeThatIsNone(): string {
-    const time = new URLSearchParams(location.hash.slice(1)).get('time') ?? '';
-    return time !== '' && time !== 'latest' && stateOf(location.hash).time === 'latest' ? time.slice(0, 40) : '';
+export function timeThatIsNone(hash = location.hash): string {
+    const time = new URLSearchParams(hash.slice(1)).get('time') ?? '';
+    return time !== '' && time !== 'latest' && stateOf(hash).time === 'latest' ? time.slice(0, 40) : '';
 }
 
 export class AddressBar {

@@ -148,9 +148,9 @@ export class App {
         return new URL(`#${addressOf({ ...state, time })}`, location.href).href;
     }
 
-    // The address was changed by hand, or by going back.
-    takeAddress(): void {
-        const [next, unreadTime] = [stateOfAddress(), timeThatIsNone()];
+    // The address was changed by hand, or by going back. A picture that came meanwhile may have written another one.
+    takeAddress(hash: string): void {
+        const [next, unreadTime] = [stateOfAddress(hash), timeThatIsNone(hash)];
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
         if (!this.isOnMap && unreadTime === '' && addressOf(next) === addressOf(this.state)) return;
         [this.state, this.unreadTime] = [next, unreadTime];

@@ -56,7 +56,7 @@ async function begin(): Promise<void> {
     new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(head);
     pointers.begin();
     keys.begin();
-    window.addEventListener('hashchange', () => app.takeAddress());
+    window.addEventListener('hashchange', ({ newURL }) => app.takeAddress(new URL(newURL).hash));
     // The stream is there before the lists, so that nothing is lost between them.
     void new Live(app, app.begin().catch(error => app.fail(error))).hear();
 }
