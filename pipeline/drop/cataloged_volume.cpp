@@ -1,8 +1,11 @@
 #include "pipeline/drop/cataloged_volume.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
+#include "base/checksum.h"
 #include "level2/containers/chunk_once.h"
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/drop_names.h"
@@ -13,6 +16,8 @@ namespace {
 
 using catalog::CatalogEntry;
 using catalog::CatalogReader;
+
+constexpr std::size_t most_chunks = 2000;
 
 // Returns the bytes of a file.
 Result<std::vector<std::byte>> read(const CatalogReader& catalog, const CatalogEntry& entry,
@@ -83,6 +88,21 @@ Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
     return find_cataloged_volume(catalog, station, start, [&](const catalog::CatalogEntry& entry) {
         return entry.volume.complete != is_partial;
     });
+}
+
+Result<std::uint64_t> hash_of_growing_rows(const CatalogReader& catalog,
+                                           const CatalogEntry& entry) {
+    const auto first = ChunkPath::of(entry.path);
+    if (!first || !is_of_chunks(entry) || catalog::has_final_hash(entry)) return 0;
+    const std::string prefix = (entry.path.parent_path() / first->prefix).native();
+    const auto rows = catalog.files_with_prefix(entry.station, prefix, most_chunks);
+    if (!rows) return pass_on(rows);
+    Xxh3Stream hashes;
+    for (const CatalogEntry& row : *rows) {
+        const std::array<std::uint64_t, 2> words = {row.content_hash, row.size_bytes};
+        hashes.append(std::as_bytes(std::span{words}));
+    }
+    return hashes.value();
 }
 
 Result<CatalogedVolume> read_cataloged_volume(const CatalogReader& catalog,

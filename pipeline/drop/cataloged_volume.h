@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,6 +40,11 @@ struct CatalogedVolume {
 [[nodiscard]] Result<std::optional<catalog::CatalogEntry>> find_volume_of_grid(
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     bool is_partial);
+
+// Returns a number that changes when chunks of a volume come to the catalog. It is 0 for a volume in
+// one file, and for one that has ended, whose own row says all. Errors: those of the catalog.
+[[nodiscard]] Result<std::uint64_t> hash_of_growing_rows(const catalog::CatalogReader& catalog,
+                                                         const catalog::CatalogEntry& entry);
 
 // Chunks are joined in the order of their numbers, one for each number, as far as they exist. A
 // chunk that its file holds twice is taken once.

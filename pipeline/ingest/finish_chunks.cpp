@@ -31,6 +31,14 @@ std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::stri
     return others;
 }
 
+// The same rows while the volume is taken: what reads a volume in the catalog finds all of its
+// chunks.
+std::vector<FileFacts> as_seen(std::vector<FileFacts> rows) {
+    for (FileFacts& row : rows)
+        row.state = FileState::seen;
+    return rows;
+}
+
 // Returns true if there is no `check`, or if every file passes it.
 Status check_all(const ReadCheck& check, const ChunkVolume& volume) {
     if (!check) return {};
@@ -75,6 +83,10 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
         if (Status settled = settle_others(); !settled) return pass_on(settled);
         return context.reject(facts, decoded.error(), std::move(outcome));
     }
+    // The first one's row tells of the whole volume from now on.
+    const std::string taken_station = context.taken_station(station);
+    if (Status seen = context.catalog.register_files(taken_station, as_seen(others)); !seen)
+        return pass_on(seen);
     TakeVolumes volumes(context, std::move(facts), std::move(outcome));
     auto taken = volumes.take(std::move(*decoded), MayBePartial::yes);
     if (!taken) return taken;

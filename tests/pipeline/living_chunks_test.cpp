@@ -67,6 +67,32 @@ TEST_F(LivingChunks, TheRowOfTheFirstDescribesTheVolumeWhileItGrows) {
     EXPECT_EQ(rows().at(0).state, catalog::FileState::complete);
 }
 
+// 2026-11-28: while the grid was made, the row told of the whole volume, and others read all of its
+// chunks but the last.
+TEST_F(LivingChunks, TheRowTellsOfTheWholeVolumeWhenAllHaveRows) {
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i)
+        take(house_, i);
+    const auto whole = whole_.catalog->list("KLOT", {})->at(0).volume;
+    std::atomic<bool> is_done = false;
+    std::size_t looks = 0, too_early = 0;
+    std::thread reader([&] {
+        const auto catalog = catalog::CatalogReader::open(directory_ / "living/catalog");
+        while (!is_done) {
+            const auto first = catalog->list("KLOT", {});
+            if (first->at(0).volume.radial_count != whole.radial_count) continue;
+            ++looks;
+            const auto all = catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+            too_early += all->size() == names_.size() ? 0 : 1;
+        }
+    });
+    take(house_, names_.size() - 1);
+    is_done = true;
+    reader.join();
+    EXPECT_GT(looks, 0U);
+    EXPECT_EQ(too_early, 0U);
+    expect_one_volume(house_);
+}
+
 TEST_F(LivingChunks, MayComeInAnyOrder) {
     std::vector<std::size_t> order(names_.size());
     for (std::size_t i = 0; i < order.size(); ++i)

@@ -75,6 +75,36 @@ TEST(ApiSweeps, OfAVolumeThatGrowsAreThoseThatHaveCome) {
     EXPECT_EQ(counts.size(), 3U);
 }
 
+// 2026-11-28: a row told of the whole volume before all of its chunks had rows, and what was read
+// then stayed.
+TEST(ApiSweeps, OfAVolumeWhoseRowIsAheadAreReadAgain) {
+    STORMCELLAR_NEED_DATA();
+    ServedVolumes whole(false);
+    (void)whole.take_chunks(55);
+    const auto facts = whole.catalog().list("KLOT", {})->at(0).volume;
+    ServedVolumes volumes(false);
+    (void)volumes.take_chunks(54);
+    const catalog::CatalogEntry row = volumes.catalog().list("KLOT", {})->at(0);
+    ASSERT_TRUE(volumes.catalog().register_file({row.path,
+                                                 "KLOT",
+                                                 row.size_bytes,
+                                                 row.modified_ns,
+                                                 row.content_hash,
+                                                 row.state,
+                                                 {},
+                                                 {facts}}));
+    OpenDoors doors(volumes);
+    const auto last_sweep = [&] {
+        const Answer answer = doors.get("/api/v1/stations/KLOT/volumes/latest/sweeps");
+        EXPECT_EQ(answer.status, 200U) << body_of(answer);
+        return nlohmann::json::parse(body_of(answer)).at("sweeps").back();
+    };
+    const auto early = last_sweep();
+    (void)volumes.take_chunks(55);
+    EXPECT_LT(early.at("radials"), 360);
+    EXPECT_EQ(last_sweep().at("radials"), 360);
+}
+
 // 2026-11-28: of a volume in two files one was deleted, and the volume was said to be gone.
 TEST(ApiSweeps, AFileThatIsLeftIsTaken) {
     STORMCELLAR_NEED_DATA();

@@ -53,8 +53,9 @@ std::string SweepPicture::key() const {
     const std::string state = catalog::has_final_hash(volume)
                                   ? std::string{}
                                   : fmt::format("{} {}", volume.path.native(), volume.modified_ns);
-    return fmt::format("sweep {}\n{}\n{} {} {} {} {}", domain, style.key, grid_id,
-                       volume.size_bytes, volume.content_hash, volume.volume.radial_count, state);
+    return fmt::format("sweep {}\n{}\n{} {} {} {} {} {}", domain, style.key, grid_id,
+                       volume.size_bytes, volume.content_hash, volume.volume.radial_count, chunks,
+                       state);
 }
 
 std::string SweepPicture::etag() const {
@@ -78,7 +79,10 @@ Result<std::optional<SweepPicture>> SweepPictures::find(const OpenGrid& grid, Fr
                                                 description.time, description.provenance.partial);
     if (!volume) return pass_on(volume);
     if (!*volume) return std::optional<SweepPicture>{};
-    return std::optional{SweepPicture{grid.domain, grid.id, std::move(**volume), std::move(style)}};
+    const auto chunks = pipeline::hash_of_growing_rows(**catalog, **volume);
+    if (!chunks) return pass_on(chunks);
+    return std::optional{
+        SweepPicture{grid.domain, grid.id, std::move(**volume), *chunks, std::move(style)}};
 }
 
 Result<Kept> SweepPictures::find_or_draw(const SweepPicture& picture) {

@@ -8,6 +8,7 @@
 // Errors    See each function. No message names a directory.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ struct SweepPicture {
     std::string domain;
     std::string grid_id;  // so that a volume that grows is drawn again
     catalog::CatalogEntry volume;
+    std::uint64_t chunks = 0;  // changes when more of them come
     FrameStyle style;
 
     [[nodiscard]] std::string key() const;

@@ -58,10 +58,12 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     if (found->state == catalog::FileState::gone) {
         return refuse(json_error(410, "the file of the volume was removed by its owner"));
     }
-    // The row of a volume of chunks has the first one's path and hash: it grows in radials alone.
-    std::string key = fmt::format("{}/{}/{}/{}/{}/{}", found->path.native(), found->size_bytes,
-                                  found->modified_ns, found->content_hash,
-                                  start ? format_utc(*start) : "", found->volume.radial_count);
+    // The row of a volume of chunks has the first one's path and hash.
+    const auto rows = pipeline::hash_of_growing_rows(**catalog, *found);
+    if (!rows) return refuse(rows.error());
+    std::string key = fmt::format(
+        "{}/{}/{}/{}/{}/{}/{}", found->path.native(), found->size_bytes, found->modified_ns,
+        found->content_hash, start ? format_utc(*start) : "", found->volume.radial_count, *rows);
     return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
 }
 
