@@ -41,8 +41,8 @@ struct CatalogedVolume {
     const catalog::CatalogReader& catalog, const std::string& station, UtcTime start,
     bool is_partial);
 
-// Returns a number that changes when chunks of a volume come to the catalog. It is 0 for a volume in
-// one file, and for one that has ended, whose own row says all. Errors: those of the catalog.
+// Returns a number that changes when chunks of a volume come to the catalog. It is 0 for a volume
+// in one file, and for one that has ended, whose own row says all. Errors: those of the catalog.
 [[nodiscard]] Result<std::uint64_t> hash_of_growing_rows(const catalog::CatalogReader& catalog,
                                                          const catalog::CatalogEntry& entry);
 

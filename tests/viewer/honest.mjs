@@ -14,6 +14,7 @@ const upstream = new URL(address);
 let events = [];
 let listed = (path, body) => body;
 let isRefusing = false; // it has no place for another stream
+let isStopped = false; // a proxy in front of it says so
 let isHanging = false; // it takes connections, and sends nothing
 let isBreaking = (path) => false; // it breaks off before it answers
 let isSlow = (path) => false; // it answers two seconds later
@@ -23,6 +24,7 @@ function pass(asked, answer, waited = false) {
   if (isHanging) return;
   if (!waited && isSlow(asked.url)) return void setTimeout(() => pass(asked, answer, true), 2000);
   if (isBreaking(asked.url)) return void answer.destroy();
+  if (isStopped) return void answer.writeHead(502, { 'Content-Type': 'text/html' }).end('<h1>Bad gateway</h1>');
   if (asked.url.startsWith('/api/v1/events')) {
     if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10' }).end('{"error": "as many as there may be"}');
     answer.writeHead(200, { 'Content-Type': 'text/event-stream' });
@@ -94,6 +96,15 @@ try {
   check('a link is taken though the page wrote its own address meanwhile', await page.evaluate(`(location.hash = 'domain=KYYY&moment=REF', history.replaceState(null, '', '#domain=${station}&moment=REF'), true)`) && (await says('notice', 'No data for KYYY')) !== '');
   await page.goto('about:blank');
 
+  // ---- A radar that comes later (2026-11-28: the page said for good that it is not there)
+  listed = (path, body) => (path.startsWith('/api/v1/domains') ? JSON.stringify({ domains: JSON.parse(body).domains.filter((one) => one.domain !== other) }) : body);
+  await page.goto(`${viewer.address}/view/#domain=${other}&moment=REF&time=latest`);
+  const isTold = await says('notice', `No data for ${other}`);
+  listed = (path, body) => body;
+  tell('volume_complete', { type: 'volume_complete', domain: other, station: other, moment: 'REF', grid: grids.find((grid) => grid.domain === other).time });
+  check(`a radar that comes later: ${isTold}`, station === other || (isTold !== '' && (await page.until("document.getElementById('notice').textContent === ''", 10).then(() => true, () => false))));
+  await page.goto('about:blank');
+
   // ---- A server that is gone (2026-11-28: the page looked as if it were live)
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
   const lit = "document.getElementById('follow').getAttribute('aria-pressed')";
@@ -116,6 +127,14 @@ try {
   const asked = requests('/api/v1/grids?');
   tell('reset', { type: 'reset', reason: 'events were lost' });
   check('and so it does when events were lost', await asksFor('/api/v1/grids?', asked + 1));
+
+  // ---- A server behind a proxy that is gone (2026-11-28: the page looked as if it were live)
+  isStopped = true;
+  streams.forEach((stream) => stream.end());
+  await new Promise((done) => setTimeout(done, 5000));
+  check(`a server that is gone behind a proxy: ${await text('notice')}`, (await text('notice')).includes('does not answer') && (await page.evaluate(lit)) === 'false');
+  isStopped = false;
+  check('it is back', (await isQuiet()) && (await page.evaluate(lit)) === 'true');
 
   // ---- A grid that was made again while another moment was shown (2026-11-28: the page kept the old one)
   const time = (await page.evaluate('document.documentElement.dataset.drawn')).split('/').pop();

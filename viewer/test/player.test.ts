@@ -44,6 +44,14 @@ test('playback stays in its loop, and enters it from outside', () => {
     assert.equal(nextOf(closed, 2), 2);
 });
 
+test('a loop over older times stays until they have come, and goes when they are evicted', () => {
+    const player = looped(at(looped(at(withTimes(stopped, times), 0), 'from'), 1), 'to');
+    assert.deepEqual(player.loop, { from: 'a', to: 'b' });
+    const another = withTimes(withTimes(player, []), times.slice(2));
+    assert.deepEqual(another.loop, player.loop);
+    assert.equal(withTimes(withTimes(another, times), times.slice(2)).loop, null);
+});
+
 test('an end of a loop takes the other along, and a loop of one time does not play', () => {
     const player = looped(at(withTimes(stopped, times), 2), 'to');
     const later = looped(at(player, 3), 'from');

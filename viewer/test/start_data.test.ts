@@ -52,6 +52,12 @@ test('a mosaic that is behind a radar within it is not what is seen now (2026-11
     assert.deepEqual((await drawn([domain('KBGM', at(45)), domain('KCCX', at(10)), domain('south', at(10))])).names.sort(), ['KBGM', 'KCCX']);
 });
 
+test('a radar whose clock is ahead does not make a mosaic old', async () => {
+    server.stations = [{ ...station('KBGM', at(45)), newest_grid: { time: at(45), age_s: -2000 } }, station('KCCX', at(10))];
+    server.stationsOf = { south: ['KBGM', 'KCCX'] };
+    assert.deepEqual((await drawn([domain('KBGM', at(45)), domain('KCCX', at(10)), domain('south', at(10))])).names, ['south']);
+});
+
 test('radars without reflectivity are not counted among those that are left out', async () => {
     const names = Array.from({ length: 14 }, (_, i) => `K${String.fromCharCode(65 + i)}AA`);
     server.stations = names.map(name => station(name, at(10)));

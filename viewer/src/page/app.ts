@@ -66,7 +66,8 @@ export class App {
     private addressBar = new AddressBar(() => addressOf(this.state));
     private turn = 0; // of what is to be shown
     private choices = 0; // of domains and moments
-    private askedMoment = ''; // which may not be there
+    private askedDomain = ''; // which may not be there, as the moment
+    private askedMoment = '';
     private unreadTime = timeThatIsNone(); // of the address
 
     constructor(readonly loader: Loader) {}
@@ -240,7 +241,7 @@ export class App {
     // one domain, or no such moment, the first is shown, and the page says so.
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
-        this.askedMoment = moment;
+        [this.askedDomain, this.askedMoment] = [domain, moment];
         if (isRegion(domain) && !this.domains.some(one => one.domain === domain)) {
             const choice = ++this.choices;
             try {
@@ -334,6 +335,7 @@ export class App {
 
     // Frames between volumes every so many seconds; 0: the volumes alone.
     async setBetween(seconds: number): Promise<void> {
+        this.miss('');
         const shown = this.timeline.now;
         this.state.betweenS = seconds;
         this.timeline.take(this.timeline.stored);
@@ -491,6 +493,8 @@ export class App {
             await this.findDomains();
             this.tell('choices');
         }
+        const isAsked = domain?.toLowerCase() === this.askedDomain.toLowerCase() && (this.isOnMap || this.askedMoment === '' || moment === this.askedMoment);
+        if (isAsked && this.missed !== '' && this.missedTime === '') this.miss('');
         const isOfShown = domain === this.state.domain && moment === this.state.moment;
         const isOld = changedTime ? outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.timeline.stored : [], `${this.state.domain}/${this.state.moment}`) : () => false;
         this.loader.forgetAll(isOld);

@@ -21,7 +21,9 @@ export function withTimes(player: PlayerState, times: string[], newest = times.l
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
     const { loop, follows } = player;
-    const isOver = loop !== null && loop.from < loop.to && times.filter(time => time >= loop.from && time <= loop.to).length < 2;
+    const ofLoop = (all: string[]) => (loop && loop.from < loop.to ? all.filter(time => time >= loop.from && time <= loop.to).length : 2);
+    // Of another moment the newest times come first.
+    const isOver = ofLoop(times) < 2 && ofLoop(player.times) >= 2;
     return { ...player, times, at: follows || shown === undefined ? newest : nearestTime(times, shown), loop: isOver ? null : loop };
 }
 

@@ -121,6 +121,12 @@ const mostTries = 10;
 // The server's, ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
+// A proxy answers for a server that does not. The server itself says nothing in HTML here.
+function checkServer({ status, headers }: Response): void {
+    const isHtml = (headers.get('Content-Type') ?? '').includes('html');
+    if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError('the server does not answer');
+}
+
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
     let answer = await fetch(address(path), options);
     for (let tries = 0; answer.status === busy && tries < mostTries; ++tries) {
@@ -128,6 +134,7 @@ async function ask(path: string, options: RequestInit = {}): Promise<Response> {
         answer = await fetch(address(path), options);
     }
     if (answer.ok) return answer;
+    checkServer(answer);
     let message = answer.statusText;
     try {
         message = ((await answer.json()) as { error: string }).error;
@@ -203,9 +210,11 @@ export async function packedBetween(domain: string, moment: string, time: string
     return (await ask(path)).arrayBuffer();
 }
 // Events after the one of this id; empty: from now on. Errors: those of fetch().
-export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
+export async function askEvents(id: string, signal: AbortSignal): Promise<Response> {
     const query = id === '' ? '' : `?last_event_id=${encodeURIComponent(id)}`;
-    return fetch(address(`api/v1/events${query}`), { cache: 'no-store', headers: { Accept: 'text/event-stream' }, signal });
+    const answer = await fetch(address(`api/v1/events${query}`), { cache: 'no-store', headers: { Accept: 'text/event-stream' }, signal });
+    checkServer(answer);
+    return answer;
 }
 export interface Tables {
     tables: ColorTable[];

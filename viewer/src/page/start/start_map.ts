@@ -233,7 +233,7 @@ export class StartMap {
         const station = this.data.stations.find(one => one.icao === this.chosen);
         const domain = this.app.domains.find(one => one.domain === this.chosen);
         if (!station && !domain) return this.say('');
-        const seen = domain && (this.data.mosaics.find(one => one.domain === domain) ?? this.data.find(domain));
+        const seen = domain && (this.data.mosaics.find(one => one.domain.domain === this.chosen) ?? this.data.find(domain));
         const age = station ? station.ageS : (domain?.moments[0]?.age_s ?? null);
         const moments = domain?.moments.map(one => one.moment) ?? [];
         const strongest = moments.includes('REF') ? (seen?.facts?.greatest ?? null) : null;
