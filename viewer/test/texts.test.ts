@@ -23,3 +23,8 @@ test('of a grid that is gone nothing is said to be loading (2026-11-28: it was)'
     assert.equal(texts.detail({ coarsest: 1, missing: 3, isGone: false }), 'coarse: greatest of 2 x 2 cells, finer ones are loading');
     assert.equal(texts.detail({ coarsest: 0, missing: 0, isGone: true }), '');
 });
+
+test('a radar whose clock is ahead is in the future, and not new (2026-11-28: it was of 0 min ago)', () => {
+    assert.equal(texts.start.age(-601), 'in the future');
+    assert.equal(texts.start.age(-599), '0 min ago');
+});

@@ -1,12 +1,14 @@
 // Every text of the page in one place, ready for other languages.
 
+import { isAhead } from '../time/timeline';
+
 function span(seconds: number): string {
     const [minutes, hours, days] = [seconds / 60, seconds / 3600, seconds / 86400];
     if (minutes < 90) return `${Math.max(0, Math.round(minutes))} min`;
     if (hours < 48) return `${Math.round(hours)} h`;
     return days < 730 ? `${Math.round(days)} days` : `${Math.round(days / 365.25)} years`;
 }
-const age = (seconds: number): string => `${span(seconds)} ago`;
+const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `${span(seconds)} ago`);
 
 // How far from an instant volumes are of which a site is shown.
 function ofVolumes(middlesS: number[]): string {

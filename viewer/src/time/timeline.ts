@@ -5,6 +5,7 @@ import { instantsBetween } from './between';
 import { PlayerState, followed, nearestTime, stopped, withTimes } from './player';
 
 export const toleratedFutureMs = 10 * 60 * 1000; // as base/utc_time.h has it
+export const isAhead = (ageS: number): boolean => 1000 * ageS < -toleratedFutureMs;
 
 export class Timeline {
     player: PlayerState;

@@ -182,11 +182,11 @@ export interface Times {
     times: string[]; // rising
     more: boolean; // there are older ones
 }
-// The newest times of a domain's grids, at most `limit`, up to 10,000; until `to`, inclusive.
+// The newest times of a domain's grids, at most `limit`, up to 10,000, but all of a region; until `to`, inclusive.
 export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
     if (isRegion(domain)) {
         const found = (await region(domain)).moments.find(one => one.moment === moment);
-        return { times: found?.times.filter(time => to === undefined || time <= to).slice(-limit) ?? [], more: false };
+        return { times: found?.times.filter(time => to === undefined || time <= to) ?? [], more: false };
     }
     const until = to === undefined ? '' : `&to=${encodeURIComponent(to)}`;
     const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=${limit}${until}`;

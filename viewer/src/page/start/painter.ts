@@ -5,6 +5,7 @@ import { Pixel, StationPlace } from '../../map/places';
 import { shades } from '../../renderer/shades';
 import { withoutCuts } from '../../scene/ground_lines';
 import { Place } from '../../scene/projection';
+import { isAhead } from '../../time/timeline';
 import { City, MapAnswer } from '../../wire/api';
 import { fontOf, textScale } from '../dom';
 import { Rect, haloed, overlaps } from '../labels';
@@ -161,7 +162,7 @@ function drawOutlines(pen: CanvasRenderingContext2D, scene: StartScene, taken: R
 
 // Bright: a new grid; gray: an old one; hollow: none.
 function drawDot(pen: CanvasRenderingContext2D, [x, y]: Pixel, station: StationPlace, isMarked: boolean): void {
-    const isFresh = station.ageS !== null && station.ageS < freshS;
+    const isFresh = station.ageS !== null && station.ageS < freshS && !isAhead(station.ageS);
     pen.beginPath();
     pen.arc(x, y, isMarked ? 6.5 : 4.5, 0, 2 * Math.PI);
     pen.fillStyle = !station.hasGrids ? shades.halo : isFresh ? '#8fe3a8' : '#c3ccd8';

@@ -3,12 +3,12 @@
 import { circleOf, outlineOf } from '../../map/outline';
 import { StationPlace, stationPlaces } from '../../map/places';
 import { geodesic } from '../../scene/projection';
+import { isAhead } from '../../time/timeline';
 import { Domain, GridFacts, gridFacts, stations } from '../../wire/api';
 import { Outline } from './painter';
 
 const pictured = 'REF';
 const mostPicturedStations = 12; // at a time, where no mosaic shows what they see
-const mostAheadS = 10 * 60; // a radar whose clock is further ahead is wrong
 const mostBehindMs = 20 * 60 * 1000; // a mosaic that is further behind a radar within it is not what is seen now
 const usualReachM = 230_000; // of a radar's own grid
 
@@ -83,8 +83,7 @@ export class StartData {
     // picture first, and then the mosaics that show what is seen now.
     pictures(domains: Domain[], visible: StationPlace[], isWithin: (outline: Outline, station: StationPlace) => boolean): SeenDomain[] {
         // A clock that is wrong makes nothing old.
-        const isOfThisTime = (one: StationPlace) => (one.ageS ?? 0) > -mostAheadS;
-        const newestMs = (outline: Outline) => Math.max(...this.stations.filter(one => isOfThisTime(one) && isWithin(outline, one)).map(one => Date.parse(one.newestGrid ?? '') || 0), 0);
+        const newestMs = (outline: Outline) => Math.max(...this.stations.filter(one => !isAhead(one.ageS ?? 0) && isWithin(outline, one)).map(one => Date.parse(one.newestGrid ?? '') || 0), 0);
         const mosaics = this.mosaics.filter(({ domain, outline }) => outline && Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs);
         const isShown = (one: StationPlace) => mosaics.some(({ facts, outline }) => facts!.provenance.stations.includes(one.icao) && isWithin(outline!, one));
         const own = visible.flatMap(station => {
