@@ -294,6 +294,8 @@ struct ArchiveReader::Impl {
             bytes.resize(at + *got);
             if (bytes.size() > limits.member_bytes) {
                 leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
+                (void)own_name(
+                    name);  // whatever the limit, the next one of this name is the second
                 bytes = {};
                 pass_over(name);
                 return std::nullopt;

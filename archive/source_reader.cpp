@@ -1,10 +1,12 @@
 // Finds members of archives by their names.
+#include <cerrno>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 
+#include "base/system_error.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/file_system.h"
 
@@ -38,6 +40,7 @@ Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& p
             reader_.reset();
             archive_ = name->archive;
             file_ = Descriptor{::open(archive_.c_str(), O_RDONLY | O_CLOEXEC)};
+            if (!file_.is_open()) return system_failure(archive_.native(), errno);
             reader_ = ArchiveReader::open(file_.number());
             attempt = 1;
         }

@@ -1,6 +1,8 @@
 #include "pull/http_client.h"
 
 #include <array>
+#include <exception>
+#include <span>
 #include <utility>
 
 #include <curl/curl.h>
@@ -41,6 +43,14 @@ struct HttpClient::Handle {
     }
     [[nodiscard]] bool is_stopped() const { return options->stop != nullptr && *options->stop; }
 
+    // An exception that leaves through libcurl makes its handle useless for good.
+    [[nodiscard]] Status given(std::span<const std::byte> bytes) const {
+        try {
+            return request->take(bytes);
+        } catch (const std::exception& error) {  // no memory
+            return fail(ErrorCode::exhausted, "cannot be taken: {}", error.what());
+        }
+    }
     // Any other number of bytes than it was given ends the transfer.
     static std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* self) {
         auto& handle = *static_cast<Handle*>(self);
@@ -51,8 +61,7 @@ struct HttpClient::Handle {
         if (handle.bytes > most) {
             handle.taken = fail(ErrorCode::over_budget, "the answer has more than {} bytes", most);
         } else if (is_good) {
-            handle.taken =
-                handle.request->take({reinterpret_cast<const std::byte*>(bytes), length});
+            handle.taken = handle.given({reinterpret_cast<const std::byte*>(bytes), length});
         }
         return handle.taken ? length : 0;
     }

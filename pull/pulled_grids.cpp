@@ -1,6 +1,7 @@
 #include "pull/pulled_grids.h"
 
 #include <algorithm>
+#include <mutex>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -27,8 +28,11 @@ std::uint64_t bytes_on_disk(const fs::path& path) {
 
 constexpr std::size_t most_told_of_tag = 40;  // a server may send 100 kB
 
-// Reads all of the file, so that nothing half is given a name.
+// Reads all of the file, so that nothing half is given a name. One at a time, for all machines: it
+// may take half a gigabyte.
 Status check(const fs::path& path, const cache::GridName& name, const std::string& tag) {
+    static std::mutex one_at_a_time;
+    const std::scoped_lock lock(one_at_a_time);
     const auto file = cache::GridFile::open(path, cache::limits_of_site);
     if (!file) return pass_on(file);
     const cache::GridDescription& grid = file->description();

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/system_error.h"
 #include "cli/shared/commands.h"
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/descriptor.h"
@@ -51,17 +52,19 @@ Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label
 class OpenArchive {
   public:
     // Returns none if the file is no archive. `piped`: its bytes if they came through a pipe.
-    static std::unique_ptr<OpenArchive> open(const fs::path& path,
-                                             const std::vector<std::byte>* piped) {
+    // Errors: it cannot be opened.
+    static Result<std::unique_ptr<OpenArchive>> open(const fs::path& path,
+                                                     const std::vector<std::byte>* piped) {
         auto opened = std::make_unique<OpenArchive>();
         if (piped != nullptr) {
             opened->reader_ = archive::ArchiveReader::open(*piped);
         } else {
             opened->file_ = Descriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-            if (opened->file_.number() < 0) return nullptr;
+            if (!opened->file_.is_open()) return system_failure(path.native(), errno);
             opened->reader_ = archive::ArchiveReader::open(opened->file_.number());
         }
-        return opened->reader_ ? std::move(opened) : nullptr;
+        if (!opened->reader_) return nullptr;
+        return opened;
     }
     [[nodiscard]] archive::ArchiveReader& reader() { return *reader_; }
 
@@ -121,8 +124,9 @@ struct InputFiles::Impl {
 };
 
 bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& path) {
-    auto archive = OpenArchive::open(path, piped_of(path));
-    if (!archive) return false;
+    auto opened = OpenArchive::open(path, piped_of(path));
+    if (!opened || !*opened) return false;  // who reads the file says why it cannot be opened
+    const std::unique_ptr<OpenArchive>& archive = *opened;
     while (const auto member = archive->reader().next()) {
         files.push_back(
             {fmt::format("{}{}{}", label, member_mark, member->name), path, member->name, true});
@@ -179,7 +183,7 @@ void InputFiles::Impl::add_named_chunks(std::vector<std::string>& names) {
         const auto chunk = level2::parse_chunk_name(path.filename().native());
         volumes[common].emplace(chunk->number, path);
     }
-    std::erase_if(volumes, [](const auto& volume) { return volume.second.size() < 2; });
+    std::erase_if(volumes, [](const auto& chunks) { return chunks.second.size() < 2; });
     std::erase_if(names, [&](const auto& name) { return volumes.contains(volume_of_chunk(name)); });
     for (auto& [common, chunks] : volumes) {
         const bool is_here = !common.has_parent_path();
@@ -236,7 +240,9 @@ Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& fi
     // First continues where the last read ended, then starts from the beginning.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!open || open_path != file.path || attempt > 0) {
-            open = OpenArchive::open(file.path, piped_of(file.path));
+            auto opened = OpenArchive::open(file.path, piped_of(file.path));
+            if (!opened) return pass_on(opened);
+            open = std::move(*opened);
             open_path = file.path;
             attempt = 1;
         }
@@ -246,7 +252,12 @@ Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& fi
             if (member->name == file.member) return std::move(member->bytes);
         }
     }
-    open.reset();
+    const auto read = std::move(open);
+    if (read) {
+        for (const archive::LeftOut& one : read->reader().left_out())
+            if (one.name == file.member || one.name.empty())
+                return fail(ErrorCode::unsupported, "{}: {}", file.label, one.reason);
+    }
     return fail(ErrorCode::not_found, "{}: the archive does not have this member", file.label);
 }
 

@@ -104,7 +104,8 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment mom
     if (!outcome) {
         if (outcome.error().code == ErrorCode::not_found) {
             ledger.left_out(volume.path, "is gone");
-        } else if (outcome.error().code == ErrorCode::permission) {
+        } else if (outcome.error().code == ErrorCode::permission &&
+                   outcome.error().cause() == Cause::configuration) {  // not that of the cache
             ledger.left_out(volume.path, outcome.error().message);
         } else {
             ledger.failed(outcome.error());

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "pipeline/drop/file_facts.h"
+#include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/grid_window.h"
@@ -94,6 +95,16 @@ Result<std::optional<fs::path>> CacheMender::raw_of(const std::string& station, 
     return best_of(catalog_, *entries);
 }
 
+std::string CacheMender::why_not_again(const std::string& station, UtcTime time) {
+    const auto entries = catalog_.list(station, {time, time, false});
+    const auto is_there = [](const CatalogEntry& entry) {
+        return entry.state != FileState::gone && !member_names_in(entry.path).empty();
+    };
+    if (entries && std::ranges::any_of(*entries, is_there))
+        return "it was made of a member of an archive, and such grids are not made again";
+    return "its raw file is gone, has changed or still grows";
+}
+
 Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto found = look_at(entry.path, depth);
     // Evicted or replaced in the meantime, which is no fault.
@@ -147,9 +158,11 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     }
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
-    MendedGrid mended{
-        GridCondition::dropped, damage.message, {}, "its raw file is gone or has changed"};
-    if (!*raw) return mended;
+    MendedGrid mended{GridCondition::dropped, damage.message, {}, {}};
+    if (!*raw) {
+        mended.why_not = why_not_again(station, entry.time);
+        return mended;
+    }
     const auto outcome = make_from(**raw, station);
     if (!outcome && outcome.error().cause() == Cause::data) {
         mended.why_not = outcome.error().message;

@@ -92,6 +92,8 @@ class CacheMender {
         UtcTime from;  // older volumes count as evicted
     };
     Result<std::optional<std::filesystem::path>> raw_of(const std::string& station, UtcTime time);
+    // Says why that has none.
+    [[nodiscard]] std::string why_not_again(const std::string& station, UtcTime time);
     Result<IngestOutcome> make_from(const std::filesystem::path& raw, const std::string& station);
     Result<MendedGrid> mend_from_raw(const cache::StoreEntry& entry, const std::string& station,
                                      const Error& damage);

@@ -40,7 +40,7 @@ class OpenArchives {
 
   private:
     static constexpr std::size_t most_open = 4;
-    static constexpr std::chrono::hours longest_wait{1};  // then its turns have ended
+    static constexpr std::chrono::hours longest_wait{24};  // then its turns have ended
 
     struct Waiting {
         OpenArchive archive;

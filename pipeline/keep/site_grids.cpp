@@ -34,7 +34,8 @@ void note_not_kept(const std::string& station, IngestOutcome& outcome) {
 }
 
 tl::unexpected<Error> of_storing(Error error) {
-    if (!error.known_cause && error.cause() == Cause::data) error.known_cause = Cause::system;
+    const bool may_be_of_file = error.cause() == Cause::data || error.code == ErrorCode::permission;
+    if (!error.known_cause && may_be_of_file) error.known_cause = Cause::system;
     return tl::unexpected<Error>(std::move(error));
 }
 

@@ -88,6 +88,16 @@ TEST_F(InputFilesTest, OneMemberIsNamedBehindItsArchive) {
     EXPECT_THAT(none.err, HasSubstr("does not have this member"));
 }
 
+// 2026-11-28: it was said not to be there.
+TEST_F(InputFilesTest, OfAMemberThatCannotBeReadIsSaidWhy) {
+    const std::string path = put_archive("order.tar", archive::Kind::tar);
+    fs::resize_file(path, fs::file_size(path) - 100'000);
+    const ProgramResult cut = run({"info", path + "!order/" + two_of_them[1]});
+    EXPECT_EQ(cut.status, 1);
+    EXPECT_THAT(cut.err, ::testing::Not(HasSubstr("does not have this member")));
+    EXPECT_THAT(cut.err, HasSubstr("cut"));
+}
+
 TEST_F(InputFilesTest, InfoTellsOfEachVolume) {
     const std::string path = put_archive("order.tar.gz", archive::Kind::tar_gz);
     const ProgramResult all = run({"info", path, "--json"});

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
+#include "pipeline/care/mend_cache.h"
 #include "pipeline/drop/station_place.h"
 #include "pipeline/ingest/ingest.h"
 #include "stormcellar/base/file_system.h"
@@ -75,6 +76,32 @@ TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
     const auto changed = catalog::read_cataloged(catalog_, volumes()[1]);
     ASSERT_FALSE(changed);
     EXPECT_EQ(changed.error().code, ErrorCode::corrupt);
+}
+
+// 2026-11-28: the second was no longer in the archive, as the larger first one was not counted.
+TEST_F(IngestArchiveTest, TheSecondMemberOfANameIsReadAgain) {
+    const auto larger = real("KBGM20050822_024414.gz"), smaller = real("KBGM20050822_025549.gz");
+    ASSERT_GT(larger.size(), smaller.size());
+    const std::vector<archive::Put> twins = {{"KBGM.gz", larger}, {"KBGM.gz", smaller}};
+    ASSERT_TRUE(ingestor_.ingest(put("order.tar", archive::make_archive(archive::Kind::tar, twins)),
+                                 false));
+    ASSERT_EQ(volumes().size(), 2U);
+    const auto raw = catalog::read_cataloged(catalog_, volumes()[1]);
+    ASSERT_TRUE(raw) << raw.error().message;
+    EXPECT_TRUE(raw->bytes == smaller);
+}
+
+// 2026-11-28: the log said that the raw file is gone or has changed.
+TEST_F(IngestArchiveTest, AGridOfAMemberIsNotMadeAgain) {
+    ASSERT_TRUE(ingestor_.ingest(
+        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes())), false));
+    const auto grid = grids("KBGM").at(0);
+    fs::resize_file(grid.path, 5000);
+    CacheMender mender(catalog_, store_, ingestor_, {level2::Moment::ref});
+    const auto mended = mender.mend(grid, MendDepth::header);
+    ASSERT_TRUE(mended) << mended.error().message;
+    EXPECT_EQ(mended->condition, GridCondition::dropped);
+    EXPECT_THAT(mended->why_not, HasSubstr("member of an archive"));
 }
 
 TEST_F(IngestArchiveTest, OneThatIsStillBeingWrittenIsWaitedFor) {

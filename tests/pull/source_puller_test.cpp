@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <new>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -368,6 +369,23 @@ TEST_F(Pulling, TheOldestGiveWay) {
     EXPECT_EQ(grids->prune(now_utc()), 1U);
     EXPECT_EQ(grids->bytes(), 0U);
     EXPECT_TRUE(fs::is_empty(north())) << "directories without grids go, too";
+}
+
+// 2026-11-28: a machine was never asked again.
+TEST(HttpClient, GoesOnWhereMemoryWasShort) {
+    const ScriptedServer server([](const Asked&) {
+        Reply reply;
+        reply.body = "a body";
+        return reply;
+    });
+    const std::atomic<bool> stop = false;
+    HttpClient client({.stop = &stop, .beat = {}});
+    const auto none =
+        client.get({server.url(), {}, 100, [](auto) -> Status { throw std::bad_alloc(); }});
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::exhausted);
+    const auto again = client.get({server.url(), {}, 100, [](auto) { return Status{}; }});
+    EXPECT_TRUE(again) << again.error().message;
 }
 
 TEST_F(Pulling, WhatAKilledProgramLeftIsRemoved) {

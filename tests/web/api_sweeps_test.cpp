@@ -105,6 +105,26 @@ TEST(ApiSweeps, OfAVolumeWhoseRowIsAheadAreReadAgain) {
     EXPECT_EQ(last_sweep().at("radials"), 360);
 }
 
+// 2026-11-28: a station whose database could not be read had no newest volume, and was silent.
+TEST(ApiStations, ADatabaseThatCannotBeReadSaysNothing) {
+    STORMCELLAR_NEED_DATA();
+    const ServedVolumes volumes;
+    const auto database = volumes.state() / "catalog/KTLX.sqlite";
+    for (const char* const ending : {"", "-wal", "-shm"})
+        std::filesystem::remove(database.native() + ending);
+    std::ofstream(database) << std::string(8192, 'x');
+    OpenDoors doors(volumes);
+    const Answer answer = doors.get("/api/v1/stations");
+    ASSERT_EQ(answer.status, 200U) << body_of(answer);
+    std::map<std::string, bool> is_known;
+    const auto list = nlohmann::json::parse(body_of(answer)).at("stations");
+    for (const auto& station : list) {
+        const bool has_both = station.contains("newest_volume") && station.contains("silent_s");
+        is_known[station.at("station")] = has_both;
+    }
+    EXPECT_EQ(is_known, (std::map<std::string, bool>{{"KABR", true}, {"KTLX", false}}));
+}
+
 // 2026-11-28: of a volume in two files one was deleted, and the volume was said to be gone.
 TEST(ApiSweeps, AFileThatIsLeftIsTaken) {
     STORMCELLAR_NEED_DATA();

@@ -41,7 +41,7 @@ export interface Station {
     state?: string;
     latitude_deg?: number;
     longitude_deg?: number;
-    newest_volume: Newest | null;
+    newest_volume?: Newest | null; // left out: it cannot be read now
     newest_grid: Newest | null;
     moments: string[];
     silent_s?: number | null; // for how long nothing came; null: it is not silent
