@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "stormcellar/archive/archive_reader.h"
+
 namespace stormcellar::cli {
 namespace {
 
@@ -12,7 +14,8 @@ bool exists(const std::string& word) {
 }
 
 bool is_path(const std::string& word) {
-    return word == "-" || word.find('/') != std::string::npos || exists(word);
+    return word == "-" || word.find('/') != std::string::npos || exists(word) ||
+           archive::member_path_of(word);
 }
 
 // The names of raw files have a date in them, or an ending; those of domains seldom have.

@@ -39,6 +39,17 @@ TEST(SourceNames, AnyOtherWordIsADomain) {
     EXPECT_EQ(tell_apart({}, "", is_ktlx)->domain, "");
 }
 
+TEST(SourceNames, AMemberOfAnArchiveIsAFile) {
+    testing::TemporaryDirectory directory;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(directory.path());
+    std::ofstream("day.tar") << "an archive";
+    const auto names = tell_apart({"day.tar!KTLX.gz"}, "", no_domain);
+    std::filesystem::current_path(before);
+    ASSERT_TRUE(names) << names.error().message;
+    EXPECT_THAT(names->files, ElementsAre("day.tar!KTLX.gz"));
+}
+
 TEST(SourceNames, WhatCouldBeBothIsRefused) {
     testing::TemporaryDirectory directory;
     const std::filesystem::path before = std::filesystem::current_path();
