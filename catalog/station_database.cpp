@@ -97,7 +97,8 @@ Registered StationDatabase::register_file(const FileFacts& facts) {
 }
 
 std::vector<fs::path> StationDatabase::register_files(const std::vector<FileFacts>& files) {
-    set_durable(true);
+    set_durable(std::ranges::any_of(
+        files, [](const FileFacts& facts) { return facts.state != FileState::seen; }));
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
     std::vector<fs::path> left_out;
     for (const FileFacts& facts : files) {
