@@ -101,8 +101,19 @@ try {
   await page.goto(`${viewer.address}/view/#domain=${other}&moment=REF&time=latest`);
   const isTold = await says('notice', `No data for ${other}`);
   listed = (path, body) => body;
+  const isNotSaidAnyMore = () => page.until("document.getElementById('notice').textContent === ''", 10).then(() => true, () => false);
   tell('volume_complete', { type: 'volume_complete', domain: other, station: other, moment: 'REF', grid: grids.find((grid) => grid.domain === other).time });
-  check(`a radar that comes later: ${isTold}`, station === other || (isTold !== '' && (await page.until("document.getElementById('notice').textContent === ''", 10).then(() => true, () => false))));
+  check(`a radar that comes later: ${isTold}`, station === other || (isTold !== '' && (await isNotSaidAnyMore())));
+  // The same of a moment, while nothing is heard.
+  await page.goto('about:blank');
+  listed = (path, body) => (path.startsWith('/api/v1/domains') ? JSON.stringify({ domains: JSON.parse(body).domains.map((one) => ({ ...one, moments: one.moments.filter(({ moment }) => moment === 'REF') })) }) : body);
+  await page.goto(`${viewer.address}/view/#domain=${station}&moment=VEL&time=latest`);
+  const isWithout = await says('notice', `${station} has no VEL`);
+  listed = (path, body) => body;
+  events = ['event: reset\ndata: {"type":"reset","reason":"another run"}\n\n'];
+  streams.forEach((stream) => stream.end());
+  check(`a moment that comes while nothing is heard: ${isWithout}`, isWithout !== '' && (await isNotSaidAnyMore()));
+  events = [];
   await page.goto('about:blank');
 
   // ---- A server that is gone (2026-11-28: the page looked as if it were live)

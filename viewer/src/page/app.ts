@@ -173,6 +173,11 @@ export class App {
     async findDomains(): Promise<void> {
         const found = (await domains()).filter(domain => domain.part_of === null && domain.moments.length > 0);
         this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
+        if (this.missed !== '' && this.missedTime === '' && this.unreadTime === '' && this.isAskedThere) this.miss('');
+    }
+    private get isAskedThere(): boolean {
+        const own = this.domains.find(one => one.domain.toLowerCase() === this.askedDomain.toLowerCase());
+        return own !== undefined && (this.isOnMap || this.askedMoment === '' || own.moments.some(one => one.moment === this.askedMoment));
     }
 
     get hasLists(): boolean {
@@ -215,6 +220,7 @@ export class App {
     }
     // Going back in the browser leads here again.
     goToMap(): void {
+        this.miss('');
         if (!this.isOnMap) this.addressBar.write();
         history.pushState(null, '', '#');
         this.openMap();
@@ -493,8 +499,6 @@ export class App {
             await this.findDomains();
             this.tell('choices');
         }
-        const isAsked = domain?.toLowerCase() === this.askedDomain.toLowerCase() && (this.isOnMap || this.askedMoment === '' || moment === this.askedMoment);
-        if (isAsked && this.missed !== '' && this.missedTime === '') this.miss('');
         const isOfShown = domain === this.state.domain && moment === this.state.moment;
         const isOld = changedTime ? outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.timeline.stored : [], `${this.state.domain}/${this.state.moment}`) : () => false;
         this.loader.forgetAll(isOld);
