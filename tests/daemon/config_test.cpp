@@ -1,5 +1,6 @@
 #include "daemon/config/config.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "stormcellar/grid/grid_spec.h"

@@ -130,6 +130,17 @@ TEST(IndexPage, ATimeInTheFutureIsNotAgo) {
     EXPECT_FALSE(says(html, "future ago"));
 }
 
+TEST(IndexPage, AStationWhoseClockIsAheadIsNotLive) {
+    IndexFacts facts = facts_of_a_day();
+    facts.stations.resize(1);
+    facts.stations[0].is_silent = false;
+    facts.stations[0].newest_volume.reset();
+    facts.stations[0].newest_grid = page_time + 24h * 180;
+    const std::string html = index_html(facts);
+    EXPECT_FALSE(says(html, "<i>live</i>"));
+    EXPECT_TRUE(says(html, "not known"));
+}
+
 TEST(IndexPage, AgesAreRead) {
     const auto age = [](std::chrono::milliseconds ago) {
         return age_text(page_time - ago, page_time);

@@ -53,7 +53,7 @@ std::string joined(const std::vector<std::string>& words) {
 std::string_view state_of(const IndexStation& station, UtcTime now) {
     if (station.is_silent) return "silent";
     const auto newest = std::max(station.newest_volume, station.newest_grid);
-    return newest && now - *newest < hours{1} ? "live" : "archive";
+    return newest && is_believed(*newest, now) && now - *newest < hours{1} ? "live" : "archive";
 }
 
 class IndexPage {
@@ -87,10 +87,10 @@ class IndexPage {
             xml_escaped(std::string(path_) + std::string(path)), words);
     }
     // An age, and below it the time.
-    void age(std::string_view label, std::optional<UtcTime> time) {
+    void age(std::string_view label, std::optional<UtcTime> time, std::string_view none = "none") {
         if (!time) {
-            add("<td class=\"age\" data-label=\"{}\"><span class=\"none\">none</span></td>\n",
-                label);
+            add("<td class=\"age\" data-label=\"{}\"><span class=\"none\">{}</span></td>\n", label,
+                none);
             return;
         }
         add("<td class=\"age\" data-label=\"{}\"><b>{}</b> <time datetime=\"{}\">{}</time></td>\n",
@@ -165,7 +165,9 @@ void IndexPage::station(const IndexStation& station) {
         station.is_silent && station.heard
             ? fmt::format(" for {}", age_text(*station.heard, facts_.now))
             : "");
-    age("Newest volume", station.newest_volume);
+    // Volumes from the future are not counted.
+    const bool is_ahead = station.newest_grid && !is_believed(*station.newest_grid, facts_.now);
+    age("Newest volume", station.newest_volume, is_ahead ? "not known" : "none");
     age("Newest grid", station.newest_grid);
     add("<td class=\"moments\" data-label=\"Moments\">{}</td>\n",
         xml_escaped(joined(station.moments)));
