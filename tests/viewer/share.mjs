@@ -122,6 +122,24 @@ try {
   const ofCache = await page.until('window.copied');
   check(`the command reads the cache then, and the page says so: ${ofCache}`, ofCache.startsWith(`stormcellar frame ${station} `) && (await evaluate("document.getElementById('state').textContent")).includes('cache'));
 
+  // ---- Its raw file was deleted, as the catalog says (2026-11-28: the command read it, and it was offered)
+  const ofGrid = (await evaluate('document.documentElement.dataset.drawn')).split('/').pop();
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&folded=0`);
+  await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } });
+    window.own = window.fetch;
+    window.fetch = (url, options, ...more) => {
+      if (String(url).includes('/volumes?to=')) return Promise.resolve(new Response(JSON.stringify({ volumes: [{ name: 'DELETED', time: '${ofGrid}', state: 'gone' }] }))).finally(() => (window.told = true));
+      return options?.method === 'HEAD' ? Promise.resolve(new Response(null, { status: 410 })) : own(url, options, ...more);
+    }; undefined`);
+  await press('open');
+  await page.until('window.told');
+  await new Promise((done) => setTimeout(done, 300));
+  await press('command');
+  check(`the command reads the cache: ${await page.until('window.copied')}`, (await page.until('window.copied')).startsWith(`stormcellar frame ${station} `));
+  await press('raw');
+  check(`Raw volume says that it is not here`, await page.until("document.getElementById('tool-says').textContent.includes('not here')").catch(() => false));
+
   // ---- Its volume came in chunks (2026-11-28: it was saved under the name of the first one)
   const began = (await evaluate('document.documentElement.dataset.drawn')).split('/').pop();
   const joinedName = station + began.slice(0, 19).replace(/[-:]/g, '').replace('T', '_');

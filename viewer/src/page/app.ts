@@ -173,7 +173,10 @@ export class App {
     async findDomains(): Promise<void> {
         const found = (await domains()).filter(domain => domain.part_of === null && domain.moments.length > 0);
         this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
-        if (this.missed !== '' && this.missedTime === '' && this.unreadTime === '' && this.isAskedThere) this.miss('');
+        if (this.missed === '' || this.missedTime !== '' || this.unreadTime !== '') return;
+        if (this.isAskedThere) this.miss('');
+        // Sites that reach it may have come.
+        else if (isRegion(this.askedDomain)) void this.findRegion(this.askedDomain).then(() => this.miss(''), () => undefined);
     }
     private get isAskedThere(): boolean {
         const own = this.domains.find(one => one.domain.toLowerCase() === this.askedDomain.toLowerCase());

@@ -243,6 +243,13 @@ const volumesPath = (station: string): string => `api/v1/stations/${encodeURICom
 export interface RawVolume {
     name: string;
     time: string | null;
+    state: string;
+}
+export const isGone = ({ state }: RawVolume): boolean => state === 'gone';
+// Whether its file is there.
+export async function hasRaw(station: string, name: string): Promise<boolean> {
+    const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
+    return status !== 404 && status !== 410;
 }
 // The newest volume of a station that began at a time or before.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
@@ -253,7 +260,7 @@ const sameVolumeMs = 15_000; // header and first radial name a volume a little d
 // The volume that began at a time; null if it is gone, where the newest before would be an older one.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
-    return volume?.time != null && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
+    return volume?.time != null && !isGone(volume) && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
 }
 // A name that chunks of a volume have: the volume has none of its own.
 export const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);

@@ -1,6 +1,6 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
-import { RawVolume, isAbsent, isChunk, rawAt, rawBefore, rawPath } from '../../wire/api';
+import { RawVolume, hasRaw, isAbsent, isChunk, isGone, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
 import { Drawing } from '../drawing';
@@ -94,11 +94,14 @@ export class ToolsPanel {
         if (sites) return filesOf(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => ({ station: site, time }))));
         if (shown.isBetween) {
             const before = await rawBefore(shown.domain, shown.time);
-            return before ? [fileOf(shown.domain, before)] : [];
+            return before && !isGone(before) ? [fileOf(shown.domain, before)] : [];
         }
         const { source_files, stations } = (await this.facts.ask()).provenance;
         const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
-        return source_files.length === 1 && own ? [own] : source_files.map(name => ({ station: name.slice(0, 4), name }));
+        if (source_files.length === 1 && own) return [own];
+        const named = source_files.map(name => ({ station: name.slice(0, 4), name }));
+        const isThere = await Promise.all(named.map(({ station, name }) => hasRaw(station, name)));
+        return named.filter((_, i) => isThere[i]);
     }
 
     // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
