@@ -147,6 +147,15 @@ try {
   isStopped = false;
   check('it is back', (await isQuiet()) && (await page.evaluate(lit)) === 'true');
 
+  // 2026-11-28: a region that was asked for meanwhile was not asked for again.
+  isStopped = true;
+  streams.forEach((stream) => stream.end());
+  await page.evaluate("location.hash = 'domain=region:-104,31,-99,36&moment=REF'; undefined");
+  await says('notice', 'does not answer');
+  isStopped = false;
+  check('a region that was asked for while it was gone is drawn', await page.until("document.documentElement.dataset.drawn.startsWith('region:') && document.getElementById('notice').textContent === ''", 30).then(() => true, () => false));
+  await viewer.settled(() => page.evaluate(`location.hash = 'domain=${station}&moment=REF'; undefined`));
+
   // ---- A grid that was made again while another moment was shown (2026-11-28: the page kept the old one)
   const time = (await page.evaluate('document.documentElement.dataset.drawn')).split('/').pop();
   for (const moment of ['VEL', 'REF']) await viewer.settled(() => page.evaluate(`document.getElementById('moment-${moment}').click()`));

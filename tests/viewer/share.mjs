@@ -140,6 +140,24 @@ try {
   await press('raw');
   check(`Raw volume says that it is not here`, await page.until("document.getElementById('tool-says').textContent.includes('not here')").catch(() => false));
 
+  // ---- Its raw file holds another volume, too (2026-11-28: the command drew that one)
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&folded=0`);
+  await evaluate(`Object.defineProperty(navigator, 'clipboard', { value: { writeText: (text) => { window.copied = text; return Promise.resolve(); } } });
+    window.own = window.fetch;
+    window.fetch = async (url, ...more) => {
+      const answer = await own(url, ...more);
+      if (!String(url).includes('/volumes?from=')) return answer;
+      const { volumes } = await answer.json();
+      window.told = true;
+      return new Response(JSON.stringify({ volumes: [...volumes, ...volumes] }));
+    }; undefined`);
+  await press('open');
+  await page.until('window.told');
+  await new Promise((done) => setTimeout(done, 300));
+  await press('command');
+  check(`the command of one of two volumes reads the cache: ${await page.until('window.copied')}`, (await page.until('window.copied')).startsWith(`stormcellar frame ${station} `));
+
   // ---- Its volume came in chunks (2026-11-28: it was saved under the name of the first one)
   const began = (await evaluate('document.documentElement.dataset.drawn')).split('/').pop();
   const joinedName = station + began.slice(0, 19).replace(/[-:]/g, '').replace('T', '_');

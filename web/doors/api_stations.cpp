@@ -39,16 +39,16 @@ ApiJson station_place_json(const ApiCall& call, const std::string& icao) {
     return json;
 }
 
-// Stations that have volumes or grids of their own, or all that are known. Errors: those of the
-// catalog.
-Result<std::set<std::string>> station_names(const ApiCall& call,
-                                            const catalog::CatalogReader* catalog, bool known) {
+using Catalog = decltype(std::declval<ApiState>().catalog());
+
+// Stations that have volumes or grids of their own, or all that are known.
+std::set<std::string> station_names(const ApiCall& call, const Catalog& catalog, bool known) {
     std::set<std::string> names;
-    if (catalog != nullptr) {
-        const auto stations = catalog->station_names();
-        if (!stations) return pass_on(stations);
-        std::copy_if(stations->begin(), stations->end(), std::inserter(names, names.end()),
-                     [](const std::string& name) { return !name.empty(); });
+    if (catalog) {
+        if (const auto stations = (*catalog)->station_names()) {
+            std::copy_if(stations->begin(), stations->end(), std::inserter(names, names.end()),
+                         [](const std::string& name) { return !name.empty(); });
+        }
     }
     if (call.state.sources().grids) {
         for (const std::string& domain : call.grids().domains()) {
@@ -74,19 +74,23 @@ std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
     return silences;
 }
 
-// Without newest_volume if its database cannot be read.
-ApiJson station_json(const ApiCall& call, const catalog::CatalogReader* catalog,
-                     const std::string& icao, UtcTime now) {
+// None if it cannot be read now; null if there is none.
+std::optional<ApiJson> newest_volume_json(const Catalog& catalog, const std::string& icao,
+                                          UtcTime now) {
+    const auto of_failure = [](const Error& error) {
+        return error.code == ErrorCode::not_found ? std::optional{ApiJson()} : std::nullopt;
+    };
+    if (!catalog) return of_failure(catalog.error());
+    const auto latest = (*catalog)->latest(icao);
+    if (!latest) return of_failure(latest.error());
+    return *latest ? newest_json((*latest)->volume.start_time, now) : ApiJson();
+}
+
+ApiJson station_json(const ApiCall& call, const Catalog& catalog, const std::string& icao,
+                     UtcTime now) {
     ApiJson json = station_place_json(call, icao);
-    json["newest_volume"] = nullptr;
-    if (catalog != nullptr) {
-        const auto latest = catalog->latest(icao);
-        if (latest && *latest) {
-            json["newest_volume"] = newest_json((*latest)->volume.start_time, now);
-        } else if (!latest && latest.error().code != ErrorCode::not_found) {
-            json.erase("newest_volume");
-        }
-    }
+    if (auto volume = newest_volume_json(catalog, icao, now))
+        json["newest_volume"] = std::move(*volume);
     std::optional<UtcTime> newest;
     ApiJson moments = ApiJson::array();
     if (call.state.sources().grids) {
@@ -108,12 +112,7 @@ Answer api_stations(const ApiCall& call) {
     const auto known = whole_parameter(call, "known", 0, 1, 0);
     if (!known) return json_error(known.error());
     const auto catalog = call.state.catalog();
-    if (!catalog && catalog.error().code != ErrorCode::not_found)
-        return json_error(catalog.error());
-    const catalog::CatalogReader* reader = catalog ? catalog->get() : nullptr;
-    auto found = station_names(call, reader, *known == 1);
-    if (!found) return json_error(found.error());
-    std::set<std::string>& names = *found;
+    std::set<std::string> names = station_names(call, catalog, *known == 1);
     if (const auto one = call.request.parameter("station")) {
         const auto icao = icao_of(*one);
         if (!icao) return json_error(400, "station: four letters or digits, like KTLX");
@@ -123,7 +122,7 @@ Answer api_stations(const ApiCall& call) {
     const auto silences = silences_s(call, now);
     ApiJson list = ApiJson::array();
     for (const std::string& name : names) {
-        ApiJson& station = list.emplace_back(station_json(call, reader, name, now));
+        ApiJson& station = list.emplace_back(station_json(call, catalog, name, now));
         const auto silence = silences.find(name);
         const bool is_known = station.contains("newest_volume");
         if (!is_known) continue;

@@ -257,6 +257,11 @@ export class App {
                 await this.findRegion(domain);
             } catch (error) {
                 if (choice !== this.choices) return;
+                if (error instanceof TypeError) {
+                    // It is asked for again when there is an answer.
+                    this.state.domain = domain;
+                    return this.fail(error);
+                }
                 this.backToShown();
                 this.miss(error instanceof Error ? error.message : '');
                 return this.fail(error);

@@ -256,11 +256,18 @@ export async function rawBefore(station: string, time: string): Promise<RawVolum
     const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: RawVolume[] };
     return volumes[volumes.length - 1] ?? null;
 }
+const aroundMs = 3_600_000; // what somebody joined may be hours long, but its volumes are near each other
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
 // The volume that began at a time; null if it is gone, where the newest before would be an older one.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
     return volume?.time != null && !isGone(volume) && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
+}
+// A file may hold several volumes, and a command draws one of them.
+export async function isAlone(station: string, { name, time }: RawVolume): Promise<boolean> {
+    const at = (ms: number) => encodeURIComponent(new Date(Date.parse(time!) + ms).toISOString());
+    const { volumes } = (await (await ask(`${volumesPath(station)}?from=${at(-aroundMs)}&to=${at(aroundMs)}&limit=100`)).json()) as { volumes: RawVolume[] };
+    return volumes.filter(one => one.name === name).length < 2;
 }
 // A name that chunks of a volume have: the volume has none of its own.
 export const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);

@@ -4,7 +4,7 @@ import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
 import { commandOf, isBeyondLimits, isUsualGrid } from '../../scene/view_state';
 import { LoadedGrid } from '../../renderer/renderer';
-import { address, gridPath, isChunk, isRegion, rawAt } from '../../wire/api';
+import { address, gridPath, isAlone, isChunk, isRegion, rawAt } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
@@ -61,9 +61,10 @@ class RawFile {
         const { provenance } = await this.facts.ask();
         // A mosaic may be of one station at an instant.
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
-        const volume = isOne ? await rawAt(provenance.stations[0]!, shown.time) : null;
+        const volume = isOne ? await rawAt(shown.domain, shown.time) : null;
         // A chunk is not its volume.
-        [this.of, this.name] = [shown.loaded, volume && !isChunk(volume.name) ? volume.name : ''];
+        const isFile = volume !== null && !isChunk(volume.name) && (await isAlone(shown.domain, volume));
+        [this.of, this.name] = [shown.loaded, isFile ? volume.name : ''];
     }
 }
 
