@@ -97,10 +97,12 @@ Result<std::optional<fs::path>> CacheMender::raw_of(const std::string& station, 
 
 std::string CacheMender::why_not_again(const std::string& station, UtcTime time) {
     const auto entries = catalog_.list(station, {time, time, false});
+    if (!entries || entries->empty())
+        return "the catalog here has no raw file of it; another machine may have made it";
     const auto is_there = [](const CatalogEntry& entry) {
         return entry.state != FileState::gone && !member_names_in(entry.path).empty();
     };
-    if (entries && std::ranges::any_of(*entries, is_there))
+    if (std::ranges::any_of(*entries, is_there))
         return "it was made of a member of an archive, and such grids are not made again";
     return "its raw file is gone, has changed or still grows";
 }

@@ -66,6 +66,14 @@ TEST(StationBook, TellsOnceThatAStationIsSilentAndThatItSpeaks) {
     EXPECT_FALSE(book.pages().at(0).is_silent);
 }
 
+// 2026-11-28: for as long as the clock had been ahead, a station was never silent.
+TEST(StationBook, AClockThatIsSetBackHidesNoSilence) {
+    StationBook book(20min);
+    book.note("KTLX", std::nullopt, start + 2h, start + 2h);
+    EXPECT_EQ(names_of(book.look(start)), Names{});
+    EXPECT_EQ(names_of(book.look(start + 21min)), Names{"station_silent"});
+}
+
 TEST(StationBook, WhatWasSilentBeforeTheServerBeganIsNoNews) {
     StationBook book(20min);
     book.note("KTLX", start, start, start + 2h);

@@ -72,6 +72,7 @@ std::vector<Event> StationBook::look(UtcTime now) {
     std::vector<Event> events;
     const std::scoped_lock lock(mutex_);
     for (auto& [station, page] : pages_) {
+        if (page.heard) page.heard = std::min(*page.heard, now);  // the clock may be set back
         if (page.is_silent || !page.spoke() || now - *page.spoke() <= silent_after_) continue;
         page.is_silent = true;
         events.push_back(

@@ -52,8 +52,10 @@ std::string joined(const std::vector<std::string>& words) {
 // What comes late, as in a replay of an archive, is not live.
 std::string_view state_of(const IndexStation& station, UtcTime now) {
     if (station.is_silent) return "silent";
-    const auto newest = std::max(station.newest_volume, station.newest_grid);
-    return newest && is_believed(*newest, now) && now - *newest < hours{1} ? "live" : "archive";
+    const auto is_live = [&](std::optional<UtcTime> newest) {
+        return newest && is_believed(*newest, now) && now - *newest < hours{1};
+    };
+    return is_live(station.newest_volume) || is_live(station.newest_grid) ? "live" : "archive";
 }
 
 class IndexPage {
