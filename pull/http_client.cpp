@@ -44,11 +44,11 @@ struct HttpClient::Handle {
     [[nodiscard]] bool is_stopped() const { return options->stop != nullptr && *options->stop; }
 
     // An exception that leaves through libcurl makes its handle useless for good.
-    [[nodiscard]] Status given(std::span<const std::byte> bytes) const {
+    [[nodiscard]] Status given(std::span<const std::byte> piece) const {
         try {
-            return request->take(bytes);
-        } catch (const std::exception& error) {  // no memory
-            return fail(ErrorCode::exhausted, "cannot be taken: {}", error.what());
+            return request->take(piece);
+        } catch (const std::exception& thrown) {  // no memory
+            return fail(ErrorCode::exhausted, "cannot be taken: {}", thrown.what());
         }
     }
     // Any other number of bytes than it was given ends the transfer.
