@@ -43,7 +43,8 @@ Error failure(const fs::path& path, const std::error_code& error) {
             fmt::format("{}: {}", path.native(), error.message())};
 }
 
-// Calls `take` for each member that is a file.
+// Calls `take` for each member that is a file. Errors: truncated after the last one, if members may
+// be missing.
 template <class Take>
 Status for_each_member(const fs::path& path, Take take) {
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
@@ -53,6 +54,9 @@ Status for_each_member(const fs::path& path, Take take) {
     while (const auto member = reader->next()) {
         if (Status taken = take(*member); !taken) return taken;
     }
+    for (const archive::LeftOut& one : reader->left_out())
+        if (one.name.empty() || reader->is_cut())
+            return fail(ErrorCode::truncated, "{}: {}", path.native(), one.reason);
     return {};
 }
 
@@ -105,7 +109,11 @@ class Walk {
                 return {};
             });
             if (read || read.error().cause() != Cause::data) return read;
-            note_nameless(in);
+            if (read.error().code == ErrorCode::truncated) {
+                listing_.cut.push_back(read.error().message);
+            } else {
+                note_nameless(in);
+            }
             return {};
         }
         std::error_code error;
@@ -266,6 +274,7 @@ Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what, const f
     if (is_address(recipe.source)) return fetch_files(recipe, what, span, scratch, stop);
     const fs::path root = recipe.source;
     std::set<fs::path> files;
+    std::vector<pipeline::LeftOut> left_out;
     bool from_tars = false;
     for (const std::string& in : what.in) {
         const fs::path place = (root / in).lexically_normal();
@@ -273,9 +282,14 @@ Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what, const f
         from_tars = from_tars || is_tar;
         Status added = is_tar ? add_members(place, what, span, scratch, files)
                               : add_files(place, what, span, files);
-        if (!added) return pass_on(added);
+        if (!added && added.error().code == ErrorCode::truncated) {
+            left_out.push_back({place.filename(), added.error().message});
+        } else if (!added) {
+            return pass_on(added);
+        }
     }
-    BroughtFiles brought{{files.begin(), files.end()}, from_tars ? fs::path{} : root, {}};
+    BroughtFiles brought{
+        {files.begin(), files.end()}, from_tars ? fs::path{} : root, std::move(left_out)};
     std::ranges::sort(brought.files, {}, [](const fs::path& path) {
         const auto volume = volume_named(path.filename().native());
         return std::pair{volume ? volume->start : UtcTime{}, path.filename()};

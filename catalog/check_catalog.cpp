@@ -1,6 +1,7 @@
 #include "catalog/check_catalog.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -9,6 +10,7 @@
 #include "catalog/catalog_parts.h"
 #include "catalog/path_homes.h"
 #include "catalog/station_database.h"
+#include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/catalog/repair.h"
@@ -32,7 +34,9 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
     }
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) {
-        check.missing.push_back(path);
+        const bool is_missing = errno == ENOENT || errno == ENOTDIR;
+        // A member is there if its archive is, and what cannot be looked at is not missing.
+        if (is_missing && !archive::member_path_of(path)) check.missing.push_back(path);
         return;
     }
     const std::int64_t modified_ns =

@@ -273,6 +273,8 @@ int run_plan(const PlanOptions& options) {
             "as {}",
             listing->nameless, plural(listing->nameless, "file"), listing->first_nameless));
     }
+    for (const std::string& cut : listing->cut)
+        print_note(fmt::format("some of its volumes may be missing: {}", printable(cut)));
     if (Status written = batch::write_plan(options.output, recipe, listing->days); !written) {
         return report_error(written.error());
     }

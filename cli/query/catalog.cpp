@@ -13,6 +13,7 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
 #include "cli/shared/service_places.h"
+#include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/level2/chunk_name.h"
 
 namespace stormcellar::cli {
@@ -169,14 +170,20 @@ int run_list(const CatalogOptions& options) {
     return print_entries(*entries, options.json);
 }
 
+// What cannot be looked at is not gone; a member of an archive is there if that is.
+bool is_gone(const fs::path& path) {
+    std::error_code error;
+    const bool is_there = fs::exists(path, error) || archive::member_path_of(path);
+    return !is_there && (!error || error == std::errc::no_such_file_or_directory);
+}
+
 int run_one(const CatalogOptions& options, bool latest) {
     auto opened = CatalogReader::open(options.place.directory);
     if (!opened) return report_error(opened.error());
     const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
     if (!entry) return report_query_error(entry.error(), options);
     if (!entry->has_value()) return report_nothing_matched();
-    std::error_code ignored;
-    if ((*entry)->state == catalog::FileState::gone || !fs::exists((*entry)->path, ignored)) {
+    if ((*entry)->state == catalog::FileState::gone || is_gone((*entry)->path)) {
         fmt::print(stderr, "stormcellar: warning: {}: the raw file is gone\n",
                    printable((*entry)->path.native()));
     }

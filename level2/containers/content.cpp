@@ -29,9 +29,17 @@ bool messages_at_start(std::span<const std::byte> bytes, bool after_header) {
            (first && plausible_at(bytes, frame_bytes));
 }
 
-// PNG, HDF5 and the grids of a cache begin with 89h, three letters and these. What looks like a
-// message inside them is chance.
+template <class... Values>
+bool begins_with(std::span<const std::byte> bytes, Values... values) {
+    const std::array start{static_cast<std::byte>(values)...};
+    return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
+}
+
+// PNG, HDF5 and the grids of a cache begin with 89h, three letters and these; xz and zstd with
+// bytes of their own. What looks like a message or a record inside them is chance.
 bool is_of_another_format(std::span<const std::byte> bytes) {
+    if (begins_with(bytes, 0xFD, 0x37, 0x7A, 0x58, 0x5A, 0x00)) return true;
+    if (begins_with(bytes, 0x28, 0xB5, 0x2F, 0xFD)) return true;
     constexpr auto line_ends = std::to_array<std::byte>(
         {std::byte{0x0D}, std::byte{0x0A}, std::byte{0x1A}, std::byte{0x0A}});
     return bytes.size() >= 8 && bytes[0] == std::byte{0x89} &&

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/archive/archive_maker.h"
 #include "tests/batch/small_archive.h"
 #include "tests/fetch/mock_bucket.h"
 
@@ -91,6 +92,32 @@ TEST(Source, BringsTheFilesOfARangeInTheirOrder) {
     recipe.to = at("2013-05-20T21:40Z");
     EXPECT_THAT(names_of(*bring(recipe, what, scratch.path(), stop)),
                 ElementsAre("KTLX20130520_203000", "KTLX20130520_210000", "KTLX20130520_220000"));
+}
+
+// 2026-11-29: what lay behind the cut was neither made nor named.
+TEST(Source, ATarThatIsCutIsNamed) {
+    const testing::TemporaryDirectory directory, scratch;
+    auto tar = archive::make_archive(
+        archive::Kind::tar, {{"KTLX20130520_203000", archive::bytes_of(std::string(9000, 'a'))},
+                             {"KTLX20130520_204000", archive::bytes_of(std::string(9000, 'b'))}});
+    tar.resize(12'000);
+    write(directory / "day.tar", {reinterpret_cast<const char*>(tar.data()), tar.size()});
+    const auto listing = list_source(directory.path().native(), at("2013-05-20"), at("2013-05-22"));
+    ASSERT_TRUE(listing);
+    EXPECT_EQ(listing->nameless, 0U);
+    ASSERT_EQ(listing->cut.size(), 1U);
+    EXPECT_THAT(listing->cut[0], HasSubstr("cut"));
+    ASSERT_EQ(listing->days.size(), 1U);
+    Recipe recipe;
+    recipe.source = directory.path().native();
+    recipe.from = at("2013-05-20T20:00Z");
+    recipe.to = at("2013-05-20T21:00Z");
+    const std::atomic<bool> stop{false};
+    const auto brought = bring(recipe, listing->days[0], scratch.path(), stop);
+    ASSERT_TRUE(brought) << brought.error().message;
+    EXPECT_THAT(names_of(*brought), ElementsAre("KTLX20130520_203000"));
+    ASSERT_EQ(brought->left_out.size(), 1U);
+    EXPECT_EQ(brought->left_out[0].path, "day.tar");
 }
 
 TEST(Source, ABucketIsFetchedToTheScratchDirectory) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
+#include "catalog/check_catalog.h"
 #include "pipeline/care/mend_cache.h"
 #include "pipeline/drop/station_place.h"
 #include "pipeline/ingest/ingest.h"
@@ -89,6 +90,18 @@ TEST_F(IngestArchiveTest, TheSecondMemberOfANameIsReadAgain) {
     const auto raw = catalog::read_cataloged(catalog_, volumes()[1]);
     ASSERT_TRUE(raw) << raw.error().message;
     EXPECT_TRUE(raw->bytes == smaller);
+}
+
+// 2026-11-29: each member was missing.
+TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
+    const fs::path path =
+        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    ASSERT_TRUE(ingestor_.ingest(path, false));
+    const auto check = catalog::check_catalog(directory_ / "catalog", "");
+    ASSERT_TRUE(check) << check.error().message;
+    EXPECT_TRUE(check->is_sound());
+    fs::remove(path);
+    EXPECT_FALSE(catalog::check_catalog(directory_ / "catalog", "")->is_sound());
 }
 
 // 2026-11-28: the log said that the raw file is gone or has changed.

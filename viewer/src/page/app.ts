@@ -176,7 +176,7 @@ export class App {
         if (this.missed === '' || this.missedTime !== '' || this.unreadTime !== '') return;
         if (this.isAskedThere) this.miss('');
         // Sites that reach it may have come.
-        else if (isRegion(this.askedDomain)) void this.findRegion(this.askedDomain).then(() => this.miss(''), () => undefined);
+        else if (isRegion(this.askedDomain)) void this.findRegion(this.askedDomain).then(() => this.isAskedThere && this.miss(''), () => undefined);
     }
     private get isAskedThere(): boolean {
         const own = this.domains.find(one => one.domain.toLowerCase() === this.askedDomain.toLowerCase());
@@ -216,6 +216,7 @@ export class App {
     }
 
     private openMap(): void {
+        this.miss('');
         this.addressBar.drop();
         this.player = { ...this.player, isPlaying: false };
         this.isOnMap = true;
@@ -223,7 +224,6 @@ export class App {
     }
     // Going back in the browser leads here again.
     goToMap(): void {
-        this.miss('');
         if (!this.isOnMap) this.addressBar.write();
         history.pushState(null, '', '#');
         this.openMap();
@@ -474,7 +474,7 @@ export class App {
     }
 
     private isPartOfShown(domain: string | undefined): boolean {
-        const own = this.domain as Region | undefined;
+        const own = this.domains.find(one => one.domain === this.state.domain) as Region | undefined;
         return domain === this.state.domain || (isRegion(this.state.domain) && (own?.moments.some(one => one.sites.includes(domain ?? '')) ?? false));
     }
     // Of a region, any instant near the volume may have become another one; near none: any at all.

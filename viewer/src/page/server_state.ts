@@ -24,9 +24,14 @@ export class ServerState {
         else this.silentSince.set(station, this.nowMs - 1000 * silentS);
         this.changed();
     }
-    // Takes all stations that are silent, with the seconds since they spoke.
-    takeSilences(all: [string, number][]): void {
-        this.silentSince = new Map(all.map(([station, silentS]) => [station, this.nowMs - 1000 * silentS]));
+    // Takes all stations that are silent, with the seconds since they spoke; undefined: it stays as it was.
+    takeSilences(all: [string, number | undefined][]): void {
+        const before = this.silentSince;
+        this.silentSince = new Map();
+        for (const [station, silentS] of all) {
+            const since = silentS === undefined ? before.get(station) : this.nowMs - 1000 * silentS;
+            if (since !== undefined) this.silentSince.set(station, since);
+        }
         this.changed();
     }
 }

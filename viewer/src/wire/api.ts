@@ -150,11 +150,12 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return ((await (await ask('api/v1/stations')).json()) as { stations: Station[] }).stations;
 }
-// For how many seconds nothing came from each station that is silent; and the time of the server.
-export async function silences(): Promise<{ silent: [string, number][]; serverMs: number }> {
+// For how many seconds nothing came from each station that is silent, undefined where the server cannot say; and the time
+// of the server.
+export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
-    const silent = stations.flatMap(({ station, silent_s }): [string, number][] => (silent_s == null ? [] : [[station, silent_s]]));
+    const silent = stations.flatMap(({ station, silent_s }): [string, number | undefined][] => (silent_s === null ? [] : [[station, silent_s]]));
     return { silent, serverMs: timeOf(answer) };
 }
 export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
