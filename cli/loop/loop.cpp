@@ -66,10 +66,10 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const LoopScene& 
     if (!stop) {
         if (report.frames == 0) {
             const std::size_t count = report.skipped.size();
-            return fail(ErrorCode::corrupt, "{}: {} is damaged; nothing was written",
+            return fail(ErrorCode::corrupt, "{}: {} be read; nothing was written",
                         grids.store->directory().native(),
-                        count == 1 ? std::string{"the only grid"}
-                                   : fmt::format("each of the {} grids", count));
+                        count == 1 ? std::string{"the only grid cannot"}
+                                   : fmt::format("none of the {} grids can", count));
         }
         if (auto finished = encoding.finish(stop); !finished) return finished;
         report.encode_s = encoding.encode_s();

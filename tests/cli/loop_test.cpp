@@ -333,7 +333,7 @@ TEST_F(Loop, NothingButDamagedGridsIsAFailureAndWritesNothing) {
     fs::resize_file(grids_[0], 100);
     const auto ran = run({"KBGM", "-o", out("a.webp"), "-o", out("frames/")});
     EXPECT_EQ(ran.status, 1);
-    EXPECT_THAT(ran.err, HasSubstr("the only grid is damaged; nothing was written"));
+    EXPECT_THAT(ran.err, HasSubstr("the only grid cannot be read; nothing was written"));
     EXPECT_THAT(written(), IsEmpty());
 }
 
