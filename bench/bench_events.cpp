@@ -16,6 +16,7 @@
 //   web_cores       CPU time of stormcellar-web divided by wall time
 //   web_peak_mib    its peak resident memory (VmHWM)
 //   grid_*          from the last chunk of a volume to its grid (bench/feed_run.h)
+// --sites N: the first N of the 160 sites, each sending as much, for a trial.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -259,6 +260,7 @@ Heard compare(const std::vector<HeardEvent>& events, const RenameClock& renames,
 
 struct Wanted {
     int streams = 1000;
+    int sites = national_sites;
     int asked_per_s = 0;
     double seconds = 60;
 };
@@ -321,7 +323,7 @@ Status measure_streams(const NationalFeed& feed, const Wanted& wanted, const fs:
 
 Status measure_hour(const Request& request, const Wanted& wanted, const fs::path& work,
                     Table& table) {
-    const auto feed = NationalFeed::make(national_sites, 1, request.data_directory(), work / "feed",
+    const auto feed = NationalFeed::make(wanted.sites, 1, request.data_directory(), work / "feed",
                                          request.threads.back());
     if (!feed) return pass_on(feed);
     std::set<int> rates = {0, wanted.asked_per_s};
@@ -353,8 +355,13 @@ int run(const Request& request) {
     wanted.streams = std::atoi(request.value("--streams").value_or("1000").c_str());
     wanted.asked_per_s = std::atoi(request.value("--asked").value_or("10").c_str());
     wanted.seconds = std::atof(request.value("--seconds").value_or("60").c_str());
-    if (wanted.streams < 1 || wanted.streams > 10'000 || wanted.seconds < 1) {
-        fmt::print(stderr, "bench_events: --streams 1 to 10000, --seconds at least 1\n");
+    wanted.sites =
+        std::atoi(request.value("--sites").value_or(std::to_string(national_sites)).c_str());
+    if (wanted.streams < 1 || wanted.streams > 10'000 || wanted.seconds < 1 || wanted.sites < 1 ||
+        wanted.sites > national_sites) {
+        fmt::print(stderr,
+                   "bench_events: --streams 1 to 10000, --seconds at least 1, --sites 1 to {}\n",
+                   national_sites);
         return 2;
     }
     Table table(request.json);
@@ -380,9 +387,10 @@ int main(int argc, char** argv) {
         .files = "[FILE ...]",
         .purpose =
             "events of the data server: latency of sweeps, and many streams at the heaviest\n"
-            "national hour; --streams N, --asked REQUESTS_A_SECOND, --seconds N, --work DIR",
+            "national hour; --streams N, --asked REQUESTS_A_SECOND, --seconds N, --sites N,\n"
+            "--work DIR",
         .flags = {"--sweeps", "--hour"},
-        .values = {"--streams", "--asked", "--seconds", "--work"}};
+        .values = {"--streams", "--asked", "--seconds", "--sites", "--work"}};
     const auto read = bench::read_request(program, std::span(argv, static_cast<std::size_t>(argc)));
     return read.request ? bench::run(*read.request) : read.status;
 }

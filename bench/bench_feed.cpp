@@ -5,7 +5,8 @@
 // km and 32 levels. What every site has already sent of its current volume is there from the start.
 // The feed is played at each speed in turn to the same daemon. A row for each speed:
 //   speed          the requested speed
-//   sustained_x    heaviest hours an hour (bench/feed_run.h)
+//   sustained_x    heaviest hours an hour (bench/feed_run.h); with --sites, of that part of them
+//   raw_mb_per_s   10^6 bytes of messages a second of wall time
 //   latency_*      from the last chunk to the grid
 //   bzip2_share    CPU time of bunzip alone for the same bytes, timed before and after each row,
 //                  divided by that of the daemon
@@ -16,6 +17,7 @@
 //   ungridded      those of them that have no grid in the end
 //   held           share of the time during which the feed was paused
 //   cache_mib      the largest size of the cache
+// --sites N: the first N of the 160 sites, each sending as much, for a trial.
 // --full: the whole hour at speed 1, then a long run of 16 sites over 24 hours of the feed's clock.
 #include <algorithm>
 #include <array>
@@ -93,15 +95,19 @@ struct Wanted {
     std::string delivery_name = "growing";
     fs::path work;
     bool full = false;
+    int sites = national_sites;
     std::vector<double> speeds;
     double paced_s = default_paced_s, fast_s = default_fast_s;
 };
 
 void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double bunzip_s,
-             Table& table) {
+             double expansion, Table& table) {
     table.add({{"as", wanted.delivery_name},
                {"speed", {speed, 1}},
+               {"sites", wanted.sites},
                {"sustained_x", {stretch.sustained(), 2}},
+               {"raw_mb_per_s",
+                {static_cast<double>(stretch.bytes) * expansion / 1e6 / stretch.wall_s, 1}},
                {"latency_p50_s", {stretch.latency_s(0.5), 3}},
                {"latency_p95_s", {stretch.latency_s(0.95), 3}},
                {"latency_max_s", {stretch.latency_s(1), 3}},
@@ -147,7 +153,7 @@ Status begin(const NationalFeed& feed, DaemonProcess& daemon, FeedRun& run) {
 Status measure_hour(const Request& request, const Wanted& wanted, Table& table) {
     Result<NationalFeed> feed = fail(ErrorCode::internal, "");
     const double made_s = seconds_of([&] {
-        feed = NationalFeed::make(national_sites, 1, request.data_directory(), wanted.work / "feed",
+        feed = NationalFeed::make(wanted.sites, 1, request.data_directory(), wanted.work / "feed",
                                   request.threads.back());
     });
     if (!feed) return pass_on(feed);
@@ -175,7 +181,7 @@ Status measure_hour(const Request& request, const Wanted& wanted, Table& table) 
                 outcome = pass_on(stretch);
             } else {
                 add_row(wanted, options.speed, *stretch, bzip.seconds_for(stretch->bytes_of_kind),
-                        table);
+                        feed->message_bytes_per_byte(), table);
             }
         }
         if (outcome && !daemon.stop()) outcome = fail(ErrorCode::internal, "the end was not clean");
@@ -248,6 +254,9 @@ std::optional<Wanted> wanted_of(const Request& request) {
         wanted.paced_s = 3600;
         wanted.fast_s = full_fast_s;
     }
+    wanted.sites = static_cast<int>(
+        number_in(request.value("--sites").value_or(std::to_string(national_sites))));
+    if (wanted.sites < 1 || wanted.sites > national_sites) return std::nullopt;
     std::istringstream speeds(request.value("--speeds").value_or("1 16"));
     for (double speed = 0; speeds >> speed;)
         wanted.speeds.push_back(speed);
@@ -266,9 +275,10 @@ int run(int argc, char** argv) {
         {"bench_feed",
          "",
          "the heaviest national hour before stormcellard: speed, latency, memory, bzip2's share.\n"
-         "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each, --soak-hours N",
+         "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each, --sites N, "
+         "--soak-hours N",
          {"--full"},
-         {"--work", "--as", "--speeds", "--seconds", "--soak-hours"}},
+         {"--work", "--as", "--speeds", "--seconds", "--sites", "--soak-hours"}},
         std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return usage_status;
     const auto wanted = wanted_of(*request);

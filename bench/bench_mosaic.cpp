@@ -1,7 +1,7 @@
 // bench_mosaic: turns raw files of five hours of 1 to 100 radars into merged volumes for rendering.
 //
 // usage: bench_mosaic [--data DIR] [--work DIR] [--threads N] [--runs N] [--full]
-//        [--sites | --us | --only SITES] [--hours H] [--json] (bench/request.h)
+//        [--sites | --us | --only SITES] [--hours H] [--alone] [--json] (bench/request.h)
 // This is the experiment of the paper of 2008: 100 sites, 5 hours, 27 GB uncompressed, on a grid of
 // 256 x 256 x 128 cells over the common box of the sites. bench/mosaic_feed.h describes the files,
 // bench/mosaic_run.h what is timed. Files are made once, untimed, in the directory of --work (by
@@ -14,16 +14,18 @@
 //   libbz2_s   libbz2 alone over the same files with as many threads, alternating with the former
 //   ratio      total_s / libbz2_s
 //   expansion  bytes of messages / bytes of files
+//   raw_gb     10^9 bytes of messages
 //   peak_mib   peak memory of the process
 //   paper_min  the paper's minutes, which are known for 100 sites: 46.87 in sequence (shown for one
 //              thread), 8.92 on its pool of 512 nodes (shown for more)
 // Then the rows of the United States at 0.01 degrees follow, with the columns of bench_merge, the
 // least of the runs (bench/us_mosaic.h). --sites or --us: one of the two alone; --only: this number
-// of sites alone; --hours: the first H of the five hours, for a trial. Without --full only those
-// rows are run that are expected to end within 9 minutes, judged by the bytes and seconds of the
-// rows before. stderr shows what was read, what was left out, and CPU times, which are more
+// of sites alone; --hours: the first H of the five hours, for a trial; --alone: without the runs of
+// libbz2, so that libbz2_s and ratio have no value, and no row is left out. Without --full only
+// those rows are run that are expected to end within 9 minutes, judged by the bytes and seconds of
+// the rows before. stderr shows what was read, what was left out, and CPU times, which are more
 // reliable than total_s if other programs use the same cores. The program runs itself with
-// --sites-once SITES THREADS FEED CACHE HOURS.
+// --sites-once SITES THREADS FEED CACHE HOURS BESIDE.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -56,9 +58,9 @@ constexpr double sites_of_paper = 100;
 constexpr double sequential_min = 46.87, pool_min = 8.92;
 
 int sites_once(int sites, int threads, const fs::path& feed, const fs::path& cache,
-               std::chrono::hours hours) {
+               std::chrono::hours hours, Beside beside) {
     keep_freed_memory();
-    const auto run = run_mosaic(sites, threads, feed, cache, hours);
+    const auto run = run_mosaic(sites, threads, feed, cache, hours, FeedFiles::first_hour, beside);
     if (!run) {
         fmt::print(stderr, "bench_mosaic: {}\n", run.error().message);
         return 1;
@@ -75,11 +77,12 @@ struct SitesRow {
 };
 
 std::optional<SitesRow> run_sites(int sites, int threads, const fs::path& work,
-                                  std::chrono::hours hours) {
+                                  std::chrono::hours hours, Beside beside) {
     const fs::path cache = work / fmt::format("cache-{}", ::getpid());
     const auto said =
         run_self({"--sites-once", std::to_string(sites), std::to_string(threads),
-                  (work / "feed").string(), cache.string(), std::to_string(hours.count())});
+                  (work / "feed").string(), cache.string(), std::to_string(hours.count()),
+                  beside == Beside::nothing ? "nothing" : "libbz2"});
     std::error_code ignored;
     fs::remove_all(cache, ignored);
     if (!said) return std::nullopt;
@@ -101,9 +104,10 @@ void add_row(int sites, int threads, const SitesRow& row, Table& table) {
     table.add({{"sites", sites},
                {"threads", threads},
                {"total_s", {run.total_s, 2}},
-               {"libbz2_s", {run.libbz2_s, 2}},
-               {"ratio", {run.total_s / run.libbz2_s, 3}},
+               {"libbz2_s", {run.libbz2_s > 0 ? run.libbz2_s : HUGE_VAL, 2}},
+               {"ratio", {run.libbz2_s > 0 ? run.total_s / run.libbz2_s : HUGE_VAL, 3}},
                {"expansion", {run.size.expansion(), 2}},
+               {"raw_gb", {static_cast<double>(run.size.uncompressed) / 1e9, 3}},
                {"peak_mib", {static_cast<double>(row.peak_kib) / 1024, 0}},
                {"paper_min", {paper_min, 2}}});
     fmt::print(
@@ -122,6 +126,7 @@ Status measure_sites(const Request& request, const fs::path& work, std::chrono::
     double elapsed_s = 0;
     double libbz2_a_site_s = 0;  // of one thread
     const auto only = request.value("--only");
+    const auto beside = request.has("--alone") ? Beside::nothing : Beside::libbz2;
     for (const int sites : {1, 10, 30, 50, 100}) {
         if (only && number_in(*only) != sites) continue;
         for (const int threads : request.threads) {
@@ -137,7 +142,7 @@ Status measure_sites(const Request& request, const fs::path& work, std::chrono::
             Status made;
             elapsed_s += seconds_of([&] {
                 made = make_feed(sites, request.data_directory(), work / "feed", 2);
-                if (made) row = run_sites(sites, threads, work, hours);
+                if (made) row = run_sites(sites, threads, work, hours, beside);
             });
             if (!made) return made;
             if (!row) return fail(ErrorCode::internal, "{} sites could not be run", sites);
@@ -157,17 +162,18 @@ std::optional<std::chrono::hours> hours_of(const Request& request) {
 }
 
 int run(int argc, char** argv) {
-    if (argc == 7 && std::string(argv[1]) == "--sites-once") {
+    if (argc == 8 && std::string(argv[1]) == "--sites-once") {
         return sites_once(static_cast<int>(number_in(argv[2])),
                           static_cast<int>(number_in(argv[3])), argv[4], argv[5],
-                          std::chrono::hours(number_in(argv[6])));
+                          std::chrono::hours(number_in(argv[6])),
+                          std::string(argv[7]) == "nothing" ? Beside::nothing : Beside::libbz2);
     }
     keep_freed_memory();
     const auto [request, usage_status] =
         read_request({"bench_mosaic",
                       "",
                       "raw files of many sites to merged volumes, beside the paper's figures",
-                      {"--full", "--sites", "--us"},
+                      {"--full", "--sites", "--us", "--alone"},
                       {"--work", "--only", "--hours"}},
                      std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return usage_status;

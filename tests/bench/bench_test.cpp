@@ -158,10 +158,19 @@ TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(keys_of(rows[0]),
               (std::set<std::string>{"sites", "threads", "total_s", "libbz2_s", "ratio",
-                                     "expansion", "peak_mib", "paper_min"}));
+                                     "expansion", "raw_gb", "peak_mib", "paper_min"}));
     EXPECT_GT(rows[0]["total_s"], 0.0);
     EXPECT_GT(rows[0]["expansion"], 1.0);
     EXPECT_TRUE(rows[0]["paper_min"].is_null());
+    EXPECT_FALSE(rows[0]["ratio"].is_null());
+    const auto alone =
+        run_program(bench("bench_mosaic"),
+                    {"--json", "--threads", "2", "--only", "1", "--hours", "1", "--alone", "--data",
+                     testing::data_directory()->string(), "--work", work.path().string()});
+    ASSERT_EQ(alone.status, 0) << alone.err;
+    const auto row = nlohmann::json::parse(alone.out)["rows"][0];
+    EXPECT_TRUE(row["libbz2_s"].is_null() && row["ratio"].is_null());
+    EXPECT_EQ(row["raw_gb"], rows[0]["raw_gb"]);
     // Merged volumes are removed, raw ones are kept.
     for (const auto& entry : fs::directory_iterator(work.path()))
         EXPECT_EQ(entry.path().filename(), "feed");
