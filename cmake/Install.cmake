@@ -31,7 +31,7 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The Debian package says it in its copyright file.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 # Scenes of pictures, for stormcellar frame and loop.
-install(FILES scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
+install(FILES scenes/picture-midwest.toml scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
   scenes/fly-supercell.toml scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
 # For one release: headers that moved within their room are found at their old place too.
 foreach(moved animation/animation colour/colour_table products/product volume/integration volume/light)

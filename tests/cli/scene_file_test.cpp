@@ -333,7 +333,7 @@ TEST_F(SceneFileTest, ShippedScenesDraw) {
         EXPECT_EQ(ran.status, exit_done) << name << ": " << ran.err;
         EXPECT_GT(fs::file_size(directory_ / (name + ".png")), 20'000U) << name;
     }
-    EXPECT_EQ(found, 3U);
+    EXPECT_EQ(found, 4U);
 }
 
 }  // namespace
