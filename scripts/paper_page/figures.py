@@ -1,0 +1,128 @@
+"""Runs the benchmarks behind the paper's tables and figures. Each function returns results by the number of their claim."""
+from . import charts
+from .claims import BY_NUMBER, TABLE_1, VOLUMES
+from .page import Ours
+
+SITES = (1, 10, 30, 50, 100)
+QUICK_SITES = 16
+QUICK_ROWS = (1, 10, 100)
+HOURS = 5
+
+
+def known(value):
+    """A figure that a benchmark gives as null if nothing happened in its time."""
+    return 'unknown' if value is None else f'{value:.3g}'
+
+
+def feed(runs):
+    """The national feed; with --quick its first sites, ten times as fast, so that as much arrives in a second."""
+    words = ['--as', 'growing', '--threads', '2', '--work', runs.work / 'feed']
+    if runs.quick:
+        words += ['--sites', QUICK_SITES, '--speeds', '10 160', '--seconds', '10']
+    letter, (paced, fast) = runs.bench('bench_feed', *words)
+    radars = fast['sites'] * fast['sustained_x']
+    way = f'{fast["sites"]} sites, played {fast["sustained_x"]:g} times as fast as they send'
+    arrived = f'{paced["sites"]} sites at {paced["speed"]:g} times their speed'
+    results = {
+        '1.1': Ours(text=f'{known(paced["latency_p95_s"])} s (p95) from the last chunk to the grid; {arrived}', by=letter),
+        '1.2': Ours(radars, text=way, by=letter),
+        '1.3': Ours(fast['raw_mb_per_s'], text='sustained', by=letter),
+    }
+    letter, rows = runs.bench('bench_bunzip', '--runs', '3', '--threads', '1',
+                              runs.data / 'volumes' / 'KLBB20160601_150025_V06')
+    best = max(row['ratio'] for row in rows if row['path'] not in ('libbz2', 'lbzip2'))
+    results['1.4'] = Ours(does=True, text=f'{best:.1f} times as fast as libbz2 on one thread', by=letter)
+    return results
+
+
+def users(runs):
+    """Streams of events at the data server, which many people hold at the same time."""
+    words = ['--hour', '--asked', '0', '--work', runs.work / 'feed']
+    if runs.quick:
+        words += ['--sites', QUICK_SITES, '--seconds', '10']
+    letter, rows = runs.bench('bench_events', *words)
+    row = rows[-1]
+    good = row['lost'] == 0 and row['failed'] == 0 and row['closed'] == 0
+    held = f'{row["streams"]} clients of the data server at the same time; lost {row["lost"]}, refused {row["failed"]}'
+    return {
+        '7.3': Ours(does=good, text=held, by=letter),
+        '9.1': Ours(does=good, text=f'{row["streams"]} people hear of a grid {known(row["event_p95_ms"])} ms after it is there (p95); '
+                    f'{row["web_cores"]:g} of a core', by=letter),
+    }
+
+
+def sites(runs):
+    """Figure 8. Returns results and the chart. With --quick one of the five hours runs, and the minutes are five times it; and
+    rows are left out whose numbers of the paper cannot be compared."""
+    hours = 1 if runs.quick else HOURS
+    scale = HOURS / hours
+    counts = QUICK_ROWS if runs.quick else SITES
+    rows, letters = [], {}
+    for count in counts:
+        letters[count], measured = runs.bench('bench_mosaic', '--only', count, '--alone', '--hours', hours, '--work',
+                                              runs.work / 'mosaic')
+        rows += measured
+    minutes = {(row['sites'], row['threads']): row['total_s'] * scale / 60 for row in rows}
+    note = '' if hours == HOURS else f'extrapolated: {scale:g} times {hours} hour'
+    results = {}
+    for number, count, threads in (('4.1', 1, 1), ('4.2', 1, 2), ('4.3', 100, 1), ('4.4', 100, 2)):
+        results[number] = Ours(minutes[count, threads], text=note, by=letters[count])
+    for number, count in (('4.5', 30), ('4.6', 50), ('4.7', 100)):
+        if count not in counts:
+            results[number] = Ours(text='left out by `--quick`')
+            continue
+        gain = 100 * (minutes[count, 1] / minutes[count, 2] - 1)
+        results[number] = Ours(text=f'{gain:.0f} % with 2 threads: {minutes[count, 1]:.3g} and {minutes[count, 2]:.3g} minutes'
+                               + (f' ({note})' if note else ''), by=letters[count])
+    for number, count in (('4.8', 1), ('4.9', 10)):
+        results[number] = Ours(minutes[count, 2] / minutes[count, 1], by=letters[count])
+    raw_gb = {row['sites']: row['raw_gb'] * scale for row in rows}
+    results['4.11'] = Ours(text=f'{1000 * raw_gb[1]:.0f} MB' + (f' ({note})' if note else ''), by=letters[1])
+    results['4.12'] = Ours(text=f'{raw_gb[100]:.1f} GB' + (f' ({note})' if note else ''), by=letters[100])
+    chart = charts.sites(
+        'Minutes for five hours of data' + (f' (ours: {note})' if note else ''),
+        {'2008, in sequence': (charts.PAPER, {1: BY_NUMBER['4.1'].value, 100: BY_NUMBER['4.3'].value}),
+         '2008, 512 nodes': ('#e0a98a', {1: BY_NUMBER['4.2'].value, 100: BY_NUMBER['4.4'].value})},
+        {'ours, 1 thread': (charts.OURS, {count: minutes[count, 1] for count in counts}),
+         'ours, 2 threads': (charts.BEST, {count: minutes[count, 2] for count in counts})})
+    return results, chart
+
+
+def ways(row, fastest, claim):
+    """How exact a row of bench_render is, and the fastest way beside it."""
+    text = f'dE {row["de_p99"]:g}'
+    if fastest is row:
+        return text
+    return f'{text}; {fastest["method"]}: {fastest["fps"]:g}, dE {fastest["de_p99"]:g}, ratio {fastest["fps"] / claim.value:.3g}'
+
+
+def rates(runs):
+    """Table 1, figures 6 and 7. Returns results and the three charts."""
+    letter, rows = runs.bench('bench_render', '--threads', '2', '--runs', '1' if runs.quick else '4')
+    like, best = {}, {}
+    for row in rows:
+        cell = row['volume'], row['slices']
+        if row['method'] == 'riemann':
+            like[cell] = row
+        if cell not in best or row['fps'] > best[cell]['fps']:
+            best[cell] = row
+    results, bars, stacks = {}, [], []
+    for column, volume in enumerate(VOLUMES):
+        for i, slices in enumerate(TABLE_1):
+            row, fastest = like[volume, slices], best[volume, slices]
+            claim = BY_NUMBER[f'5.{column * len(TABLE_1) + i + 1}']
+            results[claim.number] = Ours(row['fps'], by=letter,
+                                         text=ways(row, fastest, claim))
+            bars.append((volume, slices, claim.value, row['fps'], fastest['fps']))
+            stacks.append((volume, slices, row['t1_s'], row['t2_s'], row['t3_s']))
+    share = [100 * row['t3_s'] / (row['t1_s'] + row['t2_s'] + row['t3_s']) for row in like.values()]
+    results['5.16'] = Ours(text=f'drawing is {min(share):.0f} to {max(share):.0f} % of a frame; the chart below', by=letter)
+    cell = VOLUMES[0], 256
+    results['5.17'] = Ours(like[cell]['fps'], by=letter, text=ways(like[cell], best[cell], BY_NUMBER['5.17']))
+    results['5.21'] = Ours(does=True, by=letter, text='parallel to the picture; ours go front to back and stop when nothing shows through')
+    machines = charts.machines([
+        ('Quadro FX 3500 (table 1)', float(TABLE_1[256][0]), charts.PAPER),
+        ('GeForce 8800 GTX (figure 7)', float(BY_NUMBER['5.17'].value), charts.PAPER),
+        ('ours, the same way', like[cell]['fps'], charts.OURS),
+        (f'ours, {best[cell]["method"]}', best[cell]['fps'], charts.BEST)])
+    return results, {'rates': charts.frame_rates(bars), 'steps': charts.steps(stacks), 'machines': machines}

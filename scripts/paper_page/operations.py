@@ -1,0 +1,222 @@
+"""Does what the published system did, with the programs of the build. Each function returns results by the number of their claim."""
+import gzip
+import json
+import re
+import shutil
+import struct
+import urllib.parse
+from pathlib import Path
+
+from .page import Ours
+from .runs import Failed
+from .service import Daemon, Server
+
+SCENE = Path('scenes/picture-midwest.toml').resolve()
+DAY = ('2005-08-22T00:00:00Z', '2005-08-23T00:00:00Z')
+SITE_VOLUME = 'KLBB20160601_150025_V06'
+OTHER_STATION = 'KTLX19990503_235621.gz'
+
+
+def access(runs):
+    """A daemon takes volumes of two stations in and keeps its cache small; then a RadarSet and the data server give them out."""
+    root = runs.in_place('service')
+    volumes = sorted((runs.data / 'sequence-kbgm').iterdir())
+    other = runs.data / 'volumes' / OTHER_STATION
+    sent = len(volumes) + 1
+    budget_mib = 7
+    with Daemon(runs, root, budget_mib) as daemon:
+        replay, _, _ = runs.run('stormcellar', 'replay', runs.data / 'sequence-kbgm', other, root / 'drop', '--as', 'growing',
+                                '--interval', '0.1')
+        # A file whose grid is older than all that the cache keeps is not_kept; the catalog has it.
+        status = daemon.wait_for(lambda one: one['ingested'] + one['not_kept'] >= sent
+                                 and one['pending']['waiting'] + one['pending']['running'] == 0)
+    kept = [path for path in (root / 'cache').rglob('*.scg') if path.is_file()]
+    kept_mib = sum(512 * path.stat().st_blocks for path in kept) / 2**20
+    has_newest = any('20050822_030830' in path.name for path in kept)
+    room = f'{sent} grids for a cache of {budget_mib} MiB: it keeps {len(kept)} with {kept_mib:.1f} MiB, the newest among them'
+    results = {
+        '2.1': Ours(does=status['ingested'] + status['not_kept'] == sent, by=replay,
+                    text='a database for each station; each file is registered as it arrives'),
+        '7.2': Ours(does=has_newest and len(kept) < sent and kept_mib <= budget_mib, text=room, by=replay),
+    }
+    results.update(radar_set(runs, root / 'state' / 'catalog', volumes))
+    results.update(server(runs, daemon.config, volumes))
+    return results
+
+
+def radar_set(runs, catalog, volumes):
+    """The four operations, by docs/examples/radar_set.cpp; by the command line if it was not built."""
+    names = [volume.name for volume in volumes]
+    out = runs.in_place('files')
+    get, _, _ = runs.run('stormcellar', 'catalog', 'get', '--catalog', catalog, '--station', 'KBGM', '-o', out)
+    same = all((out / volume.name).read_bytes() == volume.read_bytes() for volume in volumes)
+    oldest_letter, oldest, _ = runs.run('stormcellar', 'catalog', 'oldest', '--catalog', catalog, '--station', 'KBGM')
+    results = {'2.9': Ours(does=same and names[0] in oldest, by=f'{get} {oldest_letter}',
+                           text='`stormcellar catalog` copies the same bytes and names the oldest')}
+    if not runs.program('radar_set'):
+        for number in ('2.4', '2.5', '2.6', '2.7', '2.8'):
+            results[number] = Ours(text='the example radar_set was not built; the command line does the same')
+        return results
+    letter, said, _ = runs.run('radar_set', catalog, *DAY)
+    lines = said.splitlines()
+    listed = re.findall(r'^  (\S+)  (\d+) bytes, (\d+) sweeps, (\d+) radials$', said, re.MULTILINE)
+    stations = [line for line in lines if not line.startswith(' ')]
+    sizes = [(volume.name, str(volume.stat().st_size)) for volume in volumes]
+    radials = sum(int(one[3]) for one in listed)
+    results.update({
+        '2.4': Ours(does=len(stations) == 2, text=f'`RadarSet::open_all`: {len(stations)} stations', by=letter),
+        '2.5': Ours(does=[one[0] for one in listed] == names, text=f'`build_data_list`: {len(listed)} files', by=letter),
+        '2.6': Ours(does=f'oldest file {names[0]},' in lines[0], text=f'`oldest_file_name`: {names[0]}', by=letter),
+        '2.7': Ours(does=same and [one[:2] for one in listed] == sizes, text='`radar_file`: the same bytes', by=letter),
+        '2.8': Ours(does=len(listed) == len(volumes) and radials > 0, by=letter,
+                    text=f'`read_radar`: {sum(int(one[2]) for one in listed)} sweeps, {radials} radials'),
+    })
+    return results
+
+
+def server(runs, config, volumes):
+    """The data server over the daemon's catalog and cache."""
+    with Server(runs, '--config', config) as web:
+        thredds = '/thredds/radarServer/nexrad/level2/IDD'
+        query = urllib.parse.urlencode({'stn': 'KBGM', 'time_start': DAY[0][:-1], 'time_end': DAY[1][:-1]})
+        listed = re.findall(r'urlPath="([^"]+)"', (web.get(f'{thredds}?{query}') or b'').decode())
+        first = web.get(f'/thredds/fileServer/nexrad/level2/IDD/KBGM/20050822/{volumes[0].name}')
+        viewer = web.get('/view/')
+        script = web.get('/view/viewer.js') if viewer else None
+        editor = web.get('/view/editor.js')
+        grids = json.loads(web.get('/api/v1/grids') or b'{}').get('grids', [])
+    page = f'the viewer, a page of {(len(viewer or b"") + len(script or b"")) / 1000:.0f} kB, over {len(grids)} grids'
+    opened = 'ctest `Viewer.Browser` works with it in a browser; this run did not'
+    return {
+        '2.2': Ours(does=len(listed) == len(volumes) and first == volumes[0].read_bytes(), by=web.letter,
+                    text=f'it lists {len(listed)} volumes of the day and gives the same bytes'),
+        '5.23': Ours(does=bool(editor), text=f"the viewer's editor of colors; {opened}", by=web.letter),
+        '8.1': Ours(does=bool(script) and bool(grids), text=f'{page}; {opened}', by=web.letter),
+    }
+
+
+def grids(runs):
+    """The grid of seven neighbors, in time, and as a batch of jobs."""
+    northeast = runs.data / 'mosaic-northeast'
+    count = len(list(northeast.iterdir()))
+    # Levels that grow apart: 128 of them, up to 16 km.
+    levels = ','.join(f'{16 * ((k + 1) / 128)**1.5:.3f}' for k in range(128))
+    letter, out, _ = runs.run('stormcellar', 'grid', northeast, '-o', runs.work / 'mean.nc', '--overlap', 'mean', '--extent-km',
+                              '1280,1280', '--spacing-km', '5', '--levels-km', levels, '--json')
+    facts = json.loads(out)
+    size = [facts['nx'], facts['ny'], len(facts['levels_m'])]
+    sequence = sorted((runs.data / 'sequence-kbgm').iterdir())
+    between, said, _ = runs.run('stormcellar', 'grid', sequence[0], sequence[1], '-o', runs.work / 'between.nc', '--time',
+                                '2005-08-22T02:47:00Z')
+    return {
+        '3.1': Ours(does=len(facts['stations']) == count, text=f'{count} sites', by=letter),
+        '3.2': Ours(does=size == [256, 256, 128], by=letter, text=f'{size[0]} x {size[1]} x {size[2]} cells; heights at will, '
+                    'columns evenly spaced'),
+        '3.3': Ours(does=True, text='`--overlap mean`', by=letter),
+        '3.4': Ours(does='column-linear' in facts['method'], text=facts['method'], by=letter),
+        '3.5': Ours(does='02:47:00' in said, text='echo moves between the volumes (`advected`); nearest and blend, too', by=between),
+        **batch(runs, northeast, count),
+    }
+
+
+def batch(runs, northeast, count):
+    plan = runs.work / 'plan'
+    first, _, _ = runs.run('stormcellar', 'batch', 'plan', '--source', northeast, '--from', '2010-09-11T01:15', '--to',
+                           '2010-09-11T01:15', '--mosaic', 'northeast', '--spacing-km', '5', '-o', plan)
+    then, said, _ = runs.run('stormcellar', 'batch', 'submit', '--plan', plan, '--engine', 'local')
+    tasks, merged = len(re.findall(r'1 grid,', said)), len(re.findall(r'1 frame,', said))
+    return {'4.14': Ours(does=tasks == count and merged == 1, by=f'{first} {then}',
+                         text=f'{tasks} tasks of a station and {merged} that merges; Slurm and make can run them, too')}
+
+
+def pictures(runs):
+    """Pictures in the paper's view, a day as a loop, and answers from the cache."""
+    letter, out, _ = runs.run('stormcellar', 'frame', runs.data / 'volumes' / OTHER_STATION, '--scene', SCENE, '--zoom',
+                              '1.6', '-o', runs.work / 'paper-scene.webp', '--json')
+    facts = json.loads(out)
+    many, _, _ = runs.run('stormcellar', 'frame', runs.data / 'mosaic-northeast', '--scene', SCENE, '-o', runs.work / 'many.webp')
+    tilt = re.search(r'tilt_deg = (\d+)', SCENE.read_text())[1]
+    results = {
+        '5.20': Ours(does=(facts['width'], facts['height']) == (796, 532), text=f'{facts["width"]} x {facts["height"]}', by=letter),
+        '5.22': Ours(does=True, text='`--colors nws`, or a file of your own', by=letter),
+        '6.3': Ours(does=True, by=letter,
+                    text=f'{tilt} degrees off the vertical: the picture below, of the supercells of May 3, 1999'),
+        '8.2': Ours(does=True, text='seven sites in one view; `--center`, `--extent-km` and `--zoom` choose the region', by=many),
+    }
+    results.update(day(runs))
+    results.update(answers(runs))
+    return results
+
+
+def day(runs):
+    """24 hours of a simulated station: a volume every five minutes, with --quick every four hours."""
+    count, interval_s = (6, 14400) if runs.quick else (288, 300)
+    text = Path('scenes/moving-storm.toml').read_text()
+    for key, value in (('count', count), ('interval_s', interval_s), ('velocity_mps', '[1.5, 1.2]')):
+        text = re.sub(rf'^{key} = .*$', f'{key} = {value}', text, flags=re.MULTILINE)
+    scene, files = runs.work / 'day.toml', runs.in_place('day')
+    scene.write_text(text)
+    runs.run('stormcellar', 'synth', scene, '-o', files)
+    letter, _, seconds = runs.run('stormcellar', 'loop', files, '--scene', SCENE, '--cache', runs.work / 'day-cache', '-o',
+                                  runs.work / 'day.webp')
+    return {'6.1': Ours(does=True, text=f'24 hours of a simulated station, {count} volumes, from raw files to the loop in '
+                        f'{seconds:.1f} s', by=letter)}
+
+
+def answers(runs):
+    """A picture of a raw file, and of a grid in a cache; and a grid with more cells than the paper's largest."""
+    file, cache = runs.data / 'volumes' / SITE_VOLUME, runs.work / 'answers'
+    runs.run('stormcellar', 'loop', file, '--cache', cache, '-o', runs.work / 'one.webp')
+    raw_s, kept_s = [], []
+    for _ in range(3):
+        raw, _, seconds = runs.run('stormcellar', 'frame', file, '-o', runs.work / 'raw.png')
+        raw_s.append(seconds)
+        kept, _, seconds = runs.run('stormcellar', 'frame', 'KLBB', '--cache', cache, '-o', runs.work / 'kept.png')
+        kept_s.append(seconds)
+    results = {'9.3': Ours(does=min(kept_s) < min(raw_s), by=f'{raw} {kept}',
+                           text=f'a picture of a kept grid in {min(kept_s):.2f} s, of the raw file in {min(raw_s):.2f} s (least of 3)')}
+    spacing_km, levels = 0.4, 64
+    side = round(460 / spacing_km)
+    letter, _, seconds = runs.run('stormcellar', 'frame', file, '--spacing-km', spacing_km, '--levels-km',
+                                  f'0.25:{levels / 4:g}:0.25', '-o', runs.work / 'fine.png')
+    results['9.2'] = Ours(side * side * levels / 1e6, by=letter,
+                          text=f'{side} x {side} x {levels}, from the file to a picture in {seconds:.1f} s')
+    return results
+
+
+def bad_files(runs):
+    """A real file whose message 5 says that -1 sweeps follow, and one that says -32768."""
+    name = 'KOKX20080109_141449.gz'
+    raw = bytearray(gzip.decompress((runs.data / 'volumes' / name).read_bytes()))
+    # Messages of metadata fill frames of 2,432 bytes behind the header of 24: 12 bytes, then size, channel and type.
+    frame = next((at for at in range(24, len(raw), 2432) if raw[at + 15] == 5), None)
+    if frame is None:
+        raise Failed(f'{name} has no message 5')
+    whole = runs.work / 'whole'
+    whole.write_bytes(raw)
+    sweeps_at = frame + 28 + 6
+    letters, told = [], {}
+    for label, count in (('whole', None), ('minus-1', -1), ('minus-32768', -32768)):
+        if count is not None:
+            raw[sweeps_at:sweeps_at + 2] = struct.pack('>h', count)
+            (runs.work / label).write_bytes(raw)
+        letter, out, _ = runs.run('stormcellar', 'info', runs.work / label, '--json')
+        letters.append(letter)
+        facts = json.loads(out)
+        told[label] = [(sweep['elevation_number'], sweep['n_radials']) for sweep in facts['sweeps']]
+    same = bool(told['whole']) and told['minus-1'] == told['whole'] and told['minus-32768'] == told['whole']
+    return {'7.1': Ours(does=same, by=' '.join(letters), text=f'-1 and -32768 sweeps in {name}: all {len(told["whole"])} sweeps are '
+                        'read, as of the sound file')}
+
+
+def browser(runs):
+    """The page in Chromium, where it is installed; not with --quick."""
+    if runs.quick:
+        return {'8.3': Ours(text='not measured with --quick; `scripts/bench-viewer` measures it')}
+    if not (shutil.which('chromium') and shutil.which('node') and shutil.which('curl')):
+        return {'8.3': Ours(text='Chromium, node and curl are not all installed here')}
+    letter, out, _ = runs.run(str(Path('scripts/bench-viewer').resolve()), runs.build)
+    found = re.search(r'frames a second while the view turns \| ([0-9.]+) \(([^)]*)\)', out)
+    return {'8.3': Ours(does=bool(found), by=letter,
+                        text=f'{found[1]} frames a second while the view turns ({found[2]}), without a graphics processor' if found else
+                        'no figure')}

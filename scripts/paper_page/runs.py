@@ -1,0 +1,76 @@
+"""Runs the programs of a build and remembers what was run, for the page."""
+import json
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+
+class Failed(Exception):
+    """A command did not do what it should; the page says so in the rows that needed it."""
+
+
+class Runs:
+    def __init__(self, build, data, work, quick):
+        self.build, self.data, self.work, self.quick = build, data, work, quick
+        self.section = ''
+        self.commands = {}  # by section: (letter, text, seconds)
+        self.machine = None
+        alphabet = 'ABCDEFGHIJKLMNOPQRSTUVWXYZ'
+        self.letters = iter([*alphabet, *('A' + letter for letter in alphabet)])
+
+    def program(self, name):
+        """A program of the build; none if it was not built."""
+        for folder in ('cli', 'daemon', 'bench'):
+            path = self.build / folder / name
+            if path.is_file():
+                return path
+        return None
+
+    def shown(self, words):
+        """A command as a reader types it: without the paths of this machine, and without the middle of long words."""
+        places = ((f'{self.build}/cli/', ''), (f'{self.build}/daemon/', ''), (f'{self.build}/bench/', ''), (f'{self.build}', 'BUILD'),
+                  (str(self.data), '../shared/data'), (f'{self.work}/', ''), (f'{Path.cwd()}/', ''))
+        shown = []
+        for word in map(str, words):
+            for path, name in places:
+                word = word.replace(path, name)
+            if len(word) > 160:
+                word = f'{word[:12]}...{word[-7:]}'
+            shown.append(f"'{word}'" if ' ' in word else word)
+        return ' '.join(shown)
+
+    def note(self, words, seconds=None):
+        """Puts a command on the page, with its time if it ended by itself. Returns its letter."""
+        letter = next(self.letters)
+        self.commands.setdefault(self.section, []).append((letter, self.shown(words), seconds))
+        return letter
+
+    def run(self, name, *words, timeout_s=7200):
+        """Returns (letter, standard output, seconds) of a program of the build or of the system."""
+        program = self.program(name) or shutil.which(name)
+        if not program:
+            raise Failed(f'{name} is not there')
+        command = [str(program), *map(str, words)]
+        print('paper:', self.shown(command), file=sys.stderr, flush=True)
+        begin = time.monotonic()
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=timeout_s, cwd=self.work,
+                              stdin=subprocess.DEVNULL)
+        seconds = time.monotonic() - begin
+        if done.returncode != 0:
+            last = (done.stderr.strip() or done.stdout.strip() or 'nothing was said').splitlines()[-1]
+            raise Failed(f'{name} ended with status {done.returncode}: {last}')
+        return self.note(command, seconds), done.stdout, seconds
+
+    def bench(self, name, *words):
+        """Returns (letter, rows) of a benchmark."""
+        letter, out, _ = self.run(name, *words, '--data', self.data, '--json')
+        said = json.loads(out)
+        self.machine = self.machine or said['machine']
+        return letter, said['rows']
+
+    def in_place(self, name):
+        path = Path(self.work) / name
+        path.mkdir(parents=True, exist_ok=True)
+        return path
