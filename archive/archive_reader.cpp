@@ -181,8 +181,9 @@ struct ArchiveReader::Impl {
             left_out.push_back({name.substr(0, most_name_bytes), std::move(reason)});
         }
     }
+    // It is told however much was left out before.
     void end_with(std::string reason) {
-        leave_out({}, std::move(reason));
+        left_out.push_back({{}, std::move(reason)});
         at_end = true;
     }
 

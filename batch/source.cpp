@@ -54,9 +54,9 @@ Status for_each_member(const fs::path& path, Take take) {
     while (const auto member = reader->next()) {
         if (Status taken = take(*member); !taken) return taken;
     }
-    for (const archive::LeftOut& one : reader->left_out())
-        if (one.name.empty() || reader->is_cut())
-            return fail(ErrorCode::truncated, "{}: {}", path.native(), one.reason);
+    const auto& left_out = reader->left_out();
+    if (!left_out.empty() && (reader->is_cut() || left_out.back().name.empty()))
+        return fail(ErrorCode::truncated, "{}: {}", path.native(), left_out.back().reason);
     return {};
 }
 

@@ -176,7 +176,7 @@ export class App {
         if (this.missed === '' || this.missedTime !== '' || this.unreadTime !== '') return;
         if (this.isAskedThere) this.miss('');
         // Sites that reach it may have come.
-        else if (isRegion(this.askedDomain)) void this.findRegion(this.askedDomain).then(() => this.isAskedThere && this.miss(''), () => undefined);
+        else if (isRegion(this.askedDomain)) void this.findRegion(this.askedDomain).then(() => this.missedTime === '' && this.isAskedThere && this.miss(''), () => undefined);
     }
     private get isAskedThere(): boolean {
         const own = this.domains.find(one => one.domain.toLowerCase() === this.askedDomain.toLowerCase());

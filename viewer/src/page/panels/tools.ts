@@ -1,5 +1,6 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
+import { LoadedGrid } from '../../renderer/renderer';
 import { RawVolume, hasRaw, isAbsent, isChunk, isGone, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
@@ -29,6 +30,8 @@ async function filesOf(volumes: { station: string; time: string }[]): Promise<Ra
 }
 
 export class ToolsPanel {
+    private toldOf: LoadedGrid | null = null; // whose raw volumes are named, or said not to be here
+
     constructor(
         private app: App,
         private drawing: Drawing,
@@ -37,6 +40,11 @@ export class ToolsPanel {
     ) {}
 
     begin(keys: Keys): void {
+        this.app.on('shown', () => {
+            if (this.toldOf === null || this.toldOf === this.app.shown?.loaded) return;
+            this.toldOf = null;
+            this.tell('');
+        });
         const tools = element('tools');
         tools.setAttribute('aria-label', texts.tools.name);
         for (const [id, text, key, toggle] of [
@@ -106,8 +114,10 @@ export class ToolsPanel {
 
     // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
     private async download(): Promise<void> {
+        const { shown } = this.app;
         const files = await this.rawFiles().catch(error => (isAbsent(error) ? [] : (this.app.fail(error), null)));
-        if (!files) return this.tell('');
+        if (!files || shown?.loaded !== this.app.shown?.loaded) return this.tell('');
+        this.toldOf = shown?.loaded ?? null;
         const links = files.map(({ station, name }) => {
             const link = document.createElement('a');
             link.href = rawPath(station, name);
