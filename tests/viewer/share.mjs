@@ -147,7 +147,7 @@ try {
     window.own = window.fetch;
     window.fetch = async (url, ...more) => {
       const answer = await own(url, ...more);
-      if (!String(url).includes('/volumes?from=')) return answer;
+      if (!String(url).includes('&limit=50')) return answer;
       const { volumes } = await answer.json();
       window.told = true;
       return new Response(JSON.stringify({ volumes: [...volumes, ...volumes] }));

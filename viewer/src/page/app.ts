@@ -257,13 +257,12 @@ export class App {
                 await this.findRegion(domain);
             } catch (error) {
                 if (choice !== this.choices) return;
-                if (error instanceof TypeError) {
-                    // It is asked for again when there is an answer.
-                    this.state.domain = domain;
-                    return this.fail(error);
+                // What got no answer is asked for again when there is one.
+                if (error instanceof TypeError) this.state.domain = domain;
+                else {
+                    this.backToShown();
+                    this.miss(error instanceof Error ? error.message : '');
                 }
-                this.backToShown();
-                this.miss(error instanceof Error ? error.message : '');
                 return this.fail(error);
             }
             if (choice !== this.choices) return;

@@ -266,7 +266,7 @@ export const texts = {
         areaName: 'Area',
         flyName: 'Fly',
         raw: 'Raw volume',
-        noRaw: 'The raw files of which this grid was made are not here.',
+        noRaw: 'The raw files of this grid are not here.',
         hint: (measure: 'distance' | 'area') => (measure === 'distance' ? 'Click from where to where. Escape ends this.' : 'Click the corners. Escape ends this.'),
         distance: (distance: string, azimuth: number, height: string) => `${distance}, azimuth ${azimuth}°, height ${height}`,
         area: (area: string, around: string) => `${area}, ${around} around`,

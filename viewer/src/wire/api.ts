@@ -124,7 +124,7 @@ export const timeOf = (answer: Response): number => Date.parse(answer.headers.ge
 // A proxy answers for a server that does not. The server itself says nothing in HTML here.
 function checkServer({ status, headers }: Response): void {
     const isHtml = (headers.get('Content-Type') ?? '').includes('html');
-    if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError('the server does not answer');
+    if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError();
 }
 
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
@@ -252,10 +252,12 @@ export async function hasRaw(station: string, name: string): Promise<boolean> {
     const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
     return status !== 404 && status !== 410;
 }
+async function volumesUntil(station: string, time: string, limit: number): Promise<RawVolume[]> {
+    return ((await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=${limit}`)).json()) as { volumes: RawVolume[] }).volumes;
+}
 // The newest volume of a station that began at a time or before.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
-    const { volumes } = (await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=1`)).json()) as { volumes: RawVolume[] };
-    return volumes[volumes.length - 1] ?? null;
+    return (await volumesUntil(station, time, 1)).pop() ?? null;
 }
 const aroundMs = 3_600_000; // what somebody joined may be hours long, but its volumes are near each other
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
@@ -266,9 +268,8 @@ export async function rawAt(station: string, time: string): Promise<RawVolume | 
 }
 // A file may hold several volumes, and a command draws one of them.
 export async function isAlone(station: string, { name, time }: RawVolume): Promise<boolean> {
-    const at = (ms: number) => encodeURIComponent(new Date(Date.parse(time!) + ms).toISOString());
-    const { volumes } = (await (await ask(`${volumesPath(station)}?from=${at(-aroundMs)}&to=${at(aroundMs)}&limit=100`)).json()) as { volumes: RawVolume[] };
-    return volumes.filter(one => one.name === name).length < 2;
+    const until = new Date(Date.parse(time!) + aroundMs).toISOString();
+    return (await volumesUntil(station, until, 50)).filter(one => one.name === name).length < 2;
 }
 // A name that chunks of a volume have: the volume has none of its own.
 export const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);

@@ -41,7 +41,7 @@ export class ToolsPanel {
 
     begin(keys: Keys): void {
         this.app.on('shown', () => {
-            if (this.toldOf === null || this.toldOf === this.app.shown?.loaded) return;
+            if (!this.toldOf || this.toldOf === this.app.shown?.loaded) return;
             this.toldOf = null;
             this.tell('');
         });
@@ -114,10 +114,10 @@ export class ToolsPanel {
 
     // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
     private async download(): Promise<void> {
-        const { shown } = this.app;
+        const loaded = this.app.shown?.loaded ?? null;
         const files = await this.rawFiles().catch(error => (isAbsent(error) ? [] : (this.app.fail(error), null)));
-        if (!files || shown?.loaded !== this.app.shown?.loaded) return this.tell('');
-        this.toldOf = shown?.loaded ?? null;
+        if (!files || loaded !== this.app.shown?.loaded) return this.tell('');
+        this.toldOf = loaded;
         const links = files.map(({ station, name }) => {
             const link = document.createElement('a');
             link.href = rawPath(station, name);
