@@ -181,7 +181,7 @@ struct ArchiveReader::Impl {
             left_out.push_back({name.substr(0, most_name_bytes), std::move(reason)});
         }
     }
-    // It is told however much was left out before.
+    // The reason is told even if the list of what was left out is full.
     void end_with(std::string reason) {
         left_out.push_back({{}, std::move(reason)});
         at_end = true;

@@ -35,7 +35,7 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) {
         const bool is_missing = errno == ENOENT || errno == ENOTDIR;
-        // A member is there if its archive is, and what cannot be looked at is not missing.
+        // A member is there if its archive is. A file that may not be looked at is not missing.
         if (is_missing && !archive::member_path_of(path)) check.missing.push_back(path);
         return;
     }

@@ -181,7 +181,7 @@ int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entri
         progress.show(i);
         const auto file = cache::GridFile::open(entries[i].path);
         const Status whole = file ? file->verify() : Status(pass_on(file));
-        // What was evicted or replaced since the list was made is not bad.
+        // A daemon may have evicted the grid since the list was made; that is no damage.
         const bool is_gone = !whole && whole.error().code == ErrorCode::not_found;
         checked += is_gone ? 0 : 1;
         if (whole || is_gone) continue;

@@ -170,7 +170,7 @@ int run_list(const CatalogOptions& options) {
     return print_entries(*entries, options.json);
 }
 
-// What cannot be looked at is not gone; a member of an archive is there if that is.
+// A file that may not be looked at is not gone. A member of an archive is there if its archive is.
 bool is_gone(const fs::path& path) {
     std::error_code error;
     const bool is_there = fs::exists(path, error) || archive::member_path_of(path);

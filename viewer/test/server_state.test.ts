@@ -1,4 +1,4 @@
-// Which stations the server does not hear.
+// The page knows which stations its server does not hear.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 

@@ -74,7 +74,7 @@ std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
     return silences;
 }
 
-// None if it cannot be read now; null if there is none.
+// Returns null if the station has no volume, and none if its database cannot be read now.
 std::optional<ApiJson> newest_volume_json(const Catalog& catalog, const std::string& icao,
                                           UtcTime now) {
     const auto of_failure = [](const Error& error) {

@@ -141,7 +141,7 @@ std::string base_of(const RawRequest& raw, const Request& request, const Identit
 
 Identity identity_of(const ServerOptions& options) {
     Identity identity;
-    // As it stands in the field Host.
+    // The name as the field Host has it.
     const auto add_name = [&](const std::string& name) {
         const bool is_v6 = name.find(':') != std::string::npos;
         identity.names.insert(lower_case(is_v6 ? fmt::format("[{}]", name) : name));

@@ -257,7 +257,7 @@ export class App {
                 await this.findRegion(domain);
             } catch (error) {
                 if (choice !== this.choices) return;
-                // What got no answer is asked for again when there is one.
+                // The region is asked for again when the server answers.
                 if (error instanceof TypeError) this.state.domain = domain;
                 else {
                     this.backToShown();

@@ -22,7 +22,7 @@ export function withTimes(player: PlayerState, times: string[], newest = times.l
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
     const { loop, follows } = player;
     const ofLoop = (all: string[]) => (loop && loop.from < loop.to ? all.filter(time => time >= loop.from && time <= loop.to).length : 2);
-    // Of another moment the newest times come first.
+    // The newest times of another moment come before its older ones, so a loop over older times has none for a while.
     const isOver = ofLoop(times) < 2 && ofLoop(player.times) >= 2;
     return { ...player, times, at: follows || shown === undefined ? newest : nearestTime(times, shown), loop: isOver ? null : loop };
 }

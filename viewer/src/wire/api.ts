@@ -121,7 +121,7 @@ const mostTries = 10;
 // The server's, ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
-// A proxy answers for a server that does not. The server itself says nothing in HTML here.
+// A proxy in front of a server that is gone answers for it. The server itself never answers these requests in HTML.
 function checkServer({ status, headers }: Response): void {
     const isHtml = (headers.get('Content-Type') ?? '').includes('html');
     if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError();
@@ -247,7 +247,7 @@ export interface RawVolume {
     state: string;
 }
 export const isGone = ({ state }: RawVolume): boolean => state === 'gone';
-// Whether its file is there.
+// Returns true if the file is there.
 export async function hasRaw(station: string, name: string): Promise<boolean> {
     const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
     return status !== 404 && status !== 410;
