@@ -150,8 +150,8 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return ((await (await ask('api/v1/stations')).json()) as { stations: Station[] }).stations;
 }
-// For how many seconds nothing came from each station that is silent, undefined where the server cannot say; and the time
-// of the server.
+// Returns the silent stations, each with the seconds since something came from it (undefined: the server cannot say), and
+// the time of the server.
 export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
