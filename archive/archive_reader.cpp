@@ -15,6 +15,7 @@
 
 #include "archive/packed_stream.h"
 #include "archive/plain_source.h"
+#include "base/memory.h"
 #include "base/steady_time.h"
 
 namespace stormcellar::archive {
@@ -295,9 +296,8 @@ struct ArchiveReader::Impl {
             bytes.resize(at + *got);
             if (bytes.size() > limits.member_bytes) {
                 leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
-                (void)own_name(
-                    name);  // whatever the limit, the next one of this name is the second
-                bytes = {};
+                (void)own_name(name);  // so that the next one of this name is the second
+                free_array(bytes);
                 pass_over(name);
                 return std::nullopt;
             }
@@ -360,7 +360,7 @@ struct ArchiveReader::Impl {
         given_bytes =
             std::max(given_bytes, given_before_inner + std::max(unpacked, inner->given_bytes));
         inner.reset();
-        inner_bytes = {};
+        free_array(inner_bytes);
         if (given_bytes > most_bytes()) end_with("unpacks to too many bytes: the rest is not read");
         return std::nullopt;
     }

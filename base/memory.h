@@ -26,6 +26,12 @@ void hold_arenas(int most);
 // library.
 bool give_back_freed_memory(std::size_t most_kept_bytes);
 
+// Frees the memory of an array. `values = {}` empties it and keeps its memory.
+template <class Value>
+void free_array(std::vector<Value>& values) {
+    std::vector<Value>{}.swap(values);
+}
+
 // Asks the system for large pages when this memory is first touched: 2 MiB at once instead of 4
 // KiB, which takes a sixth of the time (docs/performance.md). This is a hint. It does nothing if
 // the system has no large pages, or for parts that do not fill whole large pages.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/memory.h"
 #include "level2/decode/late_radials.h"
 #include "level2/decode/sweep_rows.h"
 #include "level2/decode/volume_builder.h"
@@ -45,8 +46,8 @@ std::uint64_t bytes_with(const Sweep& sweep, const Sweep& rows_of) {
 
 void VolumeBuilder::drop_sweep(std::size_t index) {
     Sweep& sweep = volume_.sweeps.at(index);
-    sweep.radials = {};  // the numbers stay, to find the sweep of a late radial
-    sweep.moments = {};
+    free_array(sweep.radials);  // the numbers stay, to find the sweep of a late radial
+    free_array(sweep.moments);
 }
 
 void VolumeBuilder::put_back(std::size_t index, Sweep sweep) {

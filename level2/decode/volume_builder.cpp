@@ -32,7 +32,8 @@ std::size_t expected_radials(float azimuth_spacing_deg) {
 }
 
 std::uint64_t held_by(const Sweep& sweep) {
-    std::uint64_t bytes = bytes_of(sweep);
+    std::uint64_t bytes =
+        bytes_of(sweep) + (sweep.radials.capacity() - sweep.radials.size()) * sizeof(Radial);
     for (const SweepMoment& moment : sweep.moments)
         bytes += rows::idle_bytes(moment);
     return bytes;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/checksum.h"
+#include "base/memory.h"
 #include "level2/containers/archive_header.h"
 #include "level2/containers/content.h"
 #include "level2/containers/ldm_framer.h"
@@ -109,7 +110,7 @@ void put_aside(LiveChunk& chunk, SweepDepot& depot) {
             place = depot.put(sweep);
             if (!place) continue;
             chunk.away_bytes += bytes_of(sweep);
-            sweep.moments = {};
+            free_array(sweep.moments);
             sweep.radials = std::vector<Radial>{sweep.radials.front(), sweep.radials.back()};
         }
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 
 namespace stormcellar::render {
@@ -70,7 +71,7 @@ class ShadeField::Baker {
         smooth_along_x(threads);
         codes_.resize(values_.size());
         for_each_piece(sizes_[0], threads, [&](int x) { shade(x); });
-        values_ = {};
+        free_array(values_);
         for_each_piece(sizes_[0], threads, [&](int x) { pack(x, words); });
     }
 

@@ -117,6 +117,18 @@ TEST(GrowingVolume, BeyondTheLimitIsAnErrorThatStays) {
     EXPECT_EQ(volume.finish().error().code, ErrorCode::unsupported);
 }
 
+TEST(GrowingVolume, ASweepThatIsDroppedHoldsNothing) {
+    GrowingVolume volume;
+    ASSERT_TRUE(volume.append(wire::ldm_volume(8, 300)));
+    ASSERT_EQ(volume.take_sweeps().size(), 8U);
+    const std::uint64_t all = volume.held_bytes();
+    const std::size_t dropped = volume.droppable_sweeps();
+    ASSERT_GE(dropped, 6U);
+    for (std::size_t index = 0; index < dropped; ++index)
+        volume.drop_sweep(index);
+    EXPECT_LT(volume.held_bytes(), all / 3) << all;
+}
+
 // A file with a large hole costs its sender nothing.
 TEST(GrowingVolume, WhatHoldsNothingKnownIsHeldNoFurtherThan16MiB) {
     GrowingVolume volume;
