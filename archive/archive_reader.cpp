@@ -120,6 +120,7 @@ struct ArchiveReader::Impl {
     std::vector<LeftOut> left_out;
     bool is_cut = false;
     bool at_end = false;
+    std::string why_ended;  // empty: the archive was read to its end, or is still read
     // Returns the last bytes of the archive. A tar that is not packed ends with blocks of zeros.
     std::function<std::vector<std::byte>()> tail;
     int nesting = 0;  // nesting depth of this archive
@@ -184,8 +185,13 @@ struct ArchiveReader::Impl {
     }
     // The reason is told even if the list of what was left out is full.
     void end_with(std::string reason) {
-        left_out.push_back({{}, std::move(reason)});
+        left_out.push_back({{}, reason});
+        why_ended = std::move(reason);
         at_end = true;
+    }
+    void cut_with(std::string reason) {
+        is_cut = true;
+        end_with(std::move(reason));
     }
 
     ::archive_entry* next_entry() {
@@ -198,13 +204,11 @@ struct ArchiveReader::Impl {
         at_end = true;
         if (code == ARCHIVE_EOF && has_its_end()) return nullptr;
         if (code == ARCHIVE_EOF) {
-            is_cut = true;
-            leave_out({}, "the archive has no end");
+            cut_with("the archive has no end");
             return nullptr;
         }
         if (end_at_bound()) return nullptr;
-        is_cut = true;
-        leave_out({}, "the archive is cut or damaged: " + error_text_of(handle.get()));
+        cut_with("the archive is cut or damaged: " + error_text_of(handle.get()));
         return nullptr;
     }
 
@@ -268,9 +272,13 @@ struct ArchiveReader::Impl {
         const la_ssize_t got = archive_read_data(handle.get(), into, room);
         if (got < 0) {
             if (end_at_bound()) return std::nullopt;
-            is_cut = is_cut || got == ARCHIVE_FATAL;
-            at_end = at_end || got == ARCHIVE_FATAL;
-            leave_out(name, "is cut or damaged: " + error_text_of(handle.get()));
+            const std::string reason = "is cut or damaged: " + error_text_of(handle.get());
+            leave_out(name, reason);
+            if (got == ARCHIVE_FATAL) {
+                is_cut = at_end = true;
+                why_ended = fmt::format("the archive cannot be read behind {}, which {}",
+                                        name.substr(0, most_name_bytes), reason);
+            }
             return std::nullopt;
         }
         given_bytes += static_cast<std::uint64_t>(got);
@@ -489,6 +497,20 @@ bool ArchiveReader::may_have_its_end() const {
 
 bool ArchiveReader::is_cut() const {
     return impl_->is_cut;
+}
+
+const std::string& ArchiveReader::why_ended() const {
+    return impl_->why_ended;
+}
+
+std::string ArchiveReader::why_missing(const std::string& name) const {
+    const auto own = std::ranges::find(impl_->left_out, name, &LeftOut::name);
+    if (!name.empty() && own != impl_->left_out.end()) return own->reason;
+    return impl_->why_ended.empty() ? "is not in the archive" : impl_->why_ended;
+}
+
+bool ArchiveReader::is_unreadable() const {
+    return impl_->plain && impl_->plain->has_failed();
 }
 
 }  // namespace stormcellar::archive

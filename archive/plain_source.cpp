@@ -37,6 +37,7 @@ bool PlainSource::feed(::archive* handle) {
 std::int64_t PlainSource::read_more(::archive* handle, const void** bytes) {
     const std::int64_t got = read_at_(at_, block_);
     if (got < 0) {
+        has_failed_ = true;
         archive_set_error(handle, EIO, "it cannot be read");
         return ARCHIVE_FATAL;
     }

@@ -24,6 +24,8 @@ class PlainSource {
 
     // Lets `handle`, which must end before this object, read the bytes.
     [[nodiscard]] bool feed(::archive* handle);
+    // Returns true if bytes could not be read.
+    [[nodiscard]] bool has_failed() const { return has_failed_; }
 
   private:
     std::int64_t read_more(::archive* handle, const void** bytes);
@@ -34,6 +36,7 @@ class PlainSource {
     std::uint64_t size_;
     ReadBudget& header_;
     std::uint64_t at_ = 0;
+    bool has_failed_ = false;
     std::vector<std::byte> block_;
 };
 

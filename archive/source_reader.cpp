@@ -22,13 +22,14 @@ std::optional<MemberName> member_path_of(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-std::optional<Member> find_member(int descriptor, const std::string& name, Limits limits) {
+Result<Member> find_member(int descriptor, const std::string& name, Limits limits) {
     auto reader = ArchiveReader::open(descriptor, limits);
-    while (reader) {
-        auto member = reader->next();
-        if (!member || member->name == name) return member;
+    if (!reader) return fail(ErrorCode::corrupt, "is in what is no archive any more");
+    while (auto member = reader->next()) {
+        if (member->name == name) return std::move(*member);
     }
-    return std::nullopt;
+    const ErrorCode code = reader->is_unreadable() ? ErrorCode::io : ErrorCode::corrupt;
+    return fail(code, "{}", reader->why_missing(name));
 }
 
 Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& path) {
@@ -50,8 +51,9 @@ Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& p
             if (member->name == name->member) return std::move(member->bytes);
         }
     }
-    reader_.reset();
-    return fail(ErrorCode::not_found, "{}: the archive does not have this member", path.native());
+    const auto read = std::exchange(reader_, std::nullopt);
+    return fail(ErrorCode::not_found, "{}: {}", path.native(),
+                read ? read->why_missing(name->member) : "is in what is no archive");
 }
 
 }  // namespace stormcellar::archive

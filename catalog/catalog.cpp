@@ -311,8 +311,23 @@ Status CatalogWriter::examine(std::string_view station) {
 }
 
 std::vector<Repair> CatalogWriter::take_repairs() {
-    const std::scoped_lock lock(impl().repairs_mutex);
-    return std::exchange(impl().repairs, {});
+    std::vector<Repair> repairs;
+    {
+        const std::scoped_lock lock(impl().repairs_mutex);
+        repairs = std::exchange(impl().repairs, {});
+    }
+    if (!repairs.empty()) read_archives_again();
+    return repairs;
+}
+
+void CatalogWriter::read_archives_again() {
+    const auto names = impl().names();
+    for (const std::string& name : names ? *names : std::vector<std::string>{}) {
+        (void)impl().with(name, false, [](StationDatabase& database) {
+            database.read_archives_again();
+            return true;
+        });
+    }
 }
 
 Result<std::vector<StationSummary>> CatalogReader::stations() const {

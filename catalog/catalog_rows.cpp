@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t files_a_step = 1000;
+constexpr std::size_t most_members = 100'000;
 constexpr std::int64_t rows_a_step = 1000;
 
 // A member of an archive exists as long as the archive does.
@@ -50,6 +51,27 @@ Result<int> CatalogWriter::mark_missing(const fs::path& directory,
             if (!here) break;
             marked += *here;
         }
+    }
+    return marked;
+}
+
+Result<int> CatalogWriter::mark_former_members(const fs::path& archive,
+                                               const std::set<fs::path>& members) {
+    const auto names = impl().names();
+    if (!names) return pass_on(names);
+    const std::string prefix = member_path(archive, "").native();
+    int marked = 0;
+    for (const std::string& name : *names) {
+        const auto here = impl().with(name, false, [&](StationDatabase& database) {
+            std::vector<fs::path> former;
+            for (CatalogEntry& row : database.files_with_prefix(prefix, most_members)) {
+                if (row.state != FileState::gone && !members.contains(row.path))
+                    former.push_back(std::move(row.path));
+            }
+            return former.empty() ? 0 : database.mark_gone(former);
+        });
+        if (!here && here.error().code == ErrorCode::no_space) return pass_on(here);
+        marked += here.value_or(0);
     }
     return marked;
 }

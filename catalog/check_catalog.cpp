@@ -35,8 +35,11 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) {
         const bool is_missing = errno == ENOENT || errno == ENOTDIR;
-        // A member is there if its archive is. A file that may not be looked at is not missing.
-        if (is_missing && !archive::member_path_of(path)) check.missing.push_back(path);
+        if (!is_missing) {
+            check.unseen.push_back(path);
+        } else if (!archive::member_path_of(path)) {  // a member is there if its archive is
+            check.missing.push_back(path);
+        }
         return;
     }
     const std::int64_t modified_ns =
@@ -77,7 +80,8 @@ Result<StationCheck> check_station(const fs::path& database) {
 bool CatalogCheck::is_sound() const {
     return troubles.empty() &&
            std::all_of(stations.begin(), stations.end(), [](const StationCheck& check) {
-               return check.damage.empty() && check.missing.empty() && check.changed.empty();
+               return check.damage.empty() && check.missing.empty() && check.unseen.empty() &&
+                      check.changed.empty();
            });
 }
 
@@ -135,6 +139,18 @@ Result<ClearedDatabase> count_rows(const fs::path& database) {
     return counted;
 }
 
+Status read_archives_again(const fs::path& directory, const std::string& name) {
+    const fs::path path = directory / (name + std::string{database_ending});
+    auto database = StationDatabase::open_for_writing(path, station_of(name));
+    if (!database) return pass_on(database);
+    try {
+        (*database)->read_archives_again();
+    } catch (const SQLite::Exception& error) {
+        return fail(code_of(error), "{}: {}", path.native(), error.what());
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<ClearReport> clear_unknown(const fs::path& directory, const StationRule& stations) {
@@ -160,6 +176,10 @@ Result<ClearReport> clear_unknown(const fs::path& directory, const StationRule& 
         }
     }
     if (report.cleared.empty()) return report;
+    for (const std::string& name : *names) {
+        if (name != unknown_station && !stations.knows(name)) continue;
+        if (Status again = read_archives_again(directory, name); !again) return pass_on(again);
+    }
     if (Status synced = disk.sync_directory(directory); !synced) return pass_on(synced);
     return report;
 }

@@ -29,6 +29,7 @@ struct StationCheck {
     std::int64_t gone = 0;            // rows that say that their file is gone
     // files that are missing, although their rows do not say gone
     std::vector<std::filesystem::path> missing;
+    std::vector<std::filesystem::path> unseen;  // files that could not be looked at
     // with another size or time than when they were settled
     std::vector<std::filesystem::path> changed;
 };
@@ -37,7 +38,8 @@ struct CatalogCheck {
     std::vector<StationCheck> stations;            // sorted by name
     std::vector<std::filesystem::path> set_aside;  // damaged databases from earlier repairs
     std::vector<Trouble> troubles;                 // databases that could not be opened
-    [[nodiscard]] bool is_sound() const;           // nothing is damaged, missing or changed
+    // All was seen, and nothing is damaged, missing or changed.
+    [[nodiscard]] bool is_sound() const;
 };
 
 // Checks one station, or all if none is named. Databases are opened one after the other, so that

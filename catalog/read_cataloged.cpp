@@ -36,16 +36,9 @@ Result<CatalogedBytes> read_member(const CatalogEntry& entry, const Descriptor& 
     limits.nesting = 0;
     limits.time = std::chrono::seconds{60};
     limits.member_bytes = entry.size_bytes;
-    auto reader = archive::ArchiveReader::open(archive.number(), limits);
-    auto member = reader ? reader->next() : std::nullopt;
-    while (member && member->name != name.member)
-        member = reader->next();
+    auto member = archive::find_member(archive.number(), name.member, limits);
     if (!member) {
-        std::string why = "is no longer in the archive";
-        for (const archive::LeftOut& one :
-             reader ? reader->left_out() : std::vector<archive::LeftOut>{})
-            if (one.name.empty() || one.name == name.member) why = one.reason;
-        return fail(ErrorCode::corrupt, "{}: {}", entry.path.native(), why);
+        return fail(member.error().code, "{}: {}", entry.path.native(), member.error().message);
     }
     const std::uint64_t hash = xxh3_64(member->bytes);
     if (Status same = check_cataloged(entry, member->bytes.size(), hash); !same) {

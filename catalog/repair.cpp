@@ -1,5 +1,6 @@
 #include "stormcellar/catalog/repair.h"
 
+#include <algorithm>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "catalog/schema.h"
 #include "catalog/station_database.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/member_name.h"
 
 namespace stormcellar::catalog {
 namespace {
@@ -127,7 +129,10 @@ Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
     }
     std::vector<SalvagedFile> gone;
     for (const SalvagedFile& file : salvaged.files) {
-        if (is_there(file.facts.path)) {
+        const auto members = member_names_in(file.facts.path);
+        const bool is_in_archive = std::ranges::any_of(
+            members, [](const MemberName& name) { return is_there(name.archive); });
+        if (is_in_archive || is_there(file.facts.path)) {
             ++repair.to_read_again;
         } else {
             gone.push_back(file);

@@ -76,6 +76,8 @@ class StationDatabase {
     void restore_gone(const std::vector<SalvagedFile>& files);
     // Marks in one transaction. Returns how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);
+    // Archives that are settled count as changed from now on.
+    void read_archives_again();
     // Returns the rows that are not gone and have a number above `after`, at most `most` at once,
     // because a database may hold more paths than fit into memory.
     struct Paths {

@@ -18,7 +18,7 @@ constexpr std::size_t most_listed = 1'000'000;
 constexpr const char* entry_columns =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, v.start_ms, v.end_ms, "
     "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation, f.modified_ns, "
-    "f.content_hash ";
+    "f.content_hash, p.ordinal ";
 // CROSS JOIN fixes the order of the tables, so that the index of volumes finds the rows, gives
 // their order, and a query with a limit stops there. Left to itself, SQLite may read a whole table.
 constexpr const char* entry_join =
@@ -27,7 +27,7 @@ constexpr const char* entry_join =
 constexpr const char* is_no_member = "instr(f.path, x'21') IN (0, length(f.path)) ";
 constexpr const char* columns_without_volume =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "
-    "0, 0, 0, f.modified_ns, f.content_hash FROM file f ";
+    "0, 0, 0, f.modified_ns, f.content_hash, 0 FROM file f ";
 
 }  // namespace
 
@@ -63,6 +63,7 @@ std::vector<CatalogEntry> StationDatabase::entries(SQLite::Statement& rows) cons
         entry.generation = rows.getColumn(12).getInt();
         entry.modified_ns = rows.getColumn(13).getInt64();
         entry.content_hash = static_cast<std::uint64_t>(rows.getColumn(14).getInt64());
+        entry.number_in_file = rows.getColumn(15).getInt() + 1;
         found.push_back(std::move(entry));
     }
     return found;

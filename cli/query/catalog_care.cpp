@@ -86,6 +86,7 @@ void print_check_json(const CatalogCheck& check, const ClearReport& cleared) {
                             {"damage", one.damage},
                             {"files", one.files},
                             {"missing", texts_of(one.missing)},
+                            {"unseen", texts_of(one.unseen)},
                             {"changed", texts_of(one.changed)}});
     }
     nlohmann::json removed = nlohmann::json::array();
@@ -104,8 +105,12 @@ void print_check(const CatalogCheck& check) {
         const bool sound = one.damage.empty();
         fmt::print("{:<8}  {:>6} {:<5}  {}{}\n", one.station.empty() ? "unknown" : one.station,
                    one.files, plural(static_cast<std::uint64_t>(one.files), "file"),
-                   sound ? fmt::format("sound, {} missing, {} changed", one.missing.size(),
-                                       one.changed.size())
+                   sound ? fmt::format("sound, {} missing, {} changed{}", one.missing.size(),
+                                       one.changed.size(),
+                                       one.unseen.empty()
+                                           ? ""
+                                           : fmt::format(", {} that cannot be looked at",
+                                                         one.unseen.size()))
                          : "DAMAGED",
                    one.is_known ? "" : ", not a known station");
         for (const std::string& line : one.damage)
@@ -114,6 +119,8 @@ void print_check(const CatalogCheck& check) {
             fmt::print("  missing  {}\n", printable(path.native()));
         for (const fs::path& path : one.changed)
             fmt::print("  changed  {}\n", printable(path.native()));
+        for (const fs::path& path : one.unseen)
+            fmt::print("  unseen   {}\n", printable(path.native()));
     }
     for (const fs::path& path : check.set_aside)
         fmt::print("set aside before: {}\n", printable(path.native()));

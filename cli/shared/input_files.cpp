@@ -252,13 +252,9 @@ Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& fi
             if (member->name == file.member) return std::move(member->bytes);
         }
     }
-    const auto read = std::move(open);
-    if (read) {
-        for (const archive::LeftOut& one : read->reader().left_out())
-            if (one.name == file.member || one.name.empty())
-                return fail(ErrorCode::unsupported, "{}: {}", file.label, one.reason);
-    }
-    return fail(ErrorCode::not_found, "{}: the archive does not have this member", file.label);
+    const auto read = std::exchange(open, {});
+    return fail(ErrorCode::not_found, "{}: {}", file.label,
+                read ? read->reader().why_missing(file.member) : "is in what is no archive");
 }
 
 InputFiles::InputFiles(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

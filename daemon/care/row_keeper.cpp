@@ -47,8 +47,8 @@ void RowKeeper::mark_missing() {
                     printable(marked.error().message));
     } else if (*marked > 0) {
         log_info({Event::files_gone},
-                 "marked {} as gone: deleted or moved while the service did not watch",
-                 counted(static_cast<std::uint64_t>(*marked), "file"));
+                 "marked {} that {} no longer there as gone",
+                 counted(static_cast<std::uint64_t>(*marked), "file"), *marked == 1 ? "is" : "are");
     }
 }
 

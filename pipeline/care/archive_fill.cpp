@@ -98,15 +98,26 @@ class CatalogedFiles {
     std::map<std::string, std::string> stations_;
 };
 
+// Returns true of what is wrong with the file, and not with the cache.
+bool is_of_file(const Error& error) {
+    const bool may_not_read =
+        error.code == ErrorCode::permission && error.cause() == Cause::configuration;
+    return may_not_read || error.cause() == Cause::data;
+}
+
+std::string without_path(const std::filesystem::path& path, std::string message) {
+    const std::string start = path.native() + ": ";
+    return message.starts_with(start) ? message.substr(start.size()) : message;
+}
+
 void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment moment,
              Ledger& ledger) {
     const auto outcome = ingestor.ingest_again(volume.path);
     if (!outcome) {
         if (outcome.error().code == ErrorCode::not_found) {
             ledger.left_out(volume.path, "is gone");
-        } else if (outcome.error().code == ErrorCode::permission &&
-                   outcome.error().cause() == Cause::configuration) {  // not that of the cache
-            ledger.left_out(volume.path, outcome.error().message);
+        } else if (is_of_file(outcome.error())) {
+            ledger.left_out(volume.path, without_path(volume.path, outcome.error().message));
         } else {
             ledger.failed(outcome.error());
         }

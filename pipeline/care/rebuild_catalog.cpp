@@ -93,6 +93,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     } else if (Status examined = catalog->examine(options.station); !examined) {
         return pass_on(examined);
     }
+    catalog->read_archives_again();
     Result<std::vector<fs::path>> files = options.files;
     if (options.files.empty()) files = files_below(drop, report);
     if (!files) return pass_on(files);

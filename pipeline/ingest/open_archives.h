@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "base/steady_time.h"
@@ -26,6 +27,7 @@ struct OpenArchive {
     archive::ArchiveReader reader;
     std::size_t taken = 0, rejected = 0;
     std::size_t known = 0;  // members that the catalog knows from an earlier time
+    std::set<std::filesystem::path> met = {};  // the paths of the members up to now
 };
 
 // The archives that wait for their next turn. The first few stay open until they end or are

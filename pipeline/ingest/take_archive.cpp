@@ -54,8 +54,8 @@ void add(const IngestOutcome& member, IngestOutcome& all) {
 }
 
 std::string reason_of(const OpenArchive& open) {
-    std::string reason =
-        fmt::format("an archive: {} ingested, {} rejected", open.taken, open.rejected);
+    std::string reason = fmt::format("{}{} ingested, {} rejected", catalog::reason_of_archive,
+                                     open.taken, open.rejected);
     if (open.known > 0) reason += fmt::format(", {} already known", open.known);
     for (const archive::LeftOut& one : open.reader.left_out()) {
         reason += fmt::format("; {}{}{}", one.name, one.name.empty() ? "" : " ", one.reason);
@@ -137,9 +137,10 @@ Result<IngestOutcome> TakeArchive::wait(std::string reason) {
 }
 
 Status TakeArchive::take_next(const archive::Member& member) {
-    const auto settled =
-        context_.catalog.is_settled(member_path(open_.path, member.name), member.bytes.size(),
-                                    modified_ns_of(member, open_.stamp));
+    const fs::path path = member_path(open_.path, member.name);
+    open_.met.insert(path);
+    const auto settled = context_.catalog.is_settled(path, member.bytes.size(),
+                                                     modified_ns_of(member, open_.stamp));
     if (settled && *settled) {
         ++open_.known;
         return {};
@@ -153,6 +154,9 @@ Status TakeArchive::take_next(const archive::Member& member) {
 
 Result<IngestOutcome> TakeArchive::settle() {
     const auto after = stamp_of(file_.path, context_.options.beneath);
+    if (open_.reader.is_unreadable()) {
+        return fail(ErrorCode::io, "{}: {}", file_.path.native(), open_.reader.why_ended());
+    }
     const bool is_cut = open_.reader.is_cut();
     if (!file_.may_be_partial() && is_cut) return wait("the archive has no end yet");
     if (!after || *after != open_.stamp) return wait("the archive changed while it was read");
@@ -160,6 +164,10 @@ Result<IngestOutcome> TakeArchive::settle() {
     facts.state = is_cut ? FileState::partial : FileState::complete;
     facts.reason = reason_of(open_);
     outcome_.reason = facts.reason;
+    if (open_.reader.why_ended().empty()) {
+        const auto marked = context_.catalog.mark_former_members(open_.path, open_.met);
+        if (!marked) return pass_on(marked);
+    }
     if (Status stored = context_.record(facts); !stored) return pass_on(stored);
     return std::move(outcome_);
 }
@@ -173,9 +181,7 @@ Result<IngestOutcome> take_member_again(IngestContext& context, const MemberName
     const auto member =
         archive::find_member(file.number(), name.member, limits_of(context.options));
     const fs::path path = member_path(name.archive, name.member);
-    if (!member) {
-        return fail(ErrorCode::not_found, "{}: is no longer in the archive", path.native());
-    }
+    if (!member) return fail(member.error().code, "{}: {}", path.native(), member.error().message);
     if (is_the_same) {
         const Status same = is_the_same(path, member->bytes.size(), xxh3_64(member->bytes));
         if (!same) return pass_on(same);

@@ -22,6 +22,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 class EveryKind : public ::testing::TestWithParam<Kind> {};
 
@@ -175,6 +176,25 @@ TEST(MemberPath, IsOneWhereTheArchiveStandsAndThePathDoesNot) {
     EXPECT_EQ(found->member, "dir/KTLX!1");
     EXPECT_FALSE(member_path_of(archive));
     EXPECT_FALSE(member_path_of(directory.path() / "none.tar!x"));
+}
+
+// 2026-11-29: what stands behind the place where an archive is cut was not in it, or was gone.
+TEST(ArchiveReader, SaysWhyAMemberIsMissing) {
+    std::vector<std::byte> tar = make_archive(Kind::tar, {{"a", bytes_of(std::string(2000, 'a'))},
+                                                          {"b", bytes_of(std::string(9000, 'b'))},
+                                                          {"c", bytes_of("c")}});
+    auto whole = ArchiveReader::open(tar);
+    while (whole->next()) {
+    }
+    EXPECT_EQ(whole->why_missing("d"), "is not in the archive");
+    EXPECT_EQ(whole->why_ended(), "");
+    tar.resize(6000);
+    auto cut = ArchiveReader::open(tar);
+    ASSERT_TRUE(cut->next());
+    EXPECT_FALSE(cut->next());
+    EXPECT_THAT(cut->why_missing("b"), StartsWith("is cut or damaged"));
+    EXPECT_THAT(cut->why_missing("c"), StartsWith("the archive cannot be read behind b"));
+    EXPECT_FALSE(cut->is_unreadable());
 }
 
 }  // namespace

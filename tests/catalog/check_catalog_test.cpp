@@ -64,6 +64,19 @@ TEST_F(CheckCatalog, FilesThatWentOrChangedAreNamedAndGoneOnesAreNot) {
     EXPECT_EQ(check->stations[0].changed, std::vector<fs::path>{changed});
 }
 
+// 2026-11-29: files that nobody could look at were passed over, and the catalog was sound.
+TEST_F(CheckCatalog, FilesThatCannotBeLookedAtAreNamed) {
+    fs::create_directory(directory_ / "drop");
+    const fs::path unseen = put("drop/a");
+    fs::remove_all(directory_ / "drop");
+    fs::create_directory_symlink("drop", directory_ / "drop");
+    const auto check = check_catalog(catalog_, "KTLX");
+    ASSERT_TRUE(check);
+    EXPECT_FALSE(check->is_sound());
+    EXPECT_EQ(check->stations[0].unseen, std::vector<fs::path>{unseen});
+    EXPECT_TRUE(check->stations[0].missing.empty());
+}
+
 TEST_F(CheckCatalog, DamageIsNamedAndNothingIsWritten) {
     put("a");
     fs::resize_file(catalog_ / "KTLX.sqlite", 6000);

@@ -85,7 +85,7 @@ TEST_F(InputFilesTest, OneMemberIsNamedBehindItsArchive) {
     EXPECT_EQ(nlohmann::json::parse(one.out)["site"], "KENX");
     const ProgramResult none = run({"info", path + "!order/other"});
     EXPECT_EQ(none.status, 1);
-    EXPECT_THAT(none.err, HasSubstr("does not have this member"));
+    EXPECT_THAT(none.err, HasSubstr("is not in the archive"));
 }
 
 // 2026-11-28: it was said not to be there.

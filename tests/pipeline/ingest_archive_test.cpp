@@ -1,8 +1,10 @@
 // Archives in the drop directory: each member is taken in as a file of its own.
 #include <fstream>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "base/checksum.h"
 #include "catalog/check_catalog.h"
@@ -104,6 +106,33 @@ TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
     EXPECT_FALSE(catalog::check_catalog(directory_ / "catalog", "")->is_sound());
 }
 
+// 2026-11-29: rows of members that another archive of this name does not have stayed complete.
+TEST_F(IngestArchiveTest, MembersOfAnArchiveThatWasReplacedAreGone) {
+    auto members = two_volumes();
+    ASSERT_TRUE(ingestor_.ingest(put("last.tar", archive::make_archive(archive::Kind::tar, members)),
+                                 false));
+    ASSERT_EQ(volumes().size(), 2U);
+    members.erase(members.begin());
+    ASSERT_TRUE(ingestor_.ingest(put("last.tar", archive::make_archive(archive::Kind::tar, members)),
+                                 false));
+    EXPECT_EQ(volumes().at(0).state, FileState::gone);
+    EXPECT_EQ(volumes().at(1).state, FileState::complete);
+}
+
+// 2026-11-29: the archive was settled, so the rows of its members were lost for good.
+TEST_F(IngestArchiveTest, RowsOfMembersThatWereLostAreMadeAgain) {
+    const fs::path path =
+        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    ASSERT_TRUE(ingestor_.ingest(path, false));
+    fs::remove(directory_ / "catalog" / "KBGM.sqlite");
+    EXPECT_FALSE(catalog_.list("KBGM", {})) << "this is when the loss is noticed";
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::unchanged);
+    ASSERT_EQ(catalog_.take_repairs().size(), 1U);
+    const auto again = ingestor_.ingest(path, false);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(volumes().size(), 2U);
+}
+
 // 2026-11-28: the log said that the raw file is gone or has changed.
 TEST_F(IngestArchiveTest, AGridOfAMemberIsNotMadeAgain) {
     ASSERT_TRUE(ingestor_.ingest(
@@ -154,6 +183,31 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     EXPECT_EQ(turns, 3) << "a file that is no volume has one, too";
     EXPECT_EQ(grid_count(), 2U);
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
+}
+
+// 2026-11-29: the members behind a read error, which passed, were lost for good.
+TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
+    IngestOptions options = small_grid();
+    options.archive_turn = std::chrono::milliseconds{0};
+    Ingestor by_turns(catalog_, store_, options);
+    const fs::path path =
+        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::incomplete);
+    // Reading from a descriptor for writing fails.
+    const Descriptor unreadable{::open("/dev/null", O_WRONLY | O_CLOEXEC)};
+    for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+        std::error_code gone;
+        if (fs::read_symlink(entry, gone) == path)
+            ::dup2(unreadable.number(), std::stoi(entry.path().filename()));
+    }
+    auto outcome = by_turns.ingest(path, true);
+    while (outcome && outcome->result() == IngestResult::incomplete)
+        outcome = by_turns.ingest(path, true);
+    ASSERT_FALSE(outcome) << outcome->reason;
+    EXPECT_EQ(outcome.error().code, ErrorCode::io);
+    Ingestor later(catalog_, store_, small_grid());
+    EXPECT_EQ(later.ingest(path, true)->result(), IngestResult::gridded);
+    EXPECT_EQ(grid_count(), 2U);
 }
 
 // 2026-11-28: of five that waited, each was closed before its next turn, and none came further.

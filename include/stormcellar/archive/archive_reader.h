@@ -86,6 +86,14 @@ class ArchiveReader {
     // Returns true if the archive ends too early or is damaged, so that members may be missing. The
     // file may still be growing.
     [[nodiscard]] bool is_cut() const;
+    // Says why the members behind the last one were not read. Empty: the archive was read to its end,
+    // or its end is not reached yet.
+    [[nodiscard]] const std::string& why_ended() const;
+    // Says why next() did not give the member of that name.
+    [[nodiscard]] std::string why_missing(const std::string& name) const;
+    // Returns true if the archive was not read to its end because of an error of the system, which
+    // may pass. is_cut() is true then.
+    [[nodiscard]] bool is_unreadable() const;
     // Returns true if the last bytes are the end of an uncompressed tar or of a zip. The end of a
     // compressed archive cannot be known before it is read, so the result is true for those.
     [[nodiscard]] bool may_have_its_end() const;
@@ -99,10 +107,10 @@ class ArchiveReader {
 // Splits a path such as DIR/a.tar!NAME, for which DIR/a.tar is a file and the whole path is not,
 // into the archive and the member. Returns none for any other path.
 [[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
-// Returns the member of that name, or none if the archive has no such member. The descriptor is
-// used as in open().
-[[nodiscard]] std::optional<Member> find_member(int descriptor, const std::string& name,
-                                                Limits limits = {});
+// Returns the member of that name. The descriptor is used as in open(). Errors: corrupt, with the
+// reason, if there is none; io if the archive cannot be read.
+[[nodiscard]] Result<Member> find_member(int descriptor, const std::string& name,
+                                         Limits limits = {});
 
 // Reads files, and members of archives named as "ARCHIVE!MEMBER". Members are read fastest in the
 // order in which they stand in the archive.

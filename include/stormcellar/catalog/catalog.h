@@ -36,6 +36,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -60,6 +61,8 @@ enum class FileState {
 
 // The modification time of a file that could not be read. Such a file is never settled, and is
 // tried again when it is next looked at.
+// The reason in the row of an archive begins with this.
+inline constexpr std::string_view reason_of_archive = "an archive: ";
 inline constexpr std::int64_t never_read_ns = std::numeric_limits<std::int64_t>::min();
 
 // A file of an archive holds a handful. A forged one must not fill the database by itself.
@@ -96,6 +99,7 @@ struct CatalogEntry {
     FileState state = FileState::seen;
     std::string reason;
     VolumeFacts volume;
+    int number_in_file = 1;   // of the volume among those of its file
     int generation = 0;       // 0 for the first; one more each time it is sent again and differs
     UtcTime registered_time;  // when the row was written
     std::int64_t modified_ns = 0;
@@ -276,6 +280,11 @@ class CatalogWriter : public CatalogReader {
     Result<int> mark_missing(const std::filesystem::path& directory,
                              const std::function<void()>& step = {});
 
+    // Marks the rows of an archive's members as gone but for these: another archive has taken its
+    // place. Returns how many were marked.
+    Result<int> mark_former_members(const std::filesystem::path& archive,
+                                    const std::set<std::filesystem::path>& members);
+
     // Deletes the rows of files that are gone and were last registered before that time, and the
     // volumes that no other file holds. Returns the number of files. A power cut may bring some
     // back. `step` is called after each station and every 1,000 rows.
@@ -294,8 +303,10 @@ class CatalogWriter : public CatalogReader {
     Status examine(std::string_view station);
     // Does the same for every station. Returns the last error, after all were examined.
     Status examine_all();
-    // Returns what was repaired since the last call.
+    // Returns what was repaired since the last call. If it is anything, archives are read again.
     std::vector<Repair> take_repairs();
+    // Archives that are settled count as changed from now on: rows of their members may be lost.
+    void read_archives_again();
 
   private:
     explicit CatalogWriter(std::unique_ptr<Impl> impl);
