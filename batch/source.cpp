@@ -16,6 +16,7 @@
 #include "stormcellar/archive/archive_reader.h"
 #include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/member_name.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/fetch/fetch.h"
 
@@ -43,10 +44,15 @@ Error failure(const fs::path& path, const std::error_code& error) {
             fmt::format("{}: {}", path.native(), error.message())};
 }
 
-// Calls `take` for each member that is a file. Errors: truncated after the last one, if members may
-// be missing.
-template <class Take>
-Status for_each_member(const fs::path& path, Take take) {
+// Returns the file name of a member, which may lie in an archive inside the archive.
+std::string own_name_of(const std::string& member) {
+    return fs::path(member.substr(member.find_last_of(member_mark) + 1)).filename();
+}
+
+// Calls `take` for each member that is a file, and then `leave_out` for what the archive does not
+// give and may be a volume.
+template <class Take, class LeaveOut>
+Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (!file.is_open()) return tl::unexpected(failure(path, {errno, std::system_category()}));
     auto reader = archive::ArchiveReader::open(file.number());
@@ -54,9 +60,10 @@ Status for_each_member(const fs::path& path, Take take) {
     while (const auto member = reader->next()) {
         if (Status taken = take(*member); !taken) return taken;
     }
-    const auto& left_out = reader->left_out();
-    if (!left_out.empty() && (reader->is_cut() || left_out.back().name.empty()))
-        return fail(ErrorCode::truncated, "{}: {}", path.native(), left_out.back().reason);
+    for (const archive::LeftOut& one : reader->left_out()) {
+        const std::string name = own_name_of(one.name);
+        if (one.name.empty() || is_archive_name(name) || volume_named(name)) leave_out(name, one);
+    }
     return {};
 }
 
@@ -104,16 +111,20 @@ class Walk {
     Status file(const fs::path& path, const std::string& name) {
         if (is_archive_name(name)) {
             const std::string in = fs::relative(path, root_).native();
-            Status read = for_each_member(path, [&](const archive::Member& member) -> Status {
-                count(fs::path(member.name).filename().native(), in, member.bytes.size());
-                return {};
-            });
+            Status read = for_each_member(
+                path,
+                [&](const archive::Member& member) -> Status {
+                    count(own_name_of(member.name), in, member.bytes.size());
+                    return {};
+                },
+                [&](const std::string& own_name, const archive::LeftOut& one) {
+                    const auto volume = volume_named(own_name);
+                    if (volume && !span_.has(volume->start)) return;
+                    const fs::path what = one.name.empty() ? path : member_path(path, one.name);
+                    listing_.cut.push_back(fmt::format("{}: {}", what.native(), one.reason));
+                });
             if (read || read.error().cause() != Cause::data) return read;
-            if (read.error().code == ErrorCode::truncated) {
-                listing_.cut.push_back(read.error().message);
-            } else {
-                note_nameless(in);
-            }
+            note_nameless(in);
             return {};
         }
         std::error_code error;
@@ -179,19 +190,31 @@ Result<UtcTime> time_of(const fs::path& path) {
 }
 
 Status add_members(const fs::path& tar, const StationDay& what, const TimeSpan& span,
-                   const fs::path& scratch, std::set<fs::path>& files) {
+                   const fs::path& scratch, std::set<fs::path>& files,
+                   std::vector<pipeline::LeftOut>& left_out) {
     const auto modified = time_of(tar);
     if (!modified) return pass_on(modified);
-    return for_each_member(tar, [&](const archive::Member& member) -> Status {
-        const fs::path name = fs::path(member.name).filename();
-        if (!is_of(name.native(), what, span)) return {};
-        const fs::path path = scratch / name;
+    const auto take = [&](const archive::Member& member) -> Status {
+        const std::string name = own_name_of(member.name);
+        if (!is_of(name, what, span)) return {};
+        // Another archive may hold a file of this name, whole or not.
+        fs::path path = scratch / name;
+        for (int number = 2; files.contains(path); ++number)
+            path = scratch / std::to_string(number) / name;
+        std::error_code error;
+        fs::create_directories(path.parent_path(), error);
+        if (error) return tl::unexpected(failure(path, error));
         if (Status written = write_file_atomically(real_file_system(), path, member.bytes);
             !written) {
             return written;
         }
         files.insert(path);
         return set_time(path, member.modified.value_or(*modified));
+    };
+    return for_each_member(tar, take, [&](const std::string& name, const archive::LeftOut& one) {
+        if (volume_named(name) && !is_of(name, what, span)) return;
+        const fs::path in = tar.filename();
+        left_out.push_back({one.name.empty() ? in : member_path(in, one.name), one.reason});
     });
 }
 
@@ -280,17 +303,13 @@ Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what, const f
         const fs::path place = (root / in).lexically_normal();
         const bool is_tar = is_archive_name(in) && !fs::is_directory(place);
         from_tars = from_tars || is_tar;
-        Status added = is_tar ? add_members(place, what, span, scratch, files)
+        Status added = is_tar ? add_members(place, what, span, scratch, files, left_out)
                               : add_files(place, what, span, files);
-        if (!added && added.error().code == ErrorCode::truncated) {
-            left_out.push_back({place.filename(), added.error().message});
-        } else if (!added) {
-            return pass_on(added);
-        }
+        if (!added) return pass_on(added);
     }
     BroughtFiles brought{
         {files.begin(), files.end()}, from_tars ? fs::path{} : root, std::move(left_out)};
-    std::ranges::sort(brought.files, {}, [](const fs::path& path) {
+    std::ranges::stable_sort(brought.files, {}, [](const fs::path& path) {
         const auto volume = volume_named(path.filename().native());
         return std::pair{volume ? volume->start : UtcTime{}, path.filename()};
     });

@@ -53,7 +53,8 @@ struct SourceListing {
     std::vector<StationDay> days;  // by day, then station
     std::size_t nameless = 0;      // files whose names say no station and time
     std::string first_nameless;
-    std::vector<std::string> cut;  // tars of which some members may be missing, with the reason
+    // Tars and members that may hold volumes and cannot be read, with the reason.
+    std::vector<std::string> cut;
 };
 // Lists the volumes that begin in the range. Tars are read from end to end.
 [[nodiscard]] Result<SourceListing> list_source(const std::string& source, UtcTime from,

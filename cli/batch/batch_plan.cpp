@@ -169,13 +169,15 @@ Result<SourceListing> take_stations(const PlanOptions& options, Recipe& recipe) 
     if (!listing) return listing;
     const auto known = known_stations(recipe, *listing);
     if (known.empty()) {
-        return fail(
-            ErrorCode::not_found, "{}: has no volume between {} and {}{}", recipe.source,
-            format_utc(from), format_utc(to),
-            listing->nameless == 0
-                ? ""
-                : fmt::format("; the names of {} files, such as {}, say no station and time",
-                              listing->nameless, listing->first_nameless));
+        std::string more;
+        if (listing->nameless > 0) {
+            more = fmt::format("; {} {}, such as {}, cannot be told by station and time",
+                               listing->nameless, plural(listing->nameless, "file"),
+                               listing->first_nameless);
+        }
+        if (!listing->cut.empty()) more += "; left out: " + listing->cut.front();
+        return fail(ErrorCode::not_found, "{}: has no volume between {} and {}{}", recipe.source,
+                    format_utc(from), format_utc(to), more);
     }
     std::vector<std::string> stations;
     if (options.mosaic.empty()) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "stormcellar/base/file_system.h"
 #include "tests/archive/archive_maker.h"
 #include "tests/batch/small_archive.h"
 #include "tests/fetch/mock_bucket.h"
@@ -117,7 +118,55 @@ TEST(Source, ATarThatIsCutIsNamed) {
     ASSERT_TRUE(brought) << brought.error().message;
     EXPECT_THAT(names_of(*brought), ElementsAre("KTLX20130520_203000"));
     ASSERT_EQ(brought->left_out.size(), 1U);
-    EXPECT_EQ(brought->left_out[0].path, "day.tar");
+    EXPECT_EQ(brought->left_out[0].path, "day.tar!KTLX20130520_204000");
+}
+
+// 2026-11-29: a member that could not be read vanished without a word.
+TEST(Source, AMemberThatCannotBeReadIsNamed) {
+    const testing::TemporaryDirectory directory, scratch;
+    const auto tar =
+        archive::make_archive(archive::Kind::tar,
+                              {{"day/KTLX20130520_203000", archive::bytes_of("a")},
+                               {.name = "day/KTLX20130520_204000",
+                                .what = archive::Put::What::symlink,
+                                .target = "elsewhere"},
+                               {.name = "day/latest", .what = archive::Put::What::symlink,
+                                .target = "KTLX20130520_203000"}});
+    write(directory / "day.tar", {reinterpret_cast<const char*>(tar.data()), tar.size()});
+    Recipe recipe;
+    recipe.source = directory.path().native();
+    recipe.from = at("2013-05-20T20:00Z");
+    recipe.to = at("2013-05-20T21:00Z");
+    const auto listing = list_source(recipe.source, recipe.from, recipe.to);
+    ASSERT_TRUE(listing);
+    ASSERT_EQ(listing->cut.size(), 1U);
+    EXPECT_THAT(listing->cut[0], HasSubstr("day.tar!day/KTLX20130520_204000: is a link"));
+    const std::atomic<bool> stop{false};
+    const auto brought = bring(recipe, listing->days.at(0), scratch.path(), stop);
+    ASSERT_TRUE(brought) << brought.error().message;
+    ASSERT_EQ(brought->left_out.size(), 1U);
+    EXPECT_EQ(brought->left_out[0].path, "day.tar!day/KTLX20130520_204000");
+}
+
+// 2026-11-29: of two archives with a volume, the one that was read last counted, whole or not.
+TEST(Source, FilesOfOneNameInTwoArchivesAreBothBrought) {
+    const testing::TemporaryDirectory directory, scratch;
+    for (const char* name : {"a.tar", "b.tar"}) {
+        const auto tar = archive::make_archive(
+            archive::Kind::tar, {{"KTLX20130520_203000", archive::bytes_of(name)}});
+        write(directory / name, {reinterpret_cast<const char*>(tar.data()), tar.size()});
+    }
+    Recipe recipe;
+    recipe.source = directory.path().native();
+    recipe.from = at("2013-05-20T20:00Z");
+    recipe.to = at("2013-05-20T21:00Z");
+    const auto listing = list_source(recipe.source, recipe.from, recipe.to);
+    ASSERT_TRUE(listing);
+    const std::atomic<bool> stop{false};
+    const auto brought = bring(recipe, listing->days.at(0), scratch.path(), stop);
+    ASSERT_TRUE(brought) << brought.error().message;
+    ASSERT_THAT(names_of(*brought), ElementsAre("KTLX20130520_203000", "KTLX20130520_203000"));
+    EXPECT_NE(read_file(brought->files[0]).value(), read_file(brought->files[1]).value());
 }
 
 TEST(Source, ABucketIsFetchedToTheScratchDirectory) {
