@@ -138,6 +138,32 @@ TEST_F(Volumes, ADroppedFileIsFoundByItsOwnNameAndGoneWhenItIsDeleted) {
         410U);
 }
 
+// 2026-11-29: the page guessed the names, and named files that no request gives.
+TEST_F(Volumes, OfEachRowIsSaidUnderWhichNameItIsGiven) {
+    ServedVolumes served(false);
+    const std::filesystem::path data = *testing::data_directory();
+    served.take(data / "volumes/KTLX20170101_030027_V06", "KTLX/new_year.raw");
+    served.take_chunks(55);
+    served.take(data / "volumes/KABR20050101_000745.gz", "KABR20050101_000745.gz");
+    std::filesystem::remove(served.drop() / "KABR20050101_000745.gz");
+    ASSERT_EQ(served.catalog().mark_missing(std::filesystem::canonical(served.drop())).value(), 1);
+    VolumesDoor door(served.files());
+    const auto given = [&](const char* station) {
+        const auto rows = served.catalog().list(station, {}).value();
+        EXPECT_EQ(rows.size(), 1U) << station;
+        const auto name = given_name(rows.at(0));
+        const auto path = fmt::format("/volumes/{}/{}", station, name.value_or("none"));
+        EXPECT_EQ(asked(door, path).status == 200, name.has_value()) << path;
+        return name.value_or("none");
+    };
+    EXPECT_EQ(given("KTLX"), "KTLX20170101_030027_V06");
+    EXPECT_EQ(given("KLOT"), "KLOT20260328_201457_V06");
+    EXPECT_EQ(given("KABR"), "none");
+    catalog::CatalogEntry member = served.catalog().list("KTLX", {}).value().at(0);
+    member.path = "/drop/day.tar!KTLX20170101_030027_V06";
+    EXPECT_FALSE(given_name(member));
+}
+
 TEST_F(Volumes, AVolumeThatGrowsIsGivenWithWhatIsThere) {
     ServedVolumes served(false);
     const auto take = [&](std::size_t count) {

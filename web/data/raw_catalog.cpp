@@ -44,12 +44,6 @@ bool is_better_raw(const CatalogEntry& a, const CatalogEntry& b) {
     return rank(a) > rank(b);
 }
 
-std::string name_of_entry(const CatalogEntry& entry) {
-    const bool chunks = pipeline::is_of_chunks(entry);
-    return raw_name(entry.station, *entry.volume.start_time,
-                    chunks ? std::string{} : entry.path.filename().string());
-}
-
 RawVolume volume_of(const CatalogEntry& entry) {
     RawVolume volume;
     volume.station = entry.station;
@@ -327,6 +321,23 @@ std::optional<OpenedVolume> CatalogRawFiles::open_kept(std::string_view station,
 }
 
 }  // namespace
+
+std::string name_of_entry(const CatalogEntry& entry) {
+    const bool chunks = pipeline::is_of_chunks(entry);
+    return raw_name(entry.station, *entry.volume.start_time,
+                    chunks ? std::string{} : entry.path.filename().string());
+}
+
+std::optional<std::string> given_name(const CatalogEntry& entry) {
+    const bool is_given = entry.volume.start_time && entry.state != FileState::gone &&
+                          member_names_in(entry.path).empty();
+    if (!is_given) return std::nullopt;
+    std::string own = entry.path.filename().string();
+    const auto time = time_in_file_name(own);
+    const bool is_found = time && *time >= *entry.volume.start_time - own_name_differs &&
+                          *time <= *entry.volume.start_time + own_name_differs;
+    return is_found && !pipeline::is_of_chunks(entry) ? own : name_of_entry(entry);
+}
 
 std::shared_ptr<RawFiles> RawFiles::open_catalog(RawFilesOptions options) {
     return std::make_shared<CatalogRawFiles>(std::move(options));

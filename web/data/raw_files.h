@@ -60,6 +60,12 @@ struct RawVolume {
         tag;  // an ETag with its quotes; it has a '-', so that no client takes it for an MD5
 };
 
+// Returns the name of a volume, whose start must be known.
+[[nodiscard]] std::string name_of_entry(const catalog::CatalogEntry& entry);
+// Returns the name under which a volume is given away: that of its file if it is found by it. None
+// if its file is gone or a member of an archive.
+[[nodiscard]] std::optional<std::string> given_name(const catalog::CatalogEntry& entry);
+
 struct RawRange {
     std::optional<UtcTime> from, to;  // inclusive, on the volume's start
     std::size_t most = 1000;

@@ -7,6 +7,7 @@
 
 #include "stormcellar/base/station_table.h"
 #include "web/data/event_feed.h"
+#include "web/data/raw_files.h"
 #include "web/data/station_place.h"
 #include "web/doors/api_operations.h"
 
@@ -154,7 +155,10 @@ Answer api_volumes(const ApiCall& call) {
         const auto time_json = [](std::optional<UtcTime> time) {
             return time ? ApiJson(format_utc(*time)) : ApiJson();
         };
+        const auto raw = given_name(entry);
         list.push_back({{"name", entry.path.filename().string()},
+                        {"raw", raw ? ApiJson(*raw) : ApiJson()},
+                        {"number_in_file", entry.number_in_file},
                         {"time", time_json(volume.start_time)},
                         {"end_time", time_json(volume.end_time)},
                         {"state", catalog::file_state_name(entry.state)},

@@ -239,6 +239,12 @@ export class App {
         return this.domains.find(one => one.domain === this.state.domain) ?? this.domains[0];
     }
 
+    private leaveMap(): void {
+        if (!this.isOnMap) return;
+        this.isOnMap = false;
+        this.tell('map');
+    }
+
     async chooseDomain(domain: string): Promise<void> {
         this.player = { ...stopped };
         this.state.camera = { ...this.state.camera, lookAtM: null, zoom: 1 };
@@ -258,8 +264,10 @@ export class App {
             } catch (error) {
                 if (choice !== this.choices) return;
                 // The region is asked for again when the server answers.
-                if (error instanceof TypeError) this.state.domain = domain;
-                else {
+                if (error instanceof TypeError) {
+                    this.leaveMap();
+                    this.state.domain = domain;
+                } else {
                     this.backToShown();
                     this.miss(error instanceof Error ? error.message : '');
                 }
@@ -274,10 +282,7 @@ export class App {
             this.openMap();
             return this.miss(texts.notice.noDomain(domain));
         }
-        if (this.isOnMap) {
-            this.isOnMap = false;
-            this.tell('map');
-        }
+        this.leaveMap();
         this.state.domain = domain !== '' && isThere ? domain : (this.domains[0]?.domain ?? '');
         const moments = (this.domain?.moments ?? []).map(one => one.moment);
         const before = this.state.moment;

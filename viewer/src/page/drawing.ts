@@ -39,7 +39,7 @@ export class Drawing {
     layers: LayerMaker | null = null;
     windows: Windows | null = null;
     drawn: DrawnLayers | null = null; // what stands beside the volume in the picture
-    pictureChanged: () => void = () => undefined; // another one was drawn
+    readonly pictureChanged: (() => void)[] = []; // called when another one was drawn
     private ground: Ground | null = null;
     private app: App | null = null;
     private streaming: Streaming | null = null;
@@ -210,7 +210,7 @@ export class Drawing {
         this.drawOver(geometry);
         this.bar.show(table, shownUnit(table.unit, state.units), state.least);
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
-        this.pictureChanged();
+        for (const act of this.pictureChanged) act();
         if (isMoving) window.setTimeout(() => this.draw(), this.stillAfterMs);
         else if (!this.isFinal && this.isComplete) this.end(rung, ms, fetches);
     }

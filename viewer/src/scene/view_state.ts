@@ -166,10 +166,11 @@ export function isUsualGrid({ nx, ny, spacing, levelsM }: Pick<PackedGrid, 'nx' 
 
 // The command that draws the same, of several layers one, with a table or a file of colors; empty: the
 // usual ones.
-export function commandOf(state: ViewState, width: number, height: number, colors: string, file = ''): string {
+export function commandOf(state: ViewState, width: number, height: number, colors: string, file = '', volume = 1): string {
     // A name that begins with a dash would be an option.
     const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', state.moment];
     if (state.time !== 'latest' && !file) words.push('--time', state.time);
+    if (file && volume > 1) words.push('--volume', String(volume));
     words.push(...(productOf(state.layers) ?? cameraWords(state)));
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));

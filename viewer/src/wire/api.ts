@@ -124,7 +124,7 @@ export const timeOf = (answer: Response): number => Date.parse(answer.headers.ge
 // A proxy in front of a server that is gone answers for it. The server itself never answers these requests in HTML.
 function checkServer({ status, headers }: Response): void {
     const isHtml = (headers.get('Content-Type') ?? '').includes('html');
-    if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError();
+    if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError('the server does not answer');
 }
 
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
@@ -242,37 +242,27 @@ export interface SweepRow {
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
 
 export interface RawVolume {
-    name: string;
     time: string | null;
-    state: string;
+    raw: string | null; // the name under which its file is given; null: it is not
+    number_in_file: number; // of the volume in it
 }
-export const isGone = ({ state }: RawVolume): boolean => state === 'gone';
 // Returns true if the file is there.
 export async function hasRaw(station: string, name: string): Promise<boolean> {
     const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
     return status !== 404 && status !== 410;
 }
-async function volumesUntil(station: string, time: string, limit: number): Promise<RawVolume[]> {
-    return ((await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=${limit}`)).json()) as { volumes: RawVolume[] }).volumes;
-}
-// The newest volume of a station that began at a time or before.
+// The newest volume of a station that began at a time or before. It may have come in several files.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
-    return (await volumesUntil(station, time, 1)).pop() ?? null;
+    const volumes = ((await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`)).json()) as { volumes: RawVolume[] }).volumes;
+    const newest = volumes.pop();
+    return newest?.raw === null ? (volumes.filter(one => one.time === newest.time && one.raw !== null).pop() ?? newest) : (newest ?? null);
 }
-const aroundMs = 3_600_000; // what somebody joined may be hours long, but its volumes are near each other
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
-// The volume that began at a time; null if it is gone, where the newest before would be an older one.
+// The volume that began at a time; null if its file is not given.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
-    return volume?.time != null && !isGone(volume) && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
+    return volume?.time != null && volume.raw !== null && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
 }
-// A file may hold several volumes, and a command draws one of them.
-export async function isAlone(station: string, { name, time }: RawVolume): Promise<boolean> {
-    const until = new Date(Date.parse(time!) + aroundMs).toISOString();
-    return (await volumesUntil(station, until, 50)).filter(one => one.name === name).length < 2;
-}
-// A name that chunks of a volume have: the volume has none of its own.
-export const isChunk = (name: string): boolean => /^\d{8}-\d{6}-\d{3}-[SIE]$/.test(name);
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;
 }

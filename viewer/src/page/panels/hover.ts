@@ -29,7 +29,7 @@ export class Hover {
     begin(): void {
         for (const happening of ['choices', 'camera', 'map'] as const) this.app.on(happening, () => this.hide());
         // What is read is what is drawn, not what will be.
-        this.drawing.pictureChanged = () => this.timer === 0 && this.put();
+        this.drawing.pictureChanged.push(() => this.timer === 0 && this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
         window.addEventListener('resize', () => this.hide());

@@ -4,7 +4,7 @@ import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
 import { commandOf, isBeyondLimits, isUsualGrid } from '../../scene/view_state';
 import { LoadedGrid } from '../../renderer/renderer';
-import { address, gridPath, isAlone, isChunk, isRegion, rawAt } from '../../wire/api';
+import { address, gridPath, isRegion, rawAt } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';
 import { Drawing } from '../drawing';
@@ -44,6 +44,7 @@ const savedFiles = new Set<string>(); // of commands that were copied
 class RawFile {
     private of: LoadedGrid | null = null;
     private name = '';
+    number = 1; // of the volume in it
 
     constructor(
         private app: App,
@@ -62,9 +63,7 @@ class RawFile {
         // A mosaic may be of one station at an instant.
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
         const volume = isOne ? await rawAt(shown.domain, shown.time) : null;
-        // A chunk is not its volume.
-        const isFile = volume !== null && !isChunk(volume.name) && (await isAlone(shown.domain, volume));
-        [this.of, this.name] = [shown.loaded, isFile ? volume.name : ''];
+        [this.of, this.name, this.number] = [shown.loaded, volume?.raw ?? '', volume?.number_in_file ?? 1];
     }
 }
 
@@ -88,7 +87,7 @@ function whyNoCommand(app: App, drawing: Drawing): string {
 
 // The command of what is shown: of its time also while the newest is followed, and as large as the page shows it.
 // Colors that no table of the program has are in a file that the command names.
-function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: string): void {
+function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile: RawFile): void {
     const why = whyNoCommand(app, drawing);
     const size = drawing.geometry();
     if (why || !size) return app.say(why);
@@ -96,9 +95,10 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, raw: str
     // The cut that is drawn, whichever rule has chosen it.
     const layers = { ...app.state.layers, sweepNumber: drawing.layers!.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
+    const raw = rawFile.known;
     const notes = [raw ? texts.commandReads(raw) : texts.commandReadsCache];
     if (!state.layers.hasVolume && !state.layers.section) notes.push(texts.commandFlat);
-    const give = (colors: string, ...of: string[]) => copy(app, commandOf(state, size.width, size.height, colors, raw), texts.commandCopied, ...of, ...notes);
+    const give = (colors: string, ...of: string[]) => copy(app, commandOf(state, size.width, size.height, colors, raw, rawFile.number), texts.commandCopied, ...of, ...notes);
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '');
     const file = editing.tomlForCommand();
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
@@ -114,10 +114,11 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     // What cannot be said is not offered; a press says why.
     const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app, drawing) !== ''));
     for (const happening of ['view', 'shown', 'choices', 'cells'] as const) app.on(happening, mark);
+    drawing.pictureChanged.push(mark);
     element('actions').append(
         button('share', texts.share, () => copy(app, app.link, texts.shared)),
         button('save', texts.save, () => save(app, drawing)),
-        button('command', texts.command, () => copyCommand(app, drawing, editing, raw.known)),
+        button('command', texts.command, () => copyCommand(app, drawing, editing, raw)),
         button('netcdf', texts.netcdf, () => {
             const { shown } = app;
             if (!shown) return;

@@ -1,7 +1,7 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
 import { LoadedGrid } from '../../renderer/renderer';
-import { RawVolume, hasRaw, isAbsent, isChunk, isGone, rawAt, rawBefore, rawPath } from '../../wire/api';
+import { hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
 import { Drawing } from '../drawing';
@@ -14,19 +14,13 @@ import { texts } from '../texts';
 
 interface RawFile {
     station: string;
-    name: string; // its own, which a user may have given
-}
-
-// The server joins the chunks of a volume, and knows it by its station and time.
-function fileOf(station: string, { name, time }: RawVolume): RawFile {
-    const [date, seconds] = (time ?? '').replace(/[-:]/g, '').split(/[T.Z]/);
-    return { station, name: isChunk(name) ? `${station}${date}_${seconds}` : name };
+    name: string;
 }
 
 // The files of volumes that began at these times, as far as they are there.
 async function filesOf(volumes: { station: string; time: string }[]): Promise<RawFile[]> {
     const found = await Promise.all(volumes.map(({ station, time }) => rawAt(station, time)));
-    return volumes.flatMap(({ station }, i) => (found[i] ? [fileOf(station, found[i]!)] : []));
+    return volumes.flatMap(({ station }, i) => (found[i] ? [{ station, name: found[i]!.raw! }] : []));
 }
 
 export class ToolsPanel {
@@ -69,6 +63,7 @@ export class ToolsPanel {
     }
 
     private measure(measure: Measure): void {
+        this.toldOf = null;
         const { current } = this.pointers;
         if (current instanceof MeasureTool && current.measure === measure) return this.pointers.use(null);
         const id = `tool-${measure}`;
@@ -82,6 +77,7 @@ export class ToolsPanel {
     }
 
     private fly(): void {
+        this.toldOf = null;
         if (this.pointers.current instanceof FlyTool) return this.pointers.use(null);
         this.pointers.use(null);
         const ended = () => {
@@ -101,8 +97,8 @@ export class ToolsPanel {
         const { sites } = this.facts;
         if (sites) return filesOf(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => ({ station: site, time }))));
         if (shown.isBetween) {
-            const before = await rawBefore(shown.domain, shown.time);
-            return before && !isGone(before) ? [fileOf(shown.domain, before)] : [];
+            const name = (await rawBefore(shown.domain, shown.time))?.raw;
+            return name ? [{ station: shown.domain, name }] : [];
         }
         const { source_files, stations } = (await this.facts.ask()).provenance;
         const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
