@@ -359,9 +359,11 @@ struct ArchiveReader::Impl {
             return member;
         }
         for (LeftOut& one : inner->left_out) {
+            if (one.name.empty() && one.reason == inner->why_ended) continue;
             leave_out(one.name.empty() ? inner_name : inner_name + member_mark + one.name,
                       std::move(one.reason));
         }
+        if (!inner->why_ended.empty()) leave_out(inner_name, inner->why_ended);
         is_cut = is_cut || inner->is_cut;
         // Bytes that the inner archive unpacked and passed over count as well.
         const std::uint64_t unpacked = inner->packed ? inner->packed->unpacked() : 0;

@@ -16,6 +16,7 @@
 #include "pipeline/care/archive_fill.h"
 #include "pipeline/drop/file_facts.h"
 #include "pipeline/ingest/ingest.h"
+#include "stormcellar/base/member_name.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"
 
@@ -30,7 +31,8 @@ using pipeline::IngestResult;
 using StandingFiles = std::map<std::string, std::int64_t>;
 
 std::size_t hour_of(const fs::path& path) {
-    const auto volume = volume_named(path.filename().native());
+    const std::string name = path.filename();  // or that of a member
+    const auto volume = volume_named(name.substr(name.find_last_of(member_mark) + 1));
     if (!volume) return 0;
     return static_cast<std::size_t>((volume->start - UtcTime{volume->day()}) /
                                     std::chrono::hours{1});

@@ -60,10 +60,15 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     while (const auto member = reader->next()) {
         if (Status taken = take(*member); !taken) return taken;
     }
-    for (const archive::LeftOut& one : reader->left_out()) {
+    const auto& left_out = reader->left_out();
+    for (const archive::LeftOut& one : left_out) {
         const std::string name = own_name_of(one.name);
         if (one.name.empty() || is_archive_name(name) || volume_named(name)) leave_out(name, one);
     }
+    // Others may stand behind a member where it is cut.
+    const std::string& why = reader->why_ended();
+    if (!why.empty() && (left_out.empty() || left_out.back().reason != why))
+        leave_out(std::string{}, archive::LeftOut{{}, why});
     return {};
 }
 

@@ -34,7 +34,8 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
     }
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) {
-        const bool is_missing = errno == ENOENT || errno == ENOTDIR;
+        // Names of members may be longer than those of files.
+        const bool is_missing = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
         if (!is_missing) {
             check.unseen.push_back(path);
         } else if (!archive::member_path_of(path)) {  // a member is there if its archive is

@@ -262,9 +262,9 @@ int StationDatabase::mark_gone(const std::vector<fs::path>& paths) {
 }
 
 void StationDatabase::read_archives_again() {
-    LentStatement update =
-        prepared("UPDATE file SET modified_ns = ? "
-                 "WHERE state IN ('complete', 'partial') AND substr(reason, 1, ?) = ?");
+    LentStatement update = prepared(
+        "UPDATE file SET modified_ns = ? "
+        "WHERE state IN ('complete', 'partial') AND substr(reason, 1, ?) = ?");
     update->bind(1, never_read_ns);
     update->bind(2, static_cast<std::int64_t>(reason_of_archive.size()));
     update->bind(3, std::string{reason_of_archive});  // as text, not as bytes

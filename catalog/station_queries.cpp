@@ -126,7 +126,7 @@ std::optional<CatalogEntry> StationDatabase::first(bool latest) {
 std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) {
     static const auto text = [](const char* order) {
         return std::string{entry_columns} + entry_join +
-               "WHERE v.start_ms BETWEEN ? AND ? AND p.ordinal = 0 "
+               "WHERE v.start_ms BETWEEN ? AND ? AND (? OR p.ordinal = 0) "
                "AND (? OR f.state <> 'gone') AND (? OR " +
                is_no_member + ") ORDER BY v.start_ms " + order + " LIMIT ?";
     };
@@ -134,9 +134,10 @@ std::vector<CatalogEntry> StationDatabase::list_stretch(const Stretch& stretch) 
     LentStatement rows = prepared((stretch.newest_first ? descending : ascending).c_str());
     rows->bind(1, milliseconds(stretch.from).value_or(std::numeric_limits<std::int64_t>::min()));
     rows->bind(2, milliseconds(stretch.to).value_or(std::numeric_limits<std::int64_t>::max()));
-    rows->bind(3, stretch.with_gone ? 1 : 0);
-    rows->bind(4, stretch.with_members ? 1 : 0);
-    rows->bind(5, static_cast<std::int64_t>(std::min<std::size_t>(stretch.most, most_listed)));
+    rows->bind(3, stretch.with_later ? 1 : 0);
+    rows->bind(4, stretch.with_gone ? 1 : 0);
+    rows->bind(5, stretch.with_members ? 1 : 0);
+    rows->bind(6, static_cast<std::int64_t>(std::min<std::size_t>(stretch.most, most_listed)));
     return entries(*rows);
 }
 

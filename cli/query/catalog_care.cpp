@@ -103,16 +103,16 @@ void print_check_json(const CatalogCheck& check, const ClearReport& cleared) {
 void print_check(const CatalogCheck& check) {
     for (const StationCheck& one : check.stations) {
         const bool sound = one.damage.empty();
-        fmt::print("{:<8}  {:>6} {:<5}  {}{}\n", one.station.empty() ? "unknown" : one.station,
-                   one.files, plural(static_cast<std::uint64_t>(one.files), "file"),
-                   sound ? fmt::format("sound, {} missing, {} changed{}", one.missing.size(),
-                                       one.changed.size(),
-                                       one.unseen.empty()
-                                           ? ""
-                                           : fmt::format(", {} that cannot be looked at",
-                                                         one.unseen.size()))
-                         : "DAMAGED",
-                   one.is_known ? "" : ", not a known station");
+        fmt::print(
+            "{:<8}  {:>6} {:<5}  {}{}\n", one.station.empty() ? "unknown" : one.station, one.files,
+            plural(static_cast<std::uint64_t>(one.files), "file"),
+            sound ? fmt::format(
+                        "sound, {} missing, {} changed{}", one.missing.size(), one.changed.size(),
+                        one.unseen.empty()
+                            ? ""
+                            : fmt::format(", {} that cannot be looked at", one.unseen.size()))
+                  : "DAMAGED",
+            one.is_known ? "" : ", not a known station");
         for (const std::string& line : one.damage)
             fmt::print("  {}: {}\n", printable(one.database.native()), printable(line));
         for (const fs::path& path : one.missing)

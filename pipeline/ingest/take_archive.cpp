@@ -139,8 +139,8 @@ Result<IngestOutcome> TakeArchive::wait(std::string reason) {
 Status TakeArchive::take_next(const archive::Member& member) {
     const fs::path path = member_path(open_.path, member.name);
     open_.met.insert(path);
-    const auto settled = context_.catalog.is_settled(path, member.bytes.size(),
-                                                     modified_ns_of(member, open_.stamp));
+    const auto settled =
+        context_.catalog.is_settled(path, member.bytes.size(), modified_ns_of(member, open_.stamp));
     if (settled && *settled) {
         ++open_.known;
         return {};

@@ -106,8 +106,9 @@ TEST(Source, ATarThatIsCutIsNamed) {
     const auto listing = list_source(directory.path().native(), at("2013-05-20"), at("2013-05-22"));
     ASSERT_TRUE(listing);
     EXPECT_EQ(listing->nameless, 0U);
-    ASSERT_EQ(listing->cut.size(), 1U);
-    EXPECT_THAT(listing->cut[0], HasSubstr("cut"));
+    ASSERT_EQ(listing->cut.size(), 2U);
+    EXPECT_THAT(listing->cut[0], HasSubstr("day.tar!KTLX20130520_204000: is cut"));
+    EXPECT_THAT(listing->cut[1], HasSubstr("day.tar: the archive cannot be read behind"));
     ASSERT_EQ(listing->days.size(), 1U);
     Recipe recipe;
     recipe.source = directory.path().native();
@@ -117,21 +118,22 @@ TEST(Source, ATarThatIsCutIsNamed) {
     const auto brought = bring(recipe, listing->days[0], scratch.path(), stop);
     ASSERT_TRUE(brought) << brought.error().message;
     EXPECT_THAT(names_of(*brought), ElementsAre("KTLX20130520_203000"));
-    ASSERT_EQ(brought->left_out.size(), 1U);
+    ASSERT_EQ(brought->left_out.size(), 2U);
     EXPECT_EQ(brought->left_out[0].path, "day.tar!KTLX20130520_204000");
+    EXPECT_EQ(brought->left_out[1].path, "day.tar");
 }
 
 // 2026-11-29: a member that could not be read vanished without a word.
 TEST(Source, AMemberThatCannotBeReadIsNamed) {
     const testing::TemporaryDirectory directory, scratch;
-    const auto tar =
-        archive::make_archive(archive::Kind::tar,
-                              {{"day/KTLX20130520_203000", archive::bytes_of("a")},
-                               {.name = "day/KTLX20130520_204000",
-                                .what = archive::Put::What::symlink,
-                                .target = "elsewhere"},
-                               {.name = "day/latest", .what = archive::Put::What::symlink,
-                                .target = "KTLX20130520_203000"}});
+    const auto tar = archive::make_archive(archive::Kind::tar,
+                                           {{"day/KTLX20130520_203000", archive::bytes_of("a")},
+                                            {.name = "day/KTLX20130520_204000",
+                                             .what = archive::Put::What::symlink,
+                                             .target = "elsewhere"},
+                                            {.name = "day/latest",
+                                             .what = archive::Put::What::symlink,
+                                             .target = "KTLX20130520_203000"}});
     write(directory / "day.tar", {reinterpret_cast<const char*>(tar.data()), tar.size()});
     Recipe recipe;
     recipe.source = directory.path().native();
@@ -148,12 +150,36 @@ TEST(Source, AMemberThatCannotBeReadIsNamed) {
     EXPECT_EQ(brought->left_out[0].path, "day.tar!day/KTLX20130520_204000");
 }
 
+// 2026-11-29: what lay behind the cut was not named if no volume was cut.
+TEST(Source, ATarThatIsCutBehindItsVolumesIsNamed) {
+    const testing::TemporaryDirectory directory, scratch;
+    auto tar = archive::make_archive(archive::Kind::tar,
+                                     {{"KTLX20130520_203000", archive::bytes_of("a")},
+                                      {"README", archive::bytes_of(std::string(9000, 'b'))},
+                                      {"KTLX20130520_204000", archive::bytes_of("c")}});
+    tar.resize(5000);
+    write(directory / "day.tar", {reinterpret_cast<const char*>(tar.data()), tar.size()});
+    Recipe recipe;
+    recipe.source = directory.path().native();
+    recipe.from = at("2013-05-20T20:00Z");
+    recipe.to = at("2013-05-20T21:00Z");
+    const auto listing = list_source(recipe.source, recipe.from, recipe.to);
+    ASSERT_TRUE(listing);
+    ASSERT_EQ(listing->cut.size(), 1U);
+    EXPECT_THAT(listing->cut[0], HasSubstr("behind README"));
+    const std::atomic<bool> stop{false};
+    const auto brought = bring(recipe, listing->days.at(0), scratch.path(), stop);
+    ASSERT_TRUE(brought) << brought.error().message;
+    ASSERT_EQ(brought->left_out.size(), 1U);
+    EXPECT_EQ(brought->left_out[0].path, "day.tar");
+}
+
 // 2026-11-29: of two archives with a volume, the one that was read last counted, whole or not.
 TEST(Source, FilesOfOneNameInTwoArchivesAreBothBrought) {
     const testing::TemporaryDirectory directory, scratch;
     for (const char* name : {"a.tar", "b.tar"}) {
-        const auto tar = archive::make_archive(
-            archive::Kind::tar, {{"KTLX20130520_203000", archive::bytes_of(name)}});
+        const auto tar = archive::make_archive(archive::Kind::tar,
+                                               {{"KTLX20130520_203000", archive::bytes_of(name)}});
         write(directory / name, {reinterpret_cast<const char*>(tar.data()), tar.size()});
     }
     Recipe recipe;

@@ -109,12 +109,12 @@ TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
 // 2026-11-29: rows of members that another archive of this name does not have stayed complete.
 TEST_F(IngestArchiveTest, MembersOfAnArchiveThatWasReplacedAreGone) {
     auto members = two_volumes();
-    ASSERT_TRUE(ingestor_.ingest(put("last.tar", archive::make_archive(archive::Kind::tar, members)),
-                                 false));
+    ASSERT_TRUE(ingestor_.ingest(
+        put("last.tar", archive::make_archive(archive::Kind::tar, members)), false));
     ASSERT_EQ(volumes().size(), 2U);
     members.erase(members.begin());
-    ASSERT_TRUE(ingestor_.ingest(put("last.tar", archive::make_archive(archive::Kind::tar, members)),
-                                 false));
+    ASSERT_TRUE(ingestor_.ingest(
+        put("last.tar", archive::make_archive(archive::Kind::tar, members)), false));
     EXPECT_EQ(volumes().at(0).state, FileState::gone);
     EXPECT_EQ(volumes().at(1).state, FileState::complete);
 }

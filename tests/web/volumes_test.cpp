@@ -2,6 +2,7 @@
 #include "web/doors/volumes.h"
 
 #include <cstdlib>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -159,6 +160,19 @@ TEST_F(Volumes, OfEachRowIsSaidUnderWhichNameItIsGiven) {
     EXPECT_EQ(given("KTLX"), "KTLX20170101_030027_V06");
     EXPECT_EQ(given("KLOT"), "KLOT20260328_201457_V06");
     EXPECT_EQ(given("KABR"), "none");
+    // Both volumes of a file are given by that file.
+    const testing::TemporaryDirectory made;
+    for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"})
+        std::ofstream(made / "two", std::ios::binary | std::ios::app)
+            << std::ifstream(data / "sequence-kbgm" / name, std::ios::binary).rdbuf();
+    served.take(made / "two", "KBGM/two.gz");
+    const auto both = served.catalog().list("KBGM", {}).value();
+    ASSERT_EQ(both.size(), 2U);
+    EXPECT_EQ(both[1].number_in_file, 2);
+    for (const catalog::CatalogEntry& row : both) {
+        const auto path = fmt::format("/volumes/KBGM/{}", given_name(row).value());
+        EXPECT_EQ(asked(door, path).status, 200U) << path;
+    }
     catalog::CatalogEntry member = served.catalog().list("KTLX", {}).value().at(0);
     member.path = "/drop/day.tar!KTLX20170101_030027_V06";
     EXPECT_FALSE(given_name(member));

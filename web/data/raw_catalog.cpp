@@ -195,15 +195,18 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
                                                                       std::string_view station,
                                                                       std::string_view name) {
     const auto drop = catalog.drop_directory();
+    std::optional<CatalogEntry> gone;
     if (drop) {
         for (const fs::path& path : {*drop / name, *drop / station / name}) {
             auto row = catalog.find_file(station, path);
             if (!row) return row;
-            if (*row && (*row)->state != FileState::rejected) return row;
+            if (!*row || (*row)->state == FileState::rejected) continue;
+            if ((*row)->state != FileState::gone) return row;
+            gone = std::move(*row);  // it may lie elsewhere now
         }
     }
     const auto time = time_in_file_name(name);
-    if (!time) return std::optional<CatalogEntry>{};
+    if (!time) return gone;
     catalog::Stretch stretch = of_served;
     stretch.from = *time - own_name_differs;
     stretch.to = *time + own_name_differs;
@@ -216,7 +219,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
         if (row.path.filename() != name) continue;
         if (!found || is_better_raw(row, *found)) found = row;
     }
-    return found;
+    return found ? found : gone;
 }
 
 Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& catalog,
@@ -228,7 +231,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
         stretch.from = *time;
         stretch.to = *time + std::chrono::milliseconds{999};
         stretch.most = most_rows_of_a_name;
-        stretch.with_gone = true;
+        stretch.with_gone = stretch.with_later = true;
         const auto rows = catalog.list_stretch(station, stretch);
         if (!rows) return pass_on(rows);
         for (const CatalogEntry& row : *rows) {

@@ -86,8 +86,8 @@ class ArchiveReader {
     // Returns true if the archive ends too early or is damaged, so that members may be missing. The
     // file may still be growing.
     [[nodiscard]] bool is_cut() const;
-    // Says why the members behind the last one were not read. Empty: the archive was read to its end,
-    // or its end is not reached yet.
+    // Says why the members behind the last one were not read. Empty: the archive was read to its
+    // end, or its end is not reached yet.
     [[nodiscard]] const std::string& why_ended() const;
     // Says why next() did not give the member of that name.
     [[nodiscard]] std::string why_missing(const std::string& name) const;

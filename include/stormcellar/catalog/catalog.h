@@ -114,8 +114,7 @@ struct Query {
     std::optional<std::size_t> newest = std::nullopt;
 };
 
-// A stretch of a station's volumes, of which at most `most` are wanted. Only the first volume of
-// each file counts.
+// A stretch of a station's volumes, of which at most `most` are wanted.
 struct Stretch {
     std::optional<UtcTime> from = std::nullopt;  // inclusive, on the volume's start time
     std::optional<UtcTime> to = std::nullopt;    // inclusive
@@ -123,6 +122,7 @@ struct Stretch {
     bool newest_first = false;
     bool with_gone = false;    // also files that their owner deleted
     bool with_members = true;  // also members of archives
+    bool with_later = false;   // also the second and later volumes of a file
 };
 
 struct StationSummary {

@@ -14,6 +14,17 @@ function shownLines(): string[] {
     return lines.map(one => [...one.childNodes].filter(node => !(node instanceof HTMLSpanElement)).map(node => node.textContent).join('')).filter(Boolean);
 }
 
+// The words of a line in rows of this width, as the page wraps them.
+function rowsOf(pen: CanvasRenderingContext2D, line: string, width: number): string[] {
+    const rows: string[] = [];
+    for (const word of line.split(' ')) {
+        const row = rows.length > 0 ? `${rows[rows.length - 1]} ${word}` : '';
+        if (row !== '' && pen.measureText(row).width <= width) rows[rows.length - 1] = row;
+        else rows.push(word);
+    }
+    return rows;
+}
+
 // Rows of the legend from `top` on, at the right edge.
 function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): void {
     pen.font = fontOf(11);
@@ -58,9 +69,16 @@ export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement
     pen.textBaseline = 'middle';
     pen.font = fontOf(14, 'bold');
     const [first, ...more] = shownLines();
-    haloed(pen, `${first ?? ''}  ${moment}`, 14, 18, shades.text);
+    let y = 18;
+    const put = (line: string) => {
+        for (const row of rowsOf(pen, line, (place.left * ratio) / scale - 28)) {
+            haloed(pen, row, 14, y, shades.text);
+            y += lineHeight;
+        }
+    };
+    put(`${first ?? ''}  ${moment}`);
     pen.font = fontOf(12);
-    more.forEach((line, i) => haloed(pen, line, 14, 18 + (i + 1) * lineHeight, shades.text));
+    more.forEach(put);
     drawLegend(pen, all.width / scale - 12, (place.bottom * ratio) / scale + 8);
     return all;
 }

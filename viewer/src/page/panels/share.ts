@@ -63,6 +63,7 @@ class RawFile {
         // A mosaic may be of one station at an instant.
         const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
         const volume = isOne ? await rawAt(shown.domain, shown.time) : null;
+        if (shown !== this.app.shown) return;
         [this.of, this.name, this.number] = [shown.loaded, volume?.raw ?? '', volume?.number_in_file ?? 1];
     }
 }
