@@ -25,6 +25,19 @@ const title = await page.evaluate("document.getElementById('title').innerText");
 check(`it has both: ${title}`, title.includes(one) && title.includes(other));
 const sites = await page.until("!document.getElementById('sites-told').hidden && document.getElementById('sites-told').innerText");
 check(`it says how far the volumes of each are from the instant: ${sites}`, [one, other].every((station) => new RegExp(`${station} (as it was|from volumes)`).test(sites)));
+// 2026-11-29: a saved picture cut the ends of long lines off, where the time and the moment are.
+await page.until('document.documentElement.dataset.drawn', 60);
+const beyond = await page.evaluate(`new Promise((done) => {
+  const own = CanvasRenderingContext2D.prototype.fillText;
+  const written = [];
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+    if (this.canvas.id !== 'labels') written.push([text, this.getTransform().a * (x + this.measureText(text).width) - this.canvas.width]);
+    own.call(this, text, x, y);
+  };
+  HTMLAnchorElement.prototype.click = () => done(written);
+  document.getElementById('save').click();
+})`);
+check(`the picture has all of its ${beyond.length} lines: ${beyond.filter(([, by]) => by > 0).join('; ')}`, beyond.length > 2 && beyond.every(([, by]) => by <= 0));
 // 2026-11-28: the reason was made up, and dots of sites that are not in the picture stayed, or were missing.
 const sitesOf = (text) => text.match(/\b[KPT][A-Z]{3}\b/g) ?? [];
 async function checkSites(left, inPicture) {
