@@ -194,6 +194,8 @@ struct ArchiveReader::Impl {
         end_with(std::move(reason));
     }
 
+    [[nodiscard]] bool is_unread() const { return plain && plain->has_failed(); }
+
     ::archive_entry* next_entry() {
         if (at_end) return nullptr;
         if (first != nullptr) return std::exchange(first, nullptr);
@@ -208,7 +210,8 @@ struct ArchiveReader::Impl {
             return nullptr;
         }
         if (end_at_bound()) return nullptr;
-        cut_with("the archive is cut or damaged: " + error_text_of(handle.get()));
+        cut_with(is_unread() ? "the archive cannot be read"
+                             : "the archive is cut or damaged: " + error_text_of(handle.get()));
         return nullptr;
     }
 
@@ -272,7 +275,9 @@ struct ArchiveReader::Impl {
         const la_ssize_t got = archive_read_data(handle.get(), into, room);
         if (got < 0) {
             if (end_at_bound()) return std::nullopt;
-            const std::string reason = "is cut or damaged: " + error_text_of(handle.get());
+            const std::string reason = is_unread()
+                                           ? "cannot be read"
+                                           : "is cut or damaged: " + error_text_of(handle.get());
             leave_out(name, reason);
             if (got == ARCHIVE_FATAL) {
                 is_cut = at_end = true;
@@ -512,7 +517,7 @@ std::string ArchiveReader::why_missing(const std::string& name) const {
 }
 
 bool ArchiveReader::is_unreadable() const {
-    return impl_->plain && impl_->plain->has_failed();
+    return impl_->is_unread();
 }
 
 }  // namespace stormcellar::archive

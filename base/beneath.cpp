@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 // A link where a directory or a file should be leads nowhere.
 tl::unexpected<Error> failure(const fs::path& path, int error_number) {
     auto failed = system_failure(path.native(), error_number);
-    if (error_number == ELOOP) failed.value().code = ErrorCode::not_found;
+    if (error_number == ELOOP || error_number == ENAMETOOLONG)
+        failed.value().code = ErrorCode::not_found;
     return failed;
 }
 

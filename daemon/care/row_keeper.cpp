@@ -46,8 +46,8 @@ void RowKeeper::mark_missing() {
         log_warning({Event::files_gone_failed}, "cannot check which cataloged files are gone: {}",
                     printable(marked.error().message));
     } else if (*marked > 0) {
-        log_info({Event::files_gone}, "marked {} that {} no longer there as gone",
-                 counted(static_cast<std::uint64_t>(*marked), "file"), *marked == 1 ? "is" : "are");
+        log_info({Event::files_gone}, "marked {} as gone: no longer there",
+                 counted(static_cast<std::uint64_t>(*marked), "file"));
     }
 }
 
