@@ -72,6 +72,24 @@ void leave_signals() {
     }
 }
 
+// The ending signals wait, for this thread, as long as this exists.
+class BlockedSignals {
+  public:
+    BlockedSignals() {
+        sigset_t ending;
+        ::sigemptyset(&ending);
+        for (const int number : ending_signals)
+            ::sigaddset(&ending, number);
+        ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
+    }
+    BlockedSignals(const BlockedSignals&) = delete;
+    BlockedSignals& operator=(const BlockedSignals&) = delete;
+    ~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  private:
+    sigset_t before_{};
+};
+
 }  // namespace
 
 ScratchDirectory::ScratchDirectory(fs::path path) : path_(std::move(path)) {
@@ -98,6 +116,8 @@ Result<ScratchDirectory> ScratchDirectory::make() {
         return fail(ErrorCode::io, "{}: the name is too long for a temporary directory", name);
     }
     place.fill('\0');
+    // A signal that comes in between finds the directory made and watched, or neither.
+    const BlockedSignals blocked;
     if (::mkdtemp(name.data()) == nullptr) {
         return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));
     }

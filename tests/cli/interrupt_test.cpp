@@ -6,6 +6,10 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "cli/shared/progress.h"
 #include "cli/shared/scratch_directory.h"
@@ -108,6 +112,28 @@ TEST_F(ScratchDirectoryDeathTest, ASecondSignalBesideAnInterruptRemovesItToo) {
         ::testing::KilledBySignal(SIGINT), "");
     ASSERT_FALSE(made().empty());
     EXPECT_FALSE(std::filesystem::exists(made()));
+}
+
+// 2026-11-29: a signal between making the directory and watching for signals left it behind.
+TEST(ScratchDirectory, IsRemovedByASignalThatComesAtOnce) {
+    const testing::TemporaryDirectory directory;
+    ::setenv("TMPDIR", directory.path().c_str(), 1);
+    for (int round = 0; round < 300; ++round) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            const auto scratch = ScratchDirectory::make();
+            for (;;)
+                ::pause();
+        }
+        while (std::filesystem::is_empty(directory.path())) {
+        }
+        ::kill(child, SIGINT);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFSIGNALED(status));
+        ASSERT_TRUE(std::filesystem::is_empty(directory.path())) << "round " << round;
+    }
+    ::unsetenv("TMPDIR");
 }
 
 TEST(ScratchDirectory, GoesWithItsObject) {
