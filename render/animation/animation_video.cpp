@@ -177,7 +177,6 @@ class VideoEncoder final : public FrameEncoder {
 
     Status encode_last() {
         last_->pts = next_pts_++;
-        last_->pkt_duration = 1;
         return send(last_.get());
     }
 

@@ -37,7 +37,9 @@ class MemoryFile {
     }
 
   private:
-    static int write(void* self, std::uint8_t* data, int size) {
+    // FFmpeg's type: std::uint8_t up to version 6, const std::uint8_t since 7.
+    template <class Byte>
+    static int write(void* self, Byte* data, int size) {
         auto& file = *static_cast<MemoryFile*>(self);
         const auto part = std::as_bytes(std::span(data, static_cast<std::size_t>(size)));
         const std::size_t end = file.position_ + part.size();

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -39,8 +40,8 @@ void put(TiffBytes& to, Number number) {
 }
 
 void put_text(TiffBytes& to, std::string_view text) {
-    for (const char c : text)
-        to.push_back(static_cast<std::byte>(c));
+    const auto bytes = std::as_bytes(std::span{text});
+    to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
 template <class Number>
