@@ -29,6 +29,15 @@ Image to_rgba(const AVFrame& frame) {
     return image;
 }
 
+// In ticks. The field has another name since FFmpeg 6.
+std::int64_t duration(const AVFrame& frame) {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 0)
+    return frame.duration;
+#else
+    return frame.pkt_duration;
+#endif
+}
+
 // Takes all pictures that the decoder has ready.
 void receive(AVCodecContext& decoder, AVRational time_base, DecodedAnimation& result) {
     const Handle<AVFrame> frame(av_frame_alloc());
@@ -36,7 +45,7 @@ void receive(AVCodecContext& decoder, AVRational time_base, DecodedAnimation& re
         read_metadata(frame->metadata, result);
         const double tick = av_q2d(time_base);
         result.frames.push_back({to_rgba(*frame), static_cast<double>(frame->pts) * tick,
-                                 static_cast<double>(frame->pkt_duration) * tick});
+                                 static_cast<double>(duration(*frame)) * tick});
     }
 }
 

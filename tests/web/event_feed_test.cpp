@@ -118,7 +118,7 @@ TEST(EventFeed, FollowsAVolumeFromItsFirstSweepToItsEnd) {
                                   ->id);
     EXPECT_EQ(feed->unreadable(), 0u);
     ASSERT_EQ(feed->stations().size(), 1u);
-    EXPECT_EQ(format_utc(*feed->stations()[0].newest_volume), begun[0]["volume"]);
+    EXPECT_EQ(json(format_utc(*feed->stations()[0].newest_volume)), begun[0]["volume"]);
 }
 
 // A server without a cache: the catalog tells.
