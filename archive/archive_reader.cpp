@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -66,7 +67,12 @@ Handle new_reader() {
     const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
     const bool formats =
         support(archive_read_support_format_tar) && support(archive_read_support_format_zip);
-    return formats ? std::move(handle) : Handle{};
+    // Blocks of zeros between two members are a lost page of the file, or the end of one of several
+    // tars that were joined: members stand behind them.
+    const bool goes_on =
+        archive_read_set_format_option(handle.get(), "tar", "read_concatenated_archives", "1") >=
+        ARCHIVE_WARN;
+    return formats && goes_on ? std::move(handle) : Handle{};
 }
 
 bool is_zip(::archive* handle) {
@@ -120,7 +126,8 @@ struct ArchiveReader::Impl {
     std::vector<LeftOut> left_out;
     bool is_cut = false;
     bool at_end = false;
-    std::string why_ended;  // empty: the archive was read to its end, or is still read
+    bool never_begun = false;  // its first bytes cannot be read
+    std::string why_ended;     // empty: the archive was read to its end, or is still read
     // Returns the last bytes of the archive. A tar that is not packed ends with blocks of zeros.
     std::function<std::vector<std::byte>()> tail;
     int nesting = 0;  // nesting depth of this archive
@@ -194,7 +201,11 @@ struct ArchiveReader::Impl {
         end_with(std::move(reason));
     }
 
-    [[nodiscard]] bool is_unread() const { return plain && plain->has_failed(); }
+    [[nodiscard]] bool is_unread() const { return never_begun || (plain && plain->has_failed()); }
+    void end_unread() {
+        never_begun = true;
+        cut_with("cannot be read");
+    }
 
     ::archive_entry* next_entry() {
         if (at_end) return nullptr;
@@ -234,7 +245,7 @@ struct ArchiveReader::Impl {
 
     // A zip ends with its directory, whose last record has 22 bytes and maybe a comment.
     [[nodiscard]] bool may_have_its_end() const {
-        if (at_end && !is_cut) return true;
+        if (never_begun || (at_end && !is_cut)) return true;
         return is_zip(handle.get()) ? !tail || has_directory() : has_its_end();
     }
     [[nodiscard]] bool has_directory() const {
@@ -462,12 +473,16 @@ std::optional<ArchiveReader> ArchiveReader::open(std::span<const std::byte> byte
 
 std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) {
     std::array<std::byte, tar_block_bytes> start{};
-    const ssize_t got = ::pread(descriptor, start.data(), start.size(), 0);
-    if (got <= 0) return std::nullopt;
-    const auto head = std::span{start}.first(static_cast<std::size_t>(got));
-    if (!may_be_archive(head)) return std::nullopt;
     auto impl = std::make_unique<Impl>();
     impl->limits = limits;
+    const ssize_t got = ::pread(descriptor, start.data(), start.size(), 0);
+    const bool has_no_places = got < 0 && (errno == EISDIR || errno == ESPIPE || errno == EINVAL);
+    if (got < 0 && !has_no_places) {
+        impl->end_unread();
+        return ArchiveReader(std::move(impl));
+    }
+    const auto head = std::span{start}.first(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+    if (!may_be_archive(head)) return std::nullopt;
     struct stat whole {};
     if (::fstat(descriptor, &whole) == 0) {
         impl->source_bytes = static_cast<std::uint64_t>(std::max<off_t>(0, whole.st_size));
@@ -485,7 +500,8 @@ std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) 
     const bool begun = impl->begin(head, [descriptor](std::uint64_t at, std::span<std::byte> into) {
         return ::pread(descriptor, into.data(), into.size(), static_cast<off_t>(at));
     });
-    if (!begun) return std::nullopt;
+    if (!begun && !impl->is_unread()) return std::nullopt;
+    if (!begun) impl->end_unread();
     return ArchiveReader(std::move(impl));
 }
 

@@ -178,6 +178,43 @@ TEST(MemberPath, IsOneWhereTheArchiveStandsAndThePathDoesNot) {
     EXPECT_FALSE(member_path_of(directory.path() / "none.tar!x"));
 }
 
+// 2026-11-29: members behind zeros, of a lost page or of the first of two joined tars, were lost
+// without a word.
+TEST(ArchiveReader, ReadsOnBehindZeros) {
+    const auto large = bytes_of(std::string(9000, 'x'));
+    const auto first = make_archive(Kind::tar, {{"a", large}, {"b", large}, {"c", large}});
+    std::vector<std::byte> lost_page = first;
+    constexpr std::size_t header = 512, member = header + 18 * header;
+    std::fill_n(lost_page.begin() + member, header, std::byte{0});
+    auto reader = ArchiveReader::open(lost_page);
+    EXPECT_THAT(names_of(*reader), ElementsAre("a"));
+    EXPECT_TRUE(reader->is_cut()) << "what follows is no header";
+
+    const auto second = make_archive(Kind::tar, {{"d", large}, {"b", large}});
+    std::vector<std::byte> joined = first;
+    joined.insert(joined.end(), second.begin(), second.end());
+    reader = ArchiveReader::open(joined);
+    EXPECT_THAT(names_of(*reader), ElementsAre("a", "b", "c", "d", "b#2"));
+    EXPECT_EQ(reader->why_ended(), "");
+
+    std::vector<std::byte> packed = make_archive(Kind::tar_gz, {{"a", large}});
+    const auto more = make_archive(Kind::tar_gz, {{"d", large}});
+    packed.insert(packed.end(), more.begin(), more.end());
+    reader = ArchiveReader::open(packed);
+    EXPECT_THAT(names_of(*reader), ElementsAre("a", "d"));
+}
+
+// 2026-11-29: an archive whose start could not be read was taken for no archive, for good.
+TEST(ArchiveReader, AStartThatCannotBeReadIsNotThatOfAnotherFile) {
+    const Descriptor unreadable{::open("/proc/self/mem", O_RDONLY | O_CLOEXEC)};  // EIO at 0
+    auto reader = ArchiveReader::open(unreadable.number());
+    ASSERT_TRUE(reader);
+    EXPECT_TRUE(reader->may_have_its_end());
+    EXPECT_FALSE(reader->next());
+    EXPECT_TRUE(reader->is_unreadable());
+    EXPECT_EQ(find_member(unreadable.number(), "KTLX").error().code, ErrorCode::io);
+}
+
 // 2026-11-29: what stands behind the place where an archive is cut was not in it, or was gone.
 TEST(ArchiveReader, SaysWhyAMemberIsMissing) {
     std::vector<std::byte> tar = make_archive(Kind::tar, {{"a", bytes_of(std::string(2000, 'a'))},

@@ -10,7 +10,8 @@
 // says so. Data that is unpacked only to be passed over counts as well, and so does what one header
 // makes libarchive read (128 KiB, and 4 MiB of long headers together; the directory of a zip 16
 // MiB). Sparse files are left out. From a
-// damaged archive the reader returns the members that are whole. Formats, found by content with
+// damaged archive the reader returns the members that are whole, and those behind blocks of zeros,
+// as where tars were joined. Formats, found by content with
 // libarchive: tar (also compressed by gzip, bzip2, xz, zstd or compress) and zip.
 //
 // Units     All sizes are in bytes.
@@ -70,7 +71,8 @@ struct LeftOut {
 class ArchiveReader {
   public:
     // Opens an archive, reading the descriptor from the start of the file. The descriptor must stay
-    // open as long as the reader. Returns none if the file is not an archive.
+    // open as long as the reader. Returns none if the file is not an archive. If its start cannot be
+    // read, which may pass, the reader says so.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
     // The same for an archive in memory. The bytes must outlive the reader.
     [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
