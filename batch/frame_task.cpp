@@ -15,9 +15,10 @@ namespace stormcellar::batch {
 namespace {
 
 void add(const pipeline::FillReport& report, Record& record) {
-    std::set<std::string> noted;  // each frame of a damaged partial notes it
+    std::set<std::string> noted;  // each frame near a damaged partial lacks it
     for (const pipeline::LeftOut& note : report.notes) {
-        if (noted.insert(note.reason).second) record.notes.push_back({"", note.reason});
+        if (noted.insert(note.reason).second)
+            record.left_out.push_back({"a grid of a station", note.reason});
     }
 }
 
@@ -40,6 +41,7 @@ Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const Tas
     auto store = cache::StoreWriter::open(real_file_system(), recipe.cache, false);
     if (!store) return pass_on(store);
     remove_own_leftovers(recipe, task);
+    if (Status removed = remove_damaged(*store, plan, task); !removed) return pass_on(removed);
     const Usage usage;
     Record record;
     record.number = task.number;

@@ -63,6 +63,7 @@ class GridRun {
         const auto done = files_done(brought->files);
         if (!done) return pass_on(done);
         record_.files = brought->files.size() + brought->left_out.size();
+        if (Status whole = check_whole(*brought); !whole) return pass_on(whole);
         for (const pipeline::LeftOut& refused : brought->left_out)
             leave_out(refused.path, refused.reason);
         for (const fs::path& path : brought->files) {
@@ -73,6 +74,7 @@ class GridRun {
             if (options_.stop) return fail(ErrorCode::busy, "stopped; the next run continues");
             if (Status taken = take(ingestor, path); !taken) return pass_on(taken);
         }
+        if (unread_) return tl::unexpected<Error>(std::move(*unread_));
         const auto standing = grids_standing(store_, plan_, task_);
         if (!standing) return pass_on(standing);
         record_.grids = standing->size();
@@ -94,6 +96,15 @@ class GridRun {
         options.moments = recipe_.moments;
         options.beneath = beneath;
         return options;
+    }
+
+    // A source that is not mounted is an empty directory. What a damaged tar lost is named.
+    [[nodiscard]] Status check_whole(const BroughtFiles& brought) const {
+        if (brought.files.size() >= day_.files || !brought.left_out.empty()) return {};
+        return fail(ErrorCode::io,
+                    "{}: has {} of the {} files that the plan counted; if the others are gone for "
+                    "good, make another plan",
+                    recipe_.source, brought.files.size(), day_.files);
     }
 
     // The files that need not be read again: those before the last one of which there is a grid, if
@@ -120,7 +131,14 @@ class GridRun {
     }
 
     Status take(pipeline::Ingestor& ingestor, const fs::path& path) {
-        const auto outcome = ingestor.ingest(path, true, pipeline::Tries::last);
+        auto outcome = ingestor.ingest(path, true);
+        // The others are taken first, so that another try has little left to do.
+        if (!outcome && outcome.error().code == ErrorCode::io) {
+            if (!unread_) unread_ = std::move(outcome.error());
+            return {};
+        }
+        if (!outcome && !is_shortage(outcome.error().code))
+            outcome = ingestor.give_up(path, outcome.error());
         if (!outcome) return pass_on(outcome);
         const std::string name = path.filename().native();
         std::error_code ignored;
@@ -158,6 +176,7 @@ class GridRun {
     cache::StoreWriter& store_;
     Usage usage_;
     Record record_;
+    std::optional<Error> unread_;  // of the first file that could not be read or gridded
 };
 
 }  // namespace
@@ -166,6 +185,7 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
     auto store = cache::StoreWriter::open(real_file_system(), plan.recipe().cache, false);
     if (!store) return pass_on(store);
     remove_own_leftovers(plan.recipe(), task);
+    if (Status removed = remove_damaged(*store, plan, task); !removed) return pass_on(removed);
     if (auto record = read_record(plan, task)) {
         const auto standing = grids_standing(*store, plan, task);
         if (!standing) return pass_on(standing);

@@ -45,10 +45,10 @@ Json json_of(const Record& record) {
         json["files"] = record.files;
         json["taken_by_hour"] = record.taken_by_hour;
         json["left_out_by_hour"] = record.left_out_by_hour;
-        json["left_out"] = json_of(record.left_out);
     }
     json["grids"] = record.grids;
     json["digest"] = record.digest;
+    json["left_out"] = json_of(record.left_out);
     json["notes"] = json_of(record.notes);
     json["started"] = format_utc(record.started);
     json["ended"] = format_utc(record.ended);
@@ -73,11 +73,12 @@ Record read_fields(const Json& json) {
         record.files = json.at("files");
         json.at("taken_by_hour").get_to(record.taken_by_hour);
         json.at("left_out_by_hour").get_to(record.left_out_by_hour);
-        record.left_out = reasons_of(json.at("left_out"));
     }
     record.grids = json.at("grids");
     record.digest = json.at("digest");
     record.notes = reasons_of(json.at("notes"));
+    // Records of frames have them since 2026-11-29.
+    if (json.contains("left_out")) record.left_out = reasons_of(json.at("left_out"));
     record.started = parse_utc(json.at("started").get<std::string>(), {}).value();
     record.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();
     record.cpu_s = json.at("cpu_s");

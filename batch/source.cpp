@@ -56,7 +56,8 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (!file.is_open()) return tl::unexpected(failure(path, {errno, std::system_category()}));
     auto reader = archive::ArchiveReader::open(file.number());
-    if (!reader) return fail(ErrorCode::corrupt, "{}: is no archive", path.native());
+    if (!reader)
+        return fail(ErrorCode::corrupt, "{}: is no archive, though named as one", path.native());
     while (const auto member = reader->next()) {
         if (Status taken = take(*member); !taken) return taken;
     }
@@ -67,6 +68,7 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     }
     // Others may stand behind a member where it is cut.
     const std::string& why = reader->why_ended();
+    if (reader->is_unreadable()) return fail(ErrorCode::io, "{}: {}", path.native(), why);
     if (!why.empty() && (left_out.empty() || left_out.back().reason != why))
         leave_out(std::string{}, archive::LeftOut{{}, why});
     return {};
@@ -90,6 +92,8 @@ class Walk {
                 deeper.push_back(entry->path());
             } else if (type == fs::file_type::regular) {
                 if (Status taken = file(entry->path(), name); !taken) return taken;
+            } else if (type == fs::file_type::symlink) {
+                if (listing_.links++ == 0) listing_.first_link = entry->path();
             }
         }
         if (error) return tl::unexpected(failure(parent, error));
@@ -129,7 +133,7 @@ class Walk {
                     listing_.cut.push_back(fmt::format("{}: {}", what.native(), one.reason));
                 });
             if (read || read.error().cause() != Cause::data) return read;
-            note_nameless(in);
+            listing_.cut.push_back(read.error().message);
             return {};
         }
         std::error_code error;

@@ -6,7 +6,8 @@
 //
 // Units     Sizes are in bytes; days are of UTC.
 // Threads   Pure functions, but for what they read.
-// Errors    Those of reading directories and tars, and of fetch::fetch().
+// Errors    Those of reading directories and tars, and of fetch::fetch(). What is damaged is left
+//           out; what cannot be read, which may pass, is an error.
 #pragma once
 
 #include <atomic>
@@ -53,8 +54,10 @@ struct SourceListing {
     std::vector<StationDay> days;  // by day, then station
     std::size_t nameless = 0;      // files whose names say no station and time
     std::string first_nameless;
-    // Tars and members that may hold volumes and cannot be read, with the reason.
+    // Tars and members that may hold volumes and do not give them, with the reason.
     std::vector<std::string> cut;
+    std::size_t links = 0;  // symbolic links, which are not followed
+    std::filesystem::path first_link;
 };
 // Lists the volumes that begin in the range. Tars are read from end to end.
 [[nodiscard]] Result<SourceListing> list_source(const std::string& source, UtcTime from,

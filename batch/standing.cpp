@@ -1,6 +1,7 @@
 #include "batch/standing.h"
 
 #include <span>
+#include <system_error>
 
 #include "base/checksum.h"
 #include "batch/statistics_task.h"
@@ -43,6 +44,11 @@ bool is_of(const cache::GridDescription& description, const Recipe& recipe, cons
            pipeline::is_of_grid(recipe.archive_options(1), description);
 }
 
+// The file could not be read, which says nothing of what it holds.
+bool may_be_sound(const Error& error) {
+    return error.code == ErrorCode::io || is_shortage(error.code);
+}
+
 }  // namespace
 
 Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store, const Plan& plan,
@@ -51,7 +57,7 @@ Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store
     std::vector<StandingGrid> standing;
     if (const auto* const part = std::get_if<MonthHour>(&task.work)) {
         const auto bytes = read_file(tally_path(plan, *part));
-        if (bytes) standing.push_back({{}, 0, {}, xxh3_64(*bytes), bytes->size()});
+        if (bytes) standing.push_back({{}, 0, {}, xxh3_64(*bytes), bytes->size(), {}});
         return standing;
     }
     const Where where = where_of(recipe, task);
@@ -60,16 +66,39 @@ Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store
         if (!entries) return pass_on(entries);
         for (const cache::StoreEntry& entry : *entries) {
             const auto file = cache::GridFile::open(entry.path);
+            if (!file && may_be_sound(file.error())) return pass_on(file);
             if (!file || !is_of(file->description(), recipe, task)) continue;
             const auto stamp = pipeline::stamp_of(entry.path);
             if (!stamp) continue;
             const grid::Provenance& provenance = file->description().provenance;
             standing.push_back(
                 {task.kind() == TaskKind::frames ? std::string{} : provenance.source_files.front(),
-                 stamp->modified_ns, entry.time, file->checksum(), entry.bytes_on_disk});
+                 stamp->modified_ns, entry.time, file->checksum(), entry.bytes_on_disk,
+                 entry.path});
         }
     }
     return standing;
+}
+
+Result<bool> is_sound(const StandingGrid& grid) {
+    if (grid.path.empty()) return true;  // the checksum of counts is that of all their bytes
+    const auto file = cache::GridFile::open(grid.path);
+    const Status sound = file ? file->verify() : Status{pass_on(file)};
+    if (!sound && may_be_sound(sound.error())) return pass_on(sound);
+    return sound.has_value();
+}
+
+Status remove_damaged(const cache::StoreReader& store, const Plan& plan, const Task& task) {
+    const auto standing = grids_standing(store, plan, task);
+    if (!standing) return pass_on(standing);
+    for (const StandingGrid& grid : *standing) {
+        const auto sound = is_sound(grid);
+        if (!sound) return pass_on(sound);
+        std::error_code error;
+        if (!*sound) std::filesystem::remove(grid.path, error);
+        if (error) return fail(ErrorCode::io, "{}: {}", grid.path.native(), error.message());
+    }
+    return {};
 }
 
 std::string digest_of(const std::vector<StandingGrid>& grids) {

@@ -1,11 +1,13 @@
 // batch/standing.h -- the grids of a task that the cache holds, whoever made them.
 //
 // Threads   Pure functions, but for the files.
-// Errors    Those of listing the cache. A grid that cannot be opened, is of another shape or was
-//           made by another version of this software does not stand.
+// Errors    Those of listing the cache and of reading its files. A grid whose header is damaged,
+// that
+//           is of another shape or was made by another version of this software does not stand.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,12 +23,19 @@ struct StandingGrid {
     UtcTime time;
     std::uint64_t checksum = 0;
     std::uint64_t bytes = 0;  // on disk
+    std::filesystem::path path;
 };
 
 // Returns the grids of the task in order of moment, then time. Of statistics it is the file of
 // counts.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
+
+// Returns true if all bytes of the grid are those that were written.
+[[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
+// Removes those grids of a task that are damaged, so that they are made again.
+[[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,
+                                    const Task& task);
 
 // Identifies grids to the byte, in their order.
 [[nodiscard]] std::string digest_of(const std::vector<StandingGrid>& grids);

@@ -47,12 +47,12 @@ void add(const Record& record, double cost_s, Totals& totals) {
         ++totals.grid_tasks;
         totals.grids += record.grids;
         totals.files += record.files;
-        totals.left_out += record.left_out.size();
         StationHours& hours = totals.stations[record.station];
         add_hours(record.taken_by_hour, hours.taken);
         add_hours(record.left_out_by_hour, hours.left_out);
-        if (!record.left_out.empty()) totals.with_left_out.push_back(record.number);
     }
+    totals.left_out += record.left_out.size();
+    if (!record.left_out.empty()) totals.with_left_out.push_back(record.number);
     totals.cpu_s += record.cpu_s;
     totals.cost_s += cost_s;
     totals.bytes_read += record.bytes_read;

@@ -157,6 +157,13 @@ std::vector<std::string> known_stations(const Recipe& recipe, const SourceListin
     return {names.begin(), names.end()};
 }
 
+std::string links_text(const SourceListing& listing) {
+    return fmt::format(
+        "{} symbolic {} not followed, such as {}; a plan of each directory that they "
+        "lead to may have the same --cache",
+        listing.links, listing.links == 1 ? "link is" : "links are", listing.first_link.native());
+}
+
 // Sets the grids of the recipe and lists what belongs to them.
 Result<SourceListing> take_stations(const PlanOptions& options, Recipe& recipe) {
     const bool is_bucket = batch::is_address(recipe.source);
@@ -176,6 +183,7 @@ Result<SourceListing> take_stations(const PlanOptions& options, Recipe& recipe) 
                                listing->first_nameless);
         }
         if (!listing->cut.empty()) more += "; left out: " + listing->cut.front();
+        if (listing->links > 0) more += "; " + links_text(*listing);
         return fail(ErrorCode::not_found, "{}: has no volume between {} and {}{}", recipe.source,
                     format_utc(from), format_utc(to), more);
     }
@@ -275,6 +283,7 @@ int run_plan(const PlanOptions& options) {
             "as {}",
             listing->nameless, plural(listing->nameless, "file"), listing->first_nameless));
     }
+    if (listing->links > 0) print_note(printable(links_text(*listing)));
     for (const std::string& cut : listing->cut)
         print_note(fmt::format("some of its volumes may be missing: {}", printable(cut)));
     if (Status written = batch::write_plan(options.output, recipe, listing->days); !written) {

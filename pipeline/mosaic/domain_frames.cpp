@@ -115,8 +115,8 @@ Result<FrameStanding> standing_of(const cache::StoreReader& store, std::span<con
     if (!found) return pass_on(found);
     const Domain* const domain = *found;
     std::vector<std::string> ignored;
-    const auto partials =
-        MappedPartials::open(store, *domain, frame.moment, frame.time, frame.time, ignored);
+    const auto partials = MappedPartials::open(store, *domain, frame.moment, frame.time, frame.time,
+                                               ignored, Unreadable::is_an_error);
     if (!partials) return pass_on(partials);
     const auto views = partials->views();
     if (!lies_between(views, frame.time)) return FrameStanding::not_due;

@@ -51,13 +51,15 @@ Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store
 
 Result<MappedPartials> MappedPartials::open(const cache::StoreReader& store, const Domain& domain,
                                             level2::Moment moment, UtcTime from, UtcTime to,
-                                            std::vector<std::string>& problems) {
+                                            std::vector<std::string>& problems,
+                                            Unreadable unreadable) {
     MappedPartials all;
     all.store_ = &store;
     all.domain_ = &domain;
     all.moment_ = moment;
     all.from_ = from;
     all.to_ = to;
+    all.unreadable_ = unreadable;
     if (Status loaded = all.load(problems); !loaded) return pass_on(loaded);
     return all;
 }
@@ -76,7 +78,7 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
         for (const cache::StoreEntry& entry : *entries) {
             if (bad_.contains(entry.path)) continue;
             auto file = cache::GridFile::open(entry.path);
-            if (!file && is_shortage(file.error().code)) return pass_on(file);
+            if (!file && ends_it(file.error())) return pass_on(file);
             if (!file) {
                 problems.push_back(file.error().message);
                 bad_.insert(entry.path);
@@ -91,6 +93,12 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
         std::move(of_station.begin(), of_station.end(), std::back_inserter(files_));
     }
     return {};
+}
+
+bool MappedPartials::ends_it(const Error& error) const {
+    const bool cannot_be_read =
+        error.code == ErrorCode::io && unreadable_ == Unreadable::is_an_error;
+    return cannot_be_read || is_shortage(error.code);
 }
 
 std::vector<PartialView> MappedPartials::views() const {
@@ -112,6 +120,7 @@ Result<bool> MappedPartials::drop_damaged(std::vector<std::string>& problems) {
     for (const auto& [path, file] : files_) {
         const Status good = file.verify();
         if (good) continue;
+        if (ends_it(good.error())) return pass_on(good);
         problems.push_back(good.error().message);
         bad_.insert(path);
     }

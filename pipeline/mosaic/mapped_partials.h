@@ -27,6 +27,10 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
+// What becomes of a partial that cannot be read, which may pass: frames are made without it, as the
+// daemon does, which makes them again later; or it is an error, for who makes each frame once.
+enum class Unreadable { is_left_out, is_an_error };
+
 struct OpenPartial {
     std::filesystem::path path;
     cache::GridFile file;
@@ -37,10 +41,11 @@ class MappedPartials {
     // Opens those that count for an instant between `from` and `to`. Partials that cannot be opened
     // are named in `problems`; those of an earlier configuration are left out. `store` and `domain`
     // must outlive the object. Errors: the cache cannot be read; exhausted, since a partial that
-    // there was no descriptor for is not to blame.
+    // there was no descriptor for is not to blame; also io as `unreadable` says.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
                                        level2::Moment moment, UtcTime from, UtcTime to,
-                                       std::vector<std::string>& problems);
+                                       std::vector<std::string>& problems,
+                                       Unreadable unreadable = Unreadable::is_left_out);
 
     // Valid until a partial is dropped.
     [[nodiscard]] std::vector<PartialView> views() const;
@@ -52,11 +57,13 @@ class MappedPartials {
 
   private:
     Status load(std::vector<std::string>& problems);
+    [[nodiscard]] bool ends_it(const Error& error) const;
 
     const cache::StoreReader* store_ = nullptr;
     const Domain* domain_ = nullptr;
     level2::Moment moment_ = level2::Moment::ref;
     UtcTime from_, to_;
+    Unreadable unreadable_ = Unreadable::is_left_out;
     std::set<std::filesystem::path> bad_;  // cannot be opened, or damaged
     std::vector<OpenPartial> files_;
 };

@@ -322,8 +322,10 @@ Result<FrameMade> MosaicMaker::make_again(const cache::GridName& frame, int thre
                     domain->name, domain->interval.count(), format_utc(frame.time));
     }
     const std::scoped_lock lock(frames_of(domain->name, frame.moment));
-    auto partials =
-        MappedPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, problems);
+    const Unreadable unreadable =
+        frames_when_ == FramesWhen::asked_for ? Unreadable::is_an_error : Unreadable::is_left_out;
+    auto partials = MappedPartials::open(*store_, *domain, frame.moment, frame.time, frame.time,
+                                         problems, unreadable);
     if (!partials) return pass_on(partials);
     return make({*domain, frame.moment, frame.time, threads}, *partials, problems);
 }

@@ -68,6 +68,7 @@ TEST(Source, ListsADirectoryByDayAndStation) {
     EXPECT_EQ(listing->days[2].station, "KTLX");
     EXPECT_EQ(listing->nameless, 2U);
     EXPECT_THAT(listing->first_nameless, AnyOf("a/readme", "d\\xEFx", "d\\xefx"));
+    EXPECT_EQ(listing->links, 0U);
     EXPECT_EQ(list_source((directory / "none").native(), {}, {}).error().code,
               ErrorCode::not_found);
 }
@@ -93,6 +94,31 @@ TEST(Source, BringsTheFilesOfARangeInTheirOrder) {
     recipe.to = at("2013-05-20T21:40Z");
     EXPECT_THAT(names_of(*bring(recipe, what, scratch.path(), stop)),
                 ElementsAre("KTLX20130520_203000", "KTLX20130520_210000", "KTLX20130520_220000"));
+}
+
+// 2026-11-29: links were passed over without a word.
+TEST(Source, LinksAreNotFollowedAndCounted) {
+    const testing::TemporaryDirectory directory, other;
+    write(directory / "KTLX20130520_200356");
+    write(other / "KTLX20130520_210000");
+    fs::create_directory_symlink(other.path(), directory / "2012");
+    fs::create_symlink(other / "KTLX20130520_210000", directory / "KTLX20130520_210000");
+    const auto listing = list_source(directory.path().native(), at("2013-05-20"), at("2013-05-22"));
+    ASSERT_TRUE(listing);
+    EXPECT_EQ(listing->days.at(0).files, 1U);
+    EXPECT_EQ(listing->links, 2U);
+    EXPECT_EQ(listing->first_link.parent_path(), directory.path());
+}
+
+// 2026-11-29: its name was blamed, which says all that it must.
+TEST(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
+    const testing::TemporaryDirectory directory;
+    write(directory / "README");
+    write(directory / "day.tar", "<html>404</html>");
+    const auto listing = list_source(directory.path().native(), at("2013-05-20"), at("2013-05-22"));
+    ASSERT_TRUE(listing);
+    EXPECT_THAT(listing->cut, ElementsAre(HasSubstr("day.tar: is no archive")));
+    EXPECT_EQ(listing->nameless, 1U);
 }
 
 // 2026-11-29: what lay behind the cut was neither made nor named.

@@ -13,6 +13,7 @@
 #include "batch/record.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
+#include "tests/batch/failing_reads.h"
 #include "tests/batch/small_archive.h"
 #include "tests/fetch/mock_bucket.h"
 
@@ -162,6 +163,104 @@ TEST_F(BatchTasks, WhatMayPassIsAnErrorOfTheSystem) {
     ASSERT_FALSE(without);
     EXPECT_EQ(without.error().cause(), Cause::system);
     EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
+}
+
+// 2026-11-29: a directory in whose place nothing was mounted made a task that was done for good.
+TEST_F(BatchTasks, ASourceThatLacksFilesOfThePlanMayCome) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    fs::rename(raw_ / "day", directory_ / "unmounted");
+    fs::create_directory(raw_ / "day");
+    const auto without = run(plan, 0);
+    ASSERT_FALSE(without);
+    EXPECT_EQ(without.error().code, ErrorCode::io);
+    EXPECT_THAT(without.error().message, HasSubstr("has 0 of the 3 files that the plan counted"));
+    EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
+    fs::remove(raw_ / "day");
+    fs::rename(directory_ / "unmounted", raw_ / "day");
+    EXPECT_EQ(run(plan, 0)->record.grids, 3U);
+}
+
+// 2026-11-29: it was left out for good, and the task was done.
+TEST_F(BatchTasks, AFileThatCannotBeReadMayBeReadLater) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    {
+        const testing::FailingReads reads(pipeline::sequence[1]);
+        const auto without = run(plan, 0);
+        ASSERT_FALSE(without);
+        EXPECT_EQ(without.error().code, ErrorCode::io);
+        EXPECT_THAT(without.error().message, HasSubstr(pipeline::sequence[1]));
+    }
+    EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
+    run_all(plan);
+    const Plan other = plan_of(recipe("two"), "plan-two");
+    run_all(other);
+    EXPECT_EQ(tree_of(directory_ / "one"), tree_of(directory_ / "two"));
+}
+
+// 2026-11-29: what a tar did not give in such a moment was left out for good.
+TEST_F(BatchTasks, ATarThatCannotBeReadMayBeReadLater) {
+    fs::create_directory(directory_ / "tars");
+    const std::string command = fmt::format("tar -C {} -cf {} day", raw_.native(),
+                                            (directory_ / "tars/20050822.tar").native());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    Recipe from_tar = recipe("one");
+    from_tar.source = (directory_ / "tars").native();
+    const Plan plan = plan_of(from_tar, "plan");
+    {
+        const testing::FailingReads reads("20050822.tar");
+        const auto without = run(plan, 0);
+        ASSERT_FALSE(without);
+        EXPECT_EQ(without.error().code, ErrorCode::io) << without.error().message;
+        const auto listing = list_source(from_tar.source, from_tar.from, from_tar.to);
+        ASSERT_FALSE(listing);
+        EXPECT_EQ(listing.error().code, ErrorCode::io) << listing.error().message;
+    }
+    EXPECT_EQ(run(plan, 0)->record.grids, 3U);
+}
+
+// 2026-11-29: frames were made without a station's grid that could not be read, and stayed so.
+TEST_F(BatchTasks, FramesWaitForAGridThatCannotBeRead) {
+    run_all(plan_of(recipe("one"), "plan-one"));
+    const Plan plan = plan_of(recipe("two"), "plan-two");
+    ASSERT_TRUE(run(plan, 0));
+    std::vector<fs::path> grids;
+    for (const auto& entry : fs::directory_iterator(partials("two")))
+        grids.push_back(entry.path());
+    std::ranges::sort(grids);
+    ASSERT_THAT(grids, SizeIs(3));
+    {
+        const testing::FailingReads reads(grids[0].filename());
+        const auto without = run(plan, 1);
+        ASSERT_FALSE(without);
+        EXPECT_EQ(without.error().code, ErrorCode::io) << without.error().message;
+    }
+    EXPECT_FALSE(fs::exists(record_path(plan.directory(), 1)));
+    run_all(plan);
+    EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+}
+
+// 2026-11-29: frames without a damaged grid were made without a word, and a deep check passed it.
+TEST_F(BatchTasks, ADamagedGridIsNamedAndMadeAgain) {
+    run_all(plan_of(recipe("one"), "plan-one"));
+    const Plan plan = plan_of(recipe("two"), "plan-two");
+    ASSERT_TRUE(run(plan, 0));
+    const auto grid = cache::StoreReader::open(directory_ / "two")
+                          ->list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt)
+                          ->at(1)
+                          .path;
+    std::vector<std::byte> bytes = *read_file(grid);
+    bytes[bytes.size() - 5] ^= std::byte{4};
+    ASSERT_TRUE(write_file_atomically(real_file_system(), grid, bytes));
+    EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(1));
+    const auto frames = run(plan, 1);
+    ASSERT_TRUE(frames) << frames.error().message;
+    ASSERT_THAT(frames->record.left_out, SizeIs(1));
+    EXPECT_THAT(frames->record.left_out[0].reason, HasSubstr(grid.native()));
+    EXPECT_EQ(check(plan, {})->done.left_out, 1U);
+    EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(2)) << "the grid, and frames without it";
+    run_all(plan);
+    EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
+    EXPECT_THAT(check(plan, {true, {}})->changed, IsEmpty());
 }
 
 TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
