@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <future>
+#include <iterator>
 #include <set>
 #include <system_error>
 #include <thread>
@@ -11,6 +12,7 @@
 
 #include "base/byte_size.h"
 #include "base/steady_time.h"
+#include "cli/loop/files_loop.h"
 #include "cli/picture/picture.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/progress.h"
@@ -306,6 +308,11 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     }
     grids.report.left_out.insert(grids.report.left_out.begin(), plan->left_out.begin(),
                                  plan->left_out.end());
+    if (!call.files.empty()) {
+        auto rejected = rejected_among(call.files, *catalog);
+        if (!rejected) return pass_on(rejected);
+        std::ranges::move(*rejected, std::back_inserter(grids.report.left_out));
+    }
     std::set<UtcTime> times(grids.report.frames.begin(), grids.report.frames.end());
     if (!plan->mosaic) {
         for (const ArchiveVolume& volume : *volumes)

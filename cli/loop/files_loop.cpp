@@ -21,6 +21,7 @@
 #include "pipeline/care/rebuild_catalog.h"
 #include "pipeline/drop/archive_volumes.h"
 #include "pipeline/keep/instance_lock.h"
+#include "stormcellar/base/member_name.h"
 #include "stormcellar/base/station_rule.h"
 
 namespace stormcellar::cli {
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 // A process that was just killed may hold the lock a moment longer.
 constexpr int lock_tries = 20;
 constexpr auto lock_pause = std::chrono::milliseconds{50};
+constexpr std::size_t most_rejected_named = 20;
 // All volumes lie between these, in milliseconds since 1970.
 constexpr UtcTime earliest{std::chrono::days{1}}, latest{std::chrono::days{100'000}};
 
@@ -120,10 +122,27 @@ Status make_catalog(const fs::path& catalog, const NamedFiles& files, const Loop
     bar.clear();
     for (const Error& problem : report->problems)
         print_note(printable(problem.message));
-    if (report->rejected > 0) {
-        print_note(fmt::format("{} {} no volume that can be decoded", report->rejected,
-                               report->rejected == 1 ? "file holds" : "files hold"));
+    return {};
+}
+
+bool is_among(const std::set<fs::path>& files, const fs::path& path) {
+    if (files.contains(path) || files.contains(path.parent_path())) return true;  // also a chunk
+    const auto names = member_names_in(path);
+    return std::ranges::any_of(
+        names, [&](const MemberName& name) { return files.contains(name.archive); });
+}
+
+Status say_rejected(const fs::path& catalog, const NamedFiles& files) {
+    const auto reader = catalog::CatalogReader::open(catalog);
+    if (!reader) return pass_on(reader);
+    const auto rejected = rejected_among(files.named, *reader);
+    if (!rejected) return pass_on(rejected);
+    for (std::size_t i = 0; i < std::min(rejected->size(), most_rejected_named); ++i) {
+        const pipeline::LeftOut& file = (*rejected)[i];
+        print_note(printable(fmt::format("left out: {}: {}", file.path.native(), file.reason)));
     }
+    if (rejected->size() > most_rejected_named)
+        print_note(fmt::format("left out: {} more", rejected->size() - most_rejected_named));
     return {};
 }
 
@@ -158,12 +177,30 @@ Status take_range(const fs::path& catalog, LoopOptions& options) {
 
 }  // namespace
 
+Result<std::vector<pipeline::LeftOut>> rejected_among(const std::set<fs::path>& files,
+                                                      const catalog::CatalogReader& catalog) {
+    const auto stations = catalog.station_names();
+    if (!stations) return pass_on(stations);
+    std::vector<pipeline::LeftOut> rejected;
+    for (const std::string& station : *stations) {
+        // Of the volumes, only the newest one is asked for.
+        const auto rows = catalog.list(station, {{}, {}, true, 1});
+        if (!rows) return pass_on(rows);
+        for (const catalog::CatalogEntry& row : *rows) {
+            if (row.state == catalog::FileState::rejected && is_among(files, row.path))
+                rejected.push_back({row.path, row.reason});
+        }
+    }
+    return rejected;
+}
+
 Status catalog_files(LoopOptions& options, Interrupt& interrupt) {
     auto files = find_files(options.files);
     if (!files) return pass_on(files);
     const auto catalog = catalog_directory(options.cache, *files);
     if (!catalog) return pass_on(catalog);
     if (auto made = make_catalog(*catalog, *files, options, interrupt); !made) return made;
+    if (auto said = say_rejected(*catalog, *files); !said) return said;
     options.archive.catalog = catalog->native();
     options.archive_files = std::move(files->named);
     return take_range(*catalog, options);

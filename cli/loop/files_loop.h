@@ -9,9 +9,15 @@
 // Threads   One thread at a time.
 #pragma once
 
+#include <filesystem>
+#include <set>
+#include <vector>
+
 #include "cli/loop/loop_options.h"
 #include "cli/shared/interrupt.h"
+#include "pipeline/care/archive_fill.h"
 #include "stormcellar/base/result.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::cli {
 
@@ -21,6 +27,11 @@ namespace stormcellar::cli {
 // standard input; those of InputFiles::find() and of rebuild_catalog(); busy if another loop
 // catalogs the same directory; not_found if no file holds a volume.
 [[nodiscard]] Status catalog_files(LoopOptions& options, Interrupt& interrupt);
+
+// Returns those of the files, and of the members of these archives, that hold no volume or cannot
+// be read, by station. catalog_files() has named them.
+[[nodiscard]] Result<std::vector<pipeline::LeftOut>> rejected_among(
+    const std::set<std::filesystem::path>& files, const catalog::CatalogReader& catalog);
 
 // Removes the catalog, where it is private and not to be kept.
 [[nodiscard]] Status leave_files(const LoopOptions& options);

@@ -103,6 +103,25 @@ TEST_F(FilesLoop, ACacheThatIsNamedHoldsGridsAndCatalog) {
     EXPECT_EQ(json_of({sequence()}, {"--cache", cache})["grids_found"], 5);
 }
 
+// 2026-11-29: they were missing without a word.
+TEST_F(FilesLoop, MembersThatHoldNoVolumeAreNamedEachTime) {
+    const fs::path day = directory_ / "day", tar = directory_ / "day.tar";
+    fs::create_directory(day);
+    fs::copy_file(sequence("KBGM20050822_025001.gz"), day / "KBGM20050822_025001.gz");
+    std::ofstream(day / "KBGM20050822_025549.gz") << "<html>404</html>";
+    std::ofstream(day / "notes") << "";
+    ASSERT_EQ(std::system(("tar cf " + tar.string() + " -C " + day.string() + " .").c_str()), 0);
+    for (int turn = 1; turn <= 2; ++turn) {
+        const auto result = run({tar.string()});
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_THAT(result.err, HasSubstr("left out: " + tar.string() + "!./KBGM20050822_025549"));
+        EXPECT_THAT(result.err, HasSubstr(tar.string() + "!./notes: "));
+        const auto made = nlohmann::json::parse(result.out);
+        EXPECT_EQ(made["frames"], 1);
+        EXPECT_EQ(made["left_out"].size(), 2U) << made["left_out"];
+    }
+}
+
 TEST_F(FilesLoop, SaysWhatItCannotUse) {
     const auto piped = run({"-"});
     EXPECT_EQ(piped.status, 2);
