@@ -213,7 +213,8 @@ struct ArchiveReader::Impl {
         ::archive_entry* entry = nullptr;
         const bool passed = archive_read_data_skip(handle.get()) >= ARCHIVE_WARN;
         const int code = passed ? read_header(entry, most_header_bytes) : ARCHIVE_FATAL;
-        if (code >= ARCHIVE_WARN && code != ARCHIVE_EOF) return entry;
+        // At a header that is damaged it says that the next block may be one.
+        if (code == ARCHIVE_OK || code == ARCHIVE_WARN) return entry;
         at_end = true;
         if (code == ARCHIVE_EOF && has_its_end()) return nullptr;
         if (code == ARCHIVE_EOF) {
@@ -230,7 +231,9 @@ struct ArchiveReader::Impl {
     // long, or it was time.
     bool end_at_bound() {
         if (header.is_spent() || of_source.is_spent()) {
-            end_with("has a header that is too long, or too many long ones: the rest is not read");
+            end_with(
+                "has a header that is too long, too many long ones, or zeros in place of one: the "
+                "rest is not read");
             return true;
         }
         if (header.is_late() || of_source.is_late()) {

@@ -189,6 +189,8 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     auto reader = ArchiveReader::open(lost_page);
     EXPECT_THAT(names_of(*reader), ElementsAre("a"));
     EXPECT_TRUE(reader->is_cut()) << "what follows is no header";
+    EXPECT_THAT(reader->why_ended(), HasSubstr("Damaged tar archive"));
+    EXPECT_EQ(reader->left_out().size(), 1U);
 
     const auto second = make_archive(Kind::tar, {{"d", large}, {"b", large}});
     std::vector<std::byte> joined = first;
