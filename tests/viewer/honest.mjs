@@ -14,7 +14,14 @@ const upstream = new URL(address);
 let events = [];
 let listed = (path, body) => body;
 let isRefusing = false; // it has no place for another stream
-let isStopped = false; // a proxy in front of it says so
+let isStopped = false; // a proxy in front of it says so, in one of these ways
+const refusals = [
+  [502, 'text/html', '<h1>Bad gateway</h1>'],
+  [404, 'text/plain; charset=utf-8', '404 page not found'],
+  [503, 'text/plain', 'no healthy upstream'],
+  [401, 'text/html', '<h1>Sign in</h1>'],
+];
+let refusal = refusals[0];
 let isHanging = false; // it takes connections, and sends nothing
 let isBreaking = (path) => false; // it breaks off before it answers
 let isSlow = (path) => false; // it answers two seconds later
@@ -24,9 +31,9 @@ function pass(asked, answer, waited = false) {
   if (isHanging) return;
   if (!waited && isSlow(asked.url)) return void setTimeout(() => pass(asked, answer, true), 2000);
   if (isBreaking(asked.url)) return void answer.destroy();
-  if (isStopped) return void answer.writeHead(502, { 'Content-Type': 'text/html' }).end('<h1>Bad gateway</h1>');
+  if (isStopped) return void answer.writeHead(refusal[0], { 'Content-Type': refusal[1] }).end(refusal[2]);
   if (asked.url.startsWith('/api/v1/events')) {
-    if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10' }).end('{"error": "as many as there may be"}');
+    if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10', 'Content-Type': 'text/plain; charset=utf-8' }).end('As many as there may be');
     answer.writeHead(200, { 'Content-Type': 'text/event-stream' });
     answer.write(`retry: 200\n\n${events.join('')}`);
     streams.add(answer);
@@ -139,13 +146,14 @@ try {
   tell('reset', { type: 'reset', reason: 'events were lost' });
   check('and so it does when events were lost', await asksFor('/api/v1/grids?', asked + 1));
 
-  // ---- A server behind a proxy that is gone (2026-11-28: the page looked as if it were live)
-  isStopped = true;
-  streams.forEach((stream) => stream.end());
-  await new Promise((done) => setTimeout(done, 5000));
-  check(`a server that is gone behind a proxy: ${await text('notice')}`, (await text('notice')).includes('does not answer') && (await page.evaluate(lit)) === 'false');
-  isStopped = false;
-  check('it is back', (await isQuiet()) && (await page.evaluate(lit)) === 'true');
+  // ---- A server behind a proxy that is gone (2026-11-28, 29: the page looked as if it were live)
+  for (refusal of refusals) {
+    isStopped = true;
+    streams.forEach((stream) => stream.end());
+    check(`a server that is gone behind a proxy that says ${refusal[0]} ${refusal[1]}: ${await says('notice', 'does not answer')}`, (await text('notice')).includes('does not answer') && (await page.evaluate(lit)) === 'false');
+    isStopped = false;
+    check('it is back', (await isQuiet()) && (await page.evaluate(lit)) === 'true');
+  }
 
   // 2026-11-28: a region that was asked for meanwhile was not asked for again.
   isStopped = true;

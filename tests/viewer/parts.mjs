@@ -105,6 +105,16 @@ await viewer.show(inParts(scene));
 const ofPointer = await readAt(resting);
 check(`under the pointer: ${ofPointer[0].replaceAll('\n', ', ')}`, ofPointer.filter((text) => /^-?[\d.]+ dBZ at [\d.]+ km\n/.test(text)).length > 1);
 
+// ---- Layers of halved cells are read as they are drawn, and that is said (2026-11-29: it was not, and the height was that of another value)
+for (const [layer, pattern] of [['maximum=1', /^-?[\d.]+ dBZ\nmaximum of the column\ngreatest of [248] x [248] cells\n/], ['height-km=3', /^-?[\d.]+ dBZ at 3\.0 km\non the plane\ngreatest of [248] x [248] cells\n/]]) {
+  await viewer.show(`memory=4&volume=0&tilt=0&field-of-view=0&azimuth=180&domain=${station}&moment=REF&${layer}`);
+  const read = await readAt([[280, 200], [200, 220], [330, 260], [300, 230], [250, 240], [260, 180]]);
+  const values = read.filter((text) => text.includes('dBZ'));
+  check(`${layer}, halved: ${(values[0] ?? '').replaceAll('\n', ', ')}`, values.length > 0 && values.every((text) => pattern.test(text)));
+}
+await viewer.show(inParts(scene));
+await complete();
+
 // ---- A finger, which never rests over the picture, reads the same (2026-11-28: it read the column of the ground behind)
 const [tapped] = ofPointer.flatMap((text, i) => (/^-?[\d.]+ dBZ at/.test(text) ? [i] : []));
 await viewer.settled(() => page.resize(560, 420));
@@ -133,7 +143,7 @@ browser.listeners.push(({ method, params: { requestId } }) => {
   if (method !== 'Fetch.requestPaused') return;
   const { responseCode, body } = answer;
   if (responseCode === 0) return void page.send('Fetch.continueRequest', { requestId });
-  page.send('Fetch.fulfillRequest', { requestId, responseCode, body: Buffer.from(JSON.stringify({ error: body })).toString('base64') });
+  page.send('Fetch.fulfillRequest', { requestId, responseCode, responseHeaders: [{ name: 'Content-Type', value: 'application/json' }], body: Buffer.from(JSON.stringify({ error: body })).toString('base64') });
   if (responseCode === 500) answer = { responseCode: 0, body: '' };
 });
 await page.evaluate('delete document.documentElement.dataset.missing; undefined');

@@ -64,7 +64,7 @@ try {
   const fail = ({ method, params }) => {
     if (method !== 'Fetch.requestPaused') return;
     if (isWell) page.send('Fetch.continueRequest', { requestId: params.requestId });
-    else page.send('Fetch.fulfillRequest', { requestId: params.requestId, responseCode: 500, body: Buffer.from('{"error":"trouble"}').toString('base64') });
+    else page.send('Fetch.fulfillRequest', { requestId: params.requestId, responseCode: 500, responseHeaders: [{ name: 'Content-Type', value: 'application/json' }], body: Buffer.from('{"error":"trouble"}').toString('base64') });
   };
   browser.listeners.push(fail);
   await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/VEL/*/packed*' }] });

@@ -20,8 +20,10 @@ namespace {
 // The doors of the data server to a catalog.
 class OpenDoors {
   public:
-    explicit OpenDoors(const ServedVolumes& volumes) {
+    explicit OpenDoors(const ServedVolumes& volumes,
+                       const std::vector<WebPart>& serve = WebConfig{}.serve) {
         WebSetup setup;
+        setup.web.serve = serve;
         setup.catalog = volumes.state() / "catalog";
         setup.cache = cache_.path();
         doors_ = doors_to(open_sources(setup).value(), measures_);
@@ -33,6 +35,20 @@ class OpenDoors {
     Measures measures_;
     std::shared_ptr<const Doors> doors_;
 };
+
+// 2026-11-29: the page offered raw files that nobody gave.
+TEST(ApiVolumes, NameNoFileWhereNoneAreGiven) {
+    STORMCELLAR_NEED_DATA();
+    const ServedVolumes volumes;
+    const auto newest = [&](OpenDoors&& doors) {
+        const Answer answer = doors.get("/api/v1/stations/KTLX/volumes");
+        return nlohmann::json::parse(body_of(answer)).at("volumes").back();
+    };
+    EXPECT_EQ(newest(OpenDoors(volumes)).at("raw"), "KTLX20170101_030027_V06");
+    const auto without = newest(OpenDoors(volumes, {WebPart::grids}));
+    EXPECT_TRUE(without.at("raw").is_null()) << without;
+    EXPECT_EQ(without.at("name"), "KTLX20170101_030027_V06");
+}
 
 // 2026-11-28: of the split cuts of a volume the page showed the Doppler halves of reflectivity,
 // with range-folded echo and half of the range.

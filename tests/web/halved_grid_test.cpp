@@ -61,8 +61,8 @@ Cell greatest_of(const grid::BrickView& view, int x, int y, int z, bool by_magni
         }
     }
     if (made.status == CellStatus::value) return made;
-    if (has_no_echo) return {CellStatus::no_echo, 0};
-    return {has_folded ? CellStatus::range_folded : CellStatus::not_seen, 0};
+    if (has_folded) return {CellStatus::range_folded, 0};
+    return {has_no_echo ? CellStatus::no_echo : CellStatus::not_seen, 0};
 }
 
 void expect_maxima(level2::Moment moment, bool by_magnitude) {

@@ -52,13 +52,6 @@ class BrickCodes {
     std::array<Code, grid::brick_cells> codes_{};
 };
 
-// With 1 and 2 swapped, and back by the same, codes stand in the order in which the maximum takes
-// them: not seen, range folded, no echo, values. The compiler then takes 16 cells at once.
-template <class Code>
-Code swapped(Code code) {
-    return code == 1 || code == 2 ? static_cast<Code>(code ^ 3) : code;
-}
-
 // Makes one cell of up to four. Codes below 3 are states.
 class CellHalver {
   public:
@@ -87,7 +80,7 @@ class CellHalver {
     }
     [[nodiscard]] std::uint16_t maximum() const {
         if (counts_[3] > 0) return greatest_;
-        return counts_[1] > 0 ? 1 : counts_[2] > 0 ? 2 : 0;
+        return counts_[2] > 0 ? 2 : counts_[1] > 0 ? 1 : 0;
     }
     [[nodiscard]] std::uint16_t mean() const {
         const auto [not_seen, no_echo, folded, values] = counts_;
@@ -173,7 +166,8 @@ class GridHalver {
                    grid::brick_edge;
     }
 
-    // The greatest code. Beside the grid's edge a uniform brick goes on, and others are not seen.
+    // The greatest code: the states are in the order in which the maximum takes them. Beside the
+    // grid's edge a uniform brick goes on, and others are not seen.
     void take_greatest(const grid::BrickExtent& extent, int half_x, int half_y) {
         for (int x = 0; 2 * x < extent.x; ++x) {
             for (int y = 0; 2 * y < extent.y; ++y) {
@@ -183,9 +177,8 @@ class GridHalver {
                 const Code* north_east = source_.column(2 * x + 1, 2 * y + 1);
                 std::array<Code, grid::brick_edge> greatest;
                 for (std::size_t z = 0; z < greatest.size(); ++z) {
-                    greatest[z] =
-                        swapped(std::max(std::max(swapped(south_west[z]), swapped(north_west[z])),
-                                         std::max(swapped(south_east[z]), swapped(north_east[z]))));
+                    greatest[z] = std::max(std::max(south_west[z], north_west[z]),
+                                           std::max(south_east[z], north_east[z]));
                 }
                 std::copy_n(greatest.begin(), extent.z, halved_column(half_x, half_y, x, y));
             }

@@ -4,7 +4,7 @@
 // edge of a grid with an odd number of columns or rows). Levels are never halved, so heights stay
 // exact. Cells that are not seen do not count. Of the others, by
 //   maximum  the largest value if there is one (of VEL, which has a sign, the value farthest from
-//            0); else no echo if there is one; else range folded
+//            0); else range folded if one is, so that such air never looks clear; else no echo
 //   mean     range folded if most cells are; else no echo if there are more of those than values;
 //            else the mean of the values, as they are stored (of REF in dBZ)
 // A grid that is halved more than once is made of the one before, so `mean` is a mean of means.

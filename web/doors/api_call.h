@@ -41,6 +41,7 @@ struct ApiSources {
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
     std::shared_ptr<const EventFeed> feed = nullptr;  // null: nobody watches who is silent
+    bool gives_volumes = true;                        // raw files are served, too
 };
 
 class ApiState {

@@ -155,7 +155,8 @@ Answer api_volumes(const ApiCall& call) {
         const auto time_json = [](std::optional<UtcTime> time) {
             return time ? ApiJson(format_utc(*time)) : ApiJson();
         };
-        const auto raw = given_name(entry);
+        const auto raw =
+            call.state.sources().gives_volumes ? given_name(entry) : std::optional<std::string>{};
         list.push_back({{"name", entry.path.filename().string()},
                         {"raw", raw ? ApiJson(*raw) : ApiJson()},
                         {"number_in_file", entry.number_in_file},

@@ -133,11 +133,13 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {
-        const auto api = std::make_shared<ApiDoor>(ApiSources{.grids = sources.grids,
-                                                              .catalog = setup.catalog,
-                                                              .reader = sources.catalog,
-                                                              .kept = kept,
-                                                              .feed = watched.feed});
+        const auto api = std::make_shared<ApiDoor>(
+            ApiSources{.grids = sources.grids,
+                       .catalog = setup.catalog,
+                       .reader = sources.catalog,
+                       .kept = kept,
+                       .feed = watched.feed,
+                       .gives_volumes = setup.web.serves(WebPart::volumes)});
         api->set_long_workers(std::make_shared<WorkQueue>(
             static_cast<unsigned>(limits.renders), static_cast<std::size_t>(limits.waiting)));
         doors->add("/api/v1", api);

@@ -97,9 +97,10 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const ground = geometry.ground(x, y);
     const points = [...(wayWithin(geometry, box, x, y) ?? []), ...(ground ? [ground] : [])];
     const cells = points.length > 0 && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
-    const halvings = cells?.grid.halvings ?? 0;
     const picked = (layer: PickedLayer, at: Plane, heightM: number, status: CellState | null, value = 0, gate: GateHit | null = null): Picked => ({
-        layer, at, place: plane.toPlace(at), heightM, state: status, value, gate, halvings: layer === 'sweep' ? 0 : halvings,
+        layer, at, place: plane.toPlace(at), heightM, state: status, value, gate,
+        // Some layers are read as they are drawn, the others along the ray.
+        halvings: layer === 'plane' || layer === 'section' || layer === 'maximum' ? drawing.windows!.coarsest : layer === 'sweep' ? 0 : cells?.grid.halvings ?? 0,
     });
     const met = solidsAt(app, drawing, geometry, cells, whole, x, y);
     const solid = met.find(one => one.isSolid) ?? null;

@@ -258,7 +258,7 @@ export const texts = {
         hidden: (value: string) => `Lowest level: ${value}, which is not shown`,
         outside: 'Outside the grid',
         layers: { plane: 'on the plane', section: 'on the section', surface: 'on the surface', maximum: 'maximum of the column' },
-        greatestOf: (halvings: number) => `the ${greatestOf(halvings)}`,
+        greatestOf,
     },
     tools: {
         name: 'Tools',

@@ -121,10 +121,12 @@ const mostTries = 10;
 // The server's, ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
-// A proxy in front of a server that is gone answers for it. The server itself never answers these requests in HTML.
-function checkServer({ status, headers }: Response): void {
-    const isHtml = (headers.get('Content-Type') ?? '').includes('html');
-    if (status === 502 || status === 504 || (status >= 500 && isHtml)) throw new TypeError('the server does not answer');
+// A proxy in front of a server that is gone answers for it. The server itself refuses in JSON, or in plain text with the
+// seconds after which to come back.
+function checkServer({ ok, headers }: Response): void {
+    const [type, afterS] = ['Content-Type', 'Retry-After'].map(name => headers.get(name) ?? '');
+    const isOurs = type!.includes('json') || (type!.startsWith('text/plain') && afterS);
+    if (!ok && !isOurs) throw new TypeError('no answer');
 }
 
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
@@ -135,20 +137,18 @@ async function ask(path: string, options: RequestInit = {}): Promise<Response> {
     }
     if (answer.ok) return answer;
     checkServer(answer);
-    let message = answer.statusText;
-    try {
-        message = ((await answer.json()) as { error: string }).error;
-    } catch {
-        // The body is no JSON: the status stays.
-    }
-    throw new ApiError(answer.status, message);
+    const refusal = (await answer.json().catch(() => null)) as { error: string } | null;
+    throw new ApiError(answer.status, refusal?.error ?? answer.statusText);
 }
 
+const told = async <T>(path: string): Promise<T> => (await ask(path)).json() as Promise<T>;
+const bytesOf = async (path: string, options?: RequestInit): Promise<ArrayBuffer> => (await ask(path, options)).arrayBuffer();
+
 export async function domains(): Promise<Domain[]> {
-    return ((await (await ask('api/v1/domains')).json()) as { domains: Domain[] }).domains;
+    return (await told<{ domains: Domain[] }>('api/v1/domains')).domains;
 }
 export async function stations(): Promise<Station[]> {
-    return ((await (await ask('api/v1/stations')).json()) as { stations: Station[] }).stations;
+    return (await told<{ stations: Station[] }>('api/v1/stations')).stations;
 }
 // Returns the silent stations, each with the seconds since something came from it (undefined: the server cannot say), and
 // the time of the server.
@@ -158,13 +158,13 @@ export async function silences(): Promise<{ silent: [string, number | undefined]
     const silent = stations.flatMap(({ station, silent_s }): [string, number | undefined][] => (silent_s === null ? [] : [[station, silent_s]]));
     return { silent, serverMs: timeOf(answer) };
 }
-export async function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
-    return (await ask(gridPath(domain, moment, time))).json() as Promise<GridFacts>;
+export function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
+    return told(gridPath(domain, moment, time));
 }
 export async function region(domain: string): Promise<Region> {
     const [west, south, east, north] = sidesOf(domain).split(',');
     const query = new URLSearchParams({ west: west ?? '', south: south ?? '', east: east ?? '', north: north ?? '' });
-    const found = (await (await ask(`api/v1/regions?${query}`)).json()) as Omit<Region, 'part_of'>;
+    const found = await told<Omit<Region, 'part_of'>>(`api/v1/regions?${query}`);
     return { ...found, domain, part_of: null };
 }
 // Of which volumes a site of a region is made at an instant, and how far the middles of these are from it.
@@ -176,8 +176,8 @@ export interface RegionSites {
     sites: RegionSite[];
     left_out_because: Record<string, string>; // of each site that is not in the picture
 }
-export async function regionSites(domain: string, moment: string, time: string): Promise<RegionSites> {
-    return (await ask(`${gridPath(domain, moment, time)}/sites`)).json() as Promise<RegionSites>;
+export function regionSites(domain: string, moment: string, time: string): Promise<RegionSites> {
+    return told(`${gridPath(domain, moment, time)}/sites`);
 }
 export interface Times {
     times: string[]; // rising
@@ -191,7 +191,7 @@ export async function times(domain: string, moment: string, limit: number, to?: 
     }
     const until = to === undefined ? '' : `&to=${encodeURIComponent(to)}`;
     const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=${limit}${until}`;
-    const { grids, more } = (await (await ask(path)).json()) as { grids: { time: string }[]; more: boolean };
+    const { grids, more } = await told<{ grids: { time: string }[]; more: boolean }>(path);
     return { times: grids.map(grid => grid.time), more };
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
@@ -200,15 +200,15 @@ export const gridPath = (domain: string, moment: string, time: string): string =
         : `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
 export const rawPath = (station: string, name: string): string => address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
 // `query`: the parameters of docs/web/packed-grid.md.
-export async function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
+export function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
     // A grid without its id may have been made again, and the bricks of two grids do not fit together.
     const options: RequestInit = { ...(query.id === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
-    return (await ask(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options)).arrayBuffer();
+    return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
 }
 // A grid that is made on request, whole: for an instant between volumes, or of a region.
-export async function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
+export function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
     const path = isRegion(domain) ? `${gridPath(domain, moment, time)}/packed` : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
-    return (await ask(path)).arrayBuffer();
+    return bytesOf(path);
 }
 // Events after the one of this id; empty: from now on. Errors: those of fetch().
 export async function askEvents(id: string, signal: AbortSignal): Promise<Response> {
@@ -221,14 +221,14 @@ export interface Tables {
     tables: ColorTable[];
     usual: Record<string, string>; // of a moment
 }
-export async function tables(): Promise<Tables> {
-    return (await ask('api/v1/tables')).json() as Promise<Tables>;
+export function tables(): Promise<Tables> {
+    return told('api/v1/tables');
 }
 // East may be beyond 180, and the answer's longitudes go on there, too.
-export async function map({ west, south, east, north }: { west: number; south: number; east: number; north: number }, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
+export function map({ west, south, east, north }: { west: number; south: number; east: number; north: number }, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
     const kinds = withCounties ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
-    return (await ask(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds}`)).json() as Promise<MapAnswer>;
+    return told(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds}`);
 }
 
 // -- raw volumes
@@ -248,24 +248,23 @@ export interface RawVolume {
 }
 // Returns true if the file is there.
 export async function hasRaw(station: string, name: string): Promise<boolean> {
-    const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
-    return status !== 404 && status !== 410;
+    return (await fetch(rawPath(station, name), { method: 'HEAD' })).ok;
 }
 // The newest volume of a station that began at a time or before. It may have come in several files.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
-    const volumes = ((await (await ask(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`)).json()) as { volumes: RawVolume[] }).volumes;
+    const { volumes } = await told<{ volumes: RawVolume[] }>(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`);
     const newest = volumes.pop();
-    return newest?.raw === null ? (volumes.filter(one => one.time === newest.time && one.raw !== null).pop() ?? newest) : (newest ?? null);
+    return newest?.raw ? newest : volumes.filter(one => one.time === newest?.time && one.raw).pop() ?? newest ?? null;
 }
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
 // The volume that began at a time; null if its file is not given.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
-    return volume?.time != null && volume.raw !== null && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
+    return volume?.time && volume.raw && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
 }
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
-    return ((await (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).json()) as { sweeps: SweepRow[] }).sweeps;
+    return (await told<{ sweeps: SweepRow[] }>(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).sweeps;
 }
-export async function gates(station: string, time: string, sweep: number, moment: string): Promise<ArrayBuffer> {
-    return (await ask(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps/${sweep}/${moment}`)).arrayBuffer();
+export function gates(station: string, time: string, sweep: number, moment: string): Promise<ArrayBuffer> {
+    return bytesOf(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps/${sweep}/${moment}`);
 }

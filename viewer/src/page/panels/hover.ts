@@ -87,11 +87,13 @@ export class Hover {
         if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
         // Air that is range folded all along the ray has no one height.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
-        const lines = [words.value(told, heightText(heightM, units))];
+        // A maximum of halved cells, or of none with a value, has no one height either.
+        const isAtOne = layer !== 'maximum' || (picked.halvings === 0 && state === CellState.value);
+        const lines = [isAtOne ? words.value(told, heightText(heightM, units)) : told];
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
         if (picked.halvings > 0) lines.push(words.greatestOf(picked.halvings));
         if (gate) return [...lines, ...this.gateLines(gate)];
-        return [...lines, ...(state === CellState.value ? this.beamLines(picked, from) : from)];
+        return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, from) : from)];
     }
 
     // No age: what is read may stay on the page.

@@ -9,7 +9,7 @@ import { FactsOfShown } from '../facts_of_shown';
 import { FlyTool } from '../flying';
 import { Keys } from '../keys';
 import { Measure, MeasureTool } from '../measuring';
-import { Pointers } from '../pointers';
+import { Pointers, Tool } from '../pointers';
 import { texts } from '../texts';
 
 interface RawFile {
@@ -63,30 +63,28 @@ export class ToolsPanel {
     }
 
     private measure(measure: Measure): void {
-        this.toldOf = null;
         const { current } = this.pointers;
-        if (current instanceof MeasureTool && current.measure === measure) return this.pointers.use(null);
-        const id = `tool-${measure}`;
+        const isUsed = current instanceof MeasureTool && current.measure === measure;
+        this.use(`tool-${measure}`, isUsed, ended => new MeasureTool(this.app, this.drawing, measure, text => this.tell(text), ended));
+    }
+
+    private fly(): void {
+        const isUsed = this.pointers.current instanceof FlyTool;
+        this.use('tool-fly', isUsed, ended => new FlyTool(this.app, this.drawing, ended));
+        if (!isUsed) this.tell(texts.tools.flyHint);
+    }
+
+    // A tool that is used already is put away.
+    private use(id: string, isUsed: boolean, make: (ended: () => void) => Tool): void {
+        this.toldOf = null;
         this.pointers.use(null);
+        if (isUsed) return;
         const ended = () => {
             press(id, false);
             this.tell('');
         };
-        this.pointers.use(new MeasureTool(this.app, this.drawing, measure, text => this.tell(text), ended));
+        this.pointers.use(make(ended));
         press(id, true);
-    }
-
-    private fly(): void {
-        this.toldOf = null;
-        if (this.pointers.current instanceof FlyTool) return this.pointers.use(null);
-        this.pointers.use(null);
-        const ended = () => {
-            press('tool-fly', false);
-            this.tell('');
-        };
-        this.pointers.use(new FlyTool(this.app, this.drawing, ended));
-        press('tool-fly', true);
-        this.tell(texts.tools.flyHint);
     }
 
     // Of a region they are those of its sites; of a frame between volumes, the one before it.
