@@ -20,6 +20,8 @@ namespace stormcellar::render::HWY_NAMESPACE {
 
 // For each ray, a bin of the transfer function and the share of valued cells.
 struct Samples {
+    // One that the compiler makes would not be for this target.
+    HWY_INLINE Samples() {}
     IntVec bin;
     FloatVec valued;
 };
@@ -46,6 +48,7 @@ struct Places {
 // The eight codes around a place. The number of a code has a bit for its side in x (bit 0), y (bit
 // 1) and z (bit 2).
 struct Corners {
+    HWY_INLINE Corners() {}  // as of Samples
     IntVec code[8];
 };
 
