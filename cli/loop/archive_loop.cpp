@@ -242,6 +242,17 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
     return {};
 }
 
+// Adds what the report does not have: what the plan left out, and files without a volume.
+Status add_left_out(const ArchiveCall& call, const catalog::CatalogReader& catalog,
+                    const std::vector<pipeline::LeftOut>& by_plan, pipeline::FillReport& report) {
+    report.left_out.insert(report.left_out.begin(), by_plan.begin(), by_plan.end());
+    if (call.files.empty()) return {};
+    auto rejected = rejected_among(call.files, catalog);
+    if (!rejected) return pass_on(rejected);
+    std::ranges::move(*rejected, std::back_inserter(report.left_out));
+    return {};
+}
+
 // A process that was just killed may hold the lock a moment longer.
 Result<cache::RollingStore> open_cache(const fs::path& directory) {
     auto store = cache::RollingStore::open(real_file_system(), directory, {});
@@ -306,12 +317,8 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     if (auto filled = fill(call, filling, *missing, frames.instants, interrupt, grids); !filled) {
         return pass_on(filled);
     }
-    grids.report.left_out.insert(grids.report.left_out.begin(), plan->left_out.begin(),
-                                 plan->left_out.end());
-    if (!call.files.empty()) {
-        auto rejected = rejected_among(call.files, *catalog);
-        if (!rejected) return pass_on(rejected);
-        std::ranges::move(*rejected, std::back_inserter(grids.report.left_out));
+    if (auto all = add_left_out(call, *catalog, plan->left_out, grids.report); !all) {
+        return pass_on(all);
     }
     std::set<UtcTime> times(grids.report.frames.begin(), grids.report.frames.end());
     if (!plan->mosaic) {
