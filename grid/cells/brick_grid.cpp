@@ -13,7 +13,6 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t state_block_bytes = brick_cells / 4;
 // There are several pieces for each thread, because storms make some bricks costlier than others.
 constexpr int pieces_a_thread = 4;
 

@@ -5,8 +5,6 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t state_block_bytes = brick_cells / 4;
-
 std::size_t brick_of(const BrickView& view, int ix, int iy, int iz) {
     return view.brick_index(ix / brick_edge, iy / brick_edge, iz / brick_edge);
 }

@@ -63,7 +63,7 @@ void CodeBlock::copy(const BrickView& view, std::size_t brick, const ColumnBox& 
                      int by) {
     const BrickEntry& entry = view.bricks[brick];
     const auto uniform = static_cast<std::uint16_t>(entry.uniform_status);
-    const std::size_t states = entry.status_index * (brick_cells / 4);
+    const std::size_t states = entry.status_index * state_block_bytes;
     for (int ix = part.x0; ix <= part.x1; ++ix) {
         for (int iy = part.y0; iy <= part.y1; ++iy) {
             const int column_here = (ix - bx * brick_edge) * brick_edge + iy - by * brick_edge;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double db_per_log2 = 3.0102999566398120;  // 10 log10(2)
 constexpr double nearest_range_m2 = 100.0 * 100.0;  // as in grid/beam/detection_limit.h
-constexpr std::size_t state_block_bytes = brick_cells / 4;
 
 // The last bricks of a grid often hold only a few levels; for these the loops are shorter.
 constexpr int few = 4;

@@ -21,7 +21,7 @@ void add_stored(const BrickView& view, std::size_t brick, int first_level, Brick
 }
 
 void add_states(const BrickView& view, const BrickEntry& entry, int first_level, BrickTop& top) {
-    const std::size_t block = entry.status_index * (brick_cells / 4);
+    const std::size_t block = entry.status_index * state_block_bytes;
     std::size_t cell = 0;
     for (std::uint16_t& column : top) {
         for (int z = 0; z < brick_edge; ++z, ++cell) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "stormcellar/grid/gridder.h"
+#include "grid/sweep/sweep_stack.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -17,10 +17,6 @@ std::size_t column_in_brick(int x, int y) {
 std::size_t cell_in_brick(int x, int y, int z) {
     const int cell = (x * brick_edge + y) * brick_edge + z;
     return static_cast<std::size_t>(cell);
-}
-
-bool is_tdwr(const SitePosition& site) {
-    return beam_width_of(site.icao) < 0.9;
 }
 
 // Returns the nearest code; a value beyond the range of codes takes its end.
@@ -63,7 +59,7 @@ InstantMaker::InstantMaker(const TimedView& before, const std::optional<TimedVie
       options_(options),
       blending_(blending_of(options.moment)),
       moves_(options.method == TimeMethod::advected && options.motion != nullptr) {
-    if (is_tdwr(geometry.site())) limit_.at_1km_dbz = tdwr_limit_at_1km_dbz;
+    if (is_tdwr(geometry.site().icao)) limit_.at_1km_dbz = tdwr_limit_at_1km_dbz;
     ends_.push_back(end_of(before, geometry, options));
     if (after) ends_.push_back(end_of(*after, geometry, options));
     if (options.method == TimeMethod::nearest && ends_.size() == 2) {

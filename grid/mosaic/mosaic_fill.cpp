@@ -14,7 +14,6 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr float least_power = -99.6578428F;  // 1e-30
-constexpr std::size_t state_block_bytes = brick_cells / 4;
 
 // Fills all bricks with the same bx, in one thread.
 template <class Code>

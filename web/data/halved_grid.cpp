@@ -25,8 +25,8 @@ class BrickCodes {
                 return;
             case BrickKind::status_only:
                 read_states(
-                    view.states.subspan(std::size_t{entry.status_index} * (grid::brick_cells / 4),
-                                        grid::brick_cells / 4));
+                    view.states.subspan(std::size_t{entry.status_index} * grid::state_block_bytes,
+                                        grid::state_block_bytes));
                 return;
             case BrickKind::stored:
                 std::memcpy(codes_.data(), view.codes.data() + brick * sizeof codes_,

@@ -27,6 +27,7 @@ namespace stormcellar::grid {
 
 inline constexpr int brick_edge = 16;
 inline constexpr std::size_t brick_cells = 4096;
+inline constexpr std::size_t state_block_bytes = brick_cells / 4;  // the states of a brick's cells
 inline constexpr std::uint16_t first_value_code = 3;
 
 struct Quantization {
