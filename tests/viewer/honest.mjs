@@ -20,6 +20,8 @@ const refusals = [
   [404, 'text/plain; charset=utf-8', '404 page not found'],
   [503, 'text/plain', 'no healthy upstream'],
   [401, 'text/html', '<h1>Sign in</h1>'],
+  [200, 'text/html', '<h1>We are back soon</h1>'],
+  [502, 'application/json', '{"message": "Bad Gateway"}'],
 ];
 let refusal = refusals[0];
 let isHanging = false; // it takes connections, and sends nothing
@@ -33,7 +35,7 @@ function pass(asked, answer, waited = false) {
   if (isBreaking(asked.url)) return void answer.destroy();
   if (isStopped) return void answer.writeHead(refusal[0], { 'Content-Type': refusal[1] }).end(refusal[2]);
   if (asked.url.startsWith('/api/v1/events')) {
-    if (isRefusing) return void answer.writeHead(503, { 'Retry-After': '10', 'Content-Type': 'text/plain; charset=utf-8' }).end('As many as there may be');
+    if (isRefusing) return void answer.writeHead(refusal[0], { 'Retry-After': '10', 'Content-Type': refusal[1] }).end(refusal[2]);
     answer.writeHead(200, { 'Content-Type': 'text/event-stream' });
     answer.write(`retry: 200\n\n${events.join('')}`);
     streams.add(answer);
@@ -223,10 +225,18 @@ try {
 
   // ---- A server without a place for another stream (2026-11-28: it was said not to answer)
   isRefusing = true;
+  refusal = [503, 'text/plain; charset=utf-8', 'As many as there may be'];
   await page.goto('about:blank');
   const lists = requests('/api/v1/grids?');
   await viewer.open(`domain=${station}&moment=REF&time=latest`);
   check('without events the lists are asked for again', (await asksFor('/api/v1/grids?', lists + 2)) && (await isQuiet()));
+  // 2026-11-29: where somebody on the way refused the stream alone, the server seemed to be gone.
+  refusal = [403, 'text/html', '<h1>Forbidden</h1>'];
+  streams.forEach((stream) => stream.end());
+  await page.goto('about:blank');
+  const more = requests('/api/v1/grids?');
+  await viewer.open(`domain=${station}&moment=REF&time=latest`);
+  check('and where a proxy refuses events', (await asksFor('/api/v1/grids?', more + 2)) && (await isQuiet()));
   isRefusing = false;
   await page.send('Page.removeScriptToEvaluateOnNewDocument', { identifier });
 

@@ -29,7 +29,7 @@ Object.assign(globalThis, {
                 });
             },
         });
-        return Promise.resolve(new Response(body));
+        return Promise.resolve(new Response(body, { headers: { 'Content-Type': 'text/event-stream' } }));
     },
 });
 

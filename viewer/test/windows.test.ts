@@ -171,6 +171,11 @@ test('a window that failed is asked for again, and a frame waits for it', async 
     assert(windows.isWaiting);
     await next;
     assert(!windows.isWaiting && seen(first)?.grid === grid);
+    // 2026-11-29: a grid that is there as a whole was said to be as coarse as the one in parts before it.
+    const coarse = { ...grid, halvings: 2 };
+    windows.seen({ grid: coarse, stream: null } as unknown as LoadedGrid, 'layers', viewOf(1, 0, 0), false);
+    const other = { grid, stream: null } as unknown as LoadedGrid;
+    assert.deepEqual([windows.coarsest(other), windows.halvings(other, 'layers'), windows.halvings({ ...other, grid: coarse }, 'ray')], [0, 0, 2]);
     assert.deepEqual([failures, seconds], [['Error: trouble', 'Error: trouble'], [3, 3]]);
 
     const gone = loadedNow();

@@ -220,10 +220,11 @@ export class Drawing {
         const app = this.app!;
         this.isFinal = true;
         const detail = this.streaming!.detail;
+        const ofLayers = this.windows!.coarsest(app.shown!.loaded);
         const said = [
             texts.drawn(ms, rung, fetches),
             detail && texts.detail(detail),
-            this.windows!.coarsest !== (detail?.coarsest ?? 0) && texts.detailOfLayers(this.windows!.coarsest),
+            ofLayers !== (detail?.coarsest ?? 0) && texts.detailOfLayers(ofLayers),
         ];
         app.say(said.filter(Boolean).join(' · '), false);
         const held = texts.held(app.loader.bytes, app.loader.budget.bytes);

@@ -56,12 +56,13 @@ export class Live {
         try {
             const answer = await askEvents(this.last, abort.signal);
             const wasCutOff = this.app.server.isCutOff;
-            this.app.server.take(true, timeOf(answer));
-            if (!answer.ok || !answer.body) {
+            // Somebody else may refuse it, and the server answers otherwise.
+            if (!answer.body || !answer.headers.get('Content-Type')?.includes('event-stream')) {
                 this.places.leave();
                 await this.doWithout();
                 return false;
             }
+            this.app.server.take(true, timeOf(answer));
             this.connected(wasCutOff);
             const [reader, decoder, text] = [answer.body.getReader(), new TextDecoder(), new EventText()];
             for (let part = await reader.read(); !part.done; part = await reader.read()) {

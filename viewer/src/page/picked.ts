@@ -100,7 +100,7 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const picked = (layer: PickedLayer, at: Plane, heightM: number, status: CellState | null, value = 0, gate: GateHit | null = null): Picked => ({
         layer, at, place: plane.toPlace(at), heightM, state: status, value, gate,
         // Some layers are read as they are drawn, the others along the ray.
-        halvings: layer === 'plane' || layer === 'section' || layer === 'maximum' ? drawing.windows!.coarsest : layer === 'sweep' ? 0 : cells?.grid.halvings ?? 0,
+        halvings: layer === 'sweep' ? 0 : drawing.windows!.halvings(shown.loaded, layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray'),
     });
     const met = solidsAt(app, drawing, geometry, cells, whole, x, y);
     const solid = met.find(one => one.isSolid) ?? null;

@@ -51,9 +51,13 @@ export class Windows {
     get bytes(): number {
         return [...this.held.values(), ...this.ahead.values()].reduce((sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0), 0);
     }
-    // How often the coarsest of what layers are made of was halved.
-    get coarsest(): number {
-        return Math.max(0, ...[...this.held].map(([purpose, { cells }]) => (purpose === 'ray' ? 0 : cells?.grid.halvings ?? 0)));
+    // How often the coarsest window was halved that layers of a grid in parts are made of.
+    coarsest(loaded: LoadedGrid): number {
+        return Math.max(0, ...[...this.held].map(([purpose, { of, cells }]) => (purpose === 'ray' || of !== loaded ? 0 : cells?.grid.halvings ?? 0)));
+    }
+    // How often the cells were halved that are there for a purpose.
+    halvings(loaded: LoadedGrid, purpose: Purpose): number {
+        return (loaded.stream ? this.cellsOf(loaded, purpose)?.grid : loaded.grid)?.halvings ?? 0;
     }
 
     // What the view shows. While it moves, what was there before stays; null until something has come.

@@ -121,12 +121,12 @@ const mostTries = 10;
 // The server's, ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
-// A proxy in front of a server that is gone answers for it. The server itself refuses in JSON, or in plain text with the
-// seconds after which to come back.
-function checkServer({ ok, headers }: Response): void {
+// A proxy in front of a server that is gone, or that wants a password, answers for it. The server itself sends no page for
+// these requests, and refuses in JSON, or in plain text with the seconds after which to come back.
+function checkServer({ ok, status, headers }: Response): void {
     const [type, afterS] = ['Content-Type', 'Retry-After'].map(name => headers.get(name) ?? '');
-    const isOurs = type!.includes('json') || (type!.startsWith('text/plain') && afterS);
-    if (!ok && !isOurs) throw new TypeError('no answer');
+    const refuses = status !== 502 && status !== 504 && (type!.includes('json') || (type!.startsWith('text/plain') && afterS));
+    if (ok ? type!.includes('html') : !refuses) throw new TypeError('no answer');
 }
 
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
@@ -135,8 +135,8 @@ async function ask(path: string, options: RequestInit = {}): Promise<Response> {
         await new Promise(done => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
         answer = await fetch(address(path), options);
     }
-    if (answer.ok) return answer;
     checkServer(answer);
+    if (answer.ok) return answer;
     const refusal = (await answer.json().catch(() => null)) as { error: string } | null;
     throw new ApiError(answer.status, refusal?.error ?? answer.statusText);
 }
@@ -211,11 +211,9 @@ export function packedBetween(domain: string, moment: string, time: string): Pro
     return bytesOf(path);
 }
 // Events after the one of this id; empty: from now on. Errors: those of fetch().
-export async function askEvents(id: string, signal: AbortSignal): Promise<Response> {
+export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
     const query = id === '' ? '' : `?last_event_id=${encodeURIComponent(id)}`;
-    const answer = await fetch(address(`api/v1/events${query}`), { cache: 'no-store', headers: { Accept: 'text/event-stream' }, signal });
-    checkServer(answer);
-    return answer;
+    return fetch(address(`api/v1/events${query}`), { cache: 'no-store', headers: { Accept: 'text/event-stream' }, signal });
 }
 export interface Tables {
     tables: ColorTable[];
@@ -246,9 +244,10 @@ export interface RawVolume {
     raw: string | null; // the name under which its file is given; null: it is not
     number_in_file: number; // of the volume in it
 }
-// Returns true if the file is there.
+// Returns true if the file is there, or may be.
 export async function hasRaw(station: string, name: string): Promise<boolean> {
-    return (await fetch(rawPath(station, name), { method: 'HEAD' })).ok;
+    const { status } = await fetch(rawPath(station, name), { method: 'HEAD' });
+    return status !== 404 && status !== 410;
 }
 // The newest volume of a station that began at a time or before. It may have come in several files.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {

@@ -1,7 +1,7 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
 import { LoadedGrid } from '../../renderer/renderer';
-import { hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
+import { domains, hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';
 import { Drawing } from '../drawing';
@@ -103,6 +103,7 @@ export class ToolsPanel {
         if (source_files.length === 1 && own) return [own];
         const named = source_files.map(name => ({ station: name.slice(0, 4), name }));
         const isThere = await Promise.all(named.map(({ station, name }) => hasRaw(station, name)));
+        if (!isThere.includes(true)) await domains(); // it may be a proxy that has none
         return named.filter((_, i) => isThere[i]);
     }
 
