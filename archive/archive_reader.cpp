@@ -216,7 +216,8 @@ struct ArchiveReader::Impl {
         // At a header that is damaged it says that the next block may be one.
         if (code == ARCHIVE_OK || code == ARCHIVE_WARN) return entry;
         at_end = true;
-        if (code == ARCHIVE_EOF && has_its_end()) return nullptr;
+        const bool is_behind_all = code == ARCHIVE_EOF || (passed && has_no_room_left());
+        if (is_behind_all && has_its_end()) return nullptr;
         if (code == ARCHIVE_EOF) {
             cut_with("the archive has no end");
             return nullptr;
@@ -225,6 +226,14 @@ struct ArchiveReader::Impl {
         cut_with(is_unread() ? "the archive cannot be read"
                              : "the archive is cut or damaged: " + error_text_of(handle.get()));
         return nullptr;
+    }
+
+    // Returns true if what is left of a tar is less than a header takes.
+    [[nodiscard]] bool has_no_room_left() const {
+        const auto read = static_cast<std::uint64_t>(
+            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), 0)));
+        return !packed && !is_zip(handle.get()) && !is_unread() &&
+               source_bytes - std::min(source_bytes, read) < tar_block_bytes;
     }
 
     // Returns true if reading ended because too much came out of a packed archive, a header was too

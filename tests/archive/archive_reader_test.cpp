@@ -192,6 +192,12 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     EXPECT_THAT(reader->why_ended(), HasSubstr("Damaged tar archive"));
     EXPECT_EQ(reader->left_out().size(), 1U);
 
+    std::vector<std::byte> longer = first;
+    longer.resize(first.size() + 700);
+    reader = ArchiveReader::open(longer);
+    EXPECT_THAT(names_of(*reader), ElementsAre("a", "b", "c"));
+    EXPECT_FALSE(reader->is_cut()) << reader->why_ended();
+
     const auto second = make_archive(Kind::tar, {{"d", large}, {"b", large}});
     std::vector<std::byte> joined = first;
     joined.insert(joined.end(), second.begin(), second.end());
