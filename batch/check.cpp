@@ -167,6 +167,16 @@ Status keep_record(const Plan& plan, const Record& record) {
     return {};
 }
 
+Status drop_record(const Plan& plan, const Task& task) {
+    const fs::path record = record_path(plan.directory(), task.number);
+    for (const fs::path& path : {record.parent_path() / summary_name, record}) {
+        std::error_code error;
+        fs::remove(path, error);
+        if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
+    }
+    return {};
+}
+
 Result<CheckReport> check(const Plan& plan, const CheckOptions& options) {
     return Check(plan, options).run();
 }

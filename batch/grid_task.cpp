@@ -98,9 +98,9 @@ class GridRun {
         return options;
     }
 
-    // A source that is not mounted is an empty directory. What a damaged tar lost is named.
+    // A source that is not mounted is an empty directory.
     [[nodiscard]] Status check_whole(const BroughtFiles& brought) const {
-        if (brought.files.size() >= day_.files || !brought.left_out.empty()) return {};
+        if (brought.files.size() >= day_.files) return {};
         return fail(ErrorCode::io,
                     "{}: has {} of the {} files that the plan counted; if the others are gone for "
                     "good, make another plan",
@@ -140,6 +140,16 @@ class GridRun {
         if (!outcome && !is_shortage(outcome.error().code))
             outcome = ingestor.give_up(path, outcome.error());
         if (!outcome) return pass_on(outcome);
+        // Another user may read it, or the source may come back.
+        const auto* const rejected = std::get_if<pipeline::ended::Rejected>(&outcome->ending);
+        if ((rejected && rejected->with == ErrorCode::permission) ||
+            outcome->result() == IngestResult::vanished) {
+            if (!unread_)
+                unread_ = Error{ErrorCode::io,
+                                fmt::format("{}: {}", path.native(),
+                                            rejected ? outcome->reason : std::string{"is gone"})};
+            return {};
+        }
         const std::string name = path.filename().native();
         std::error_code ignored;
         const auto size = fs::file_size(path, ignored);
@@ -190,6 +200,8 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
         const auto standing = grids_standing(*store, plan, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) == record->digest) return TaskOutcome{true, std::move(*record)};
+        // Until the grids stand again, no frame is made without them.
+        if (Status dropped = drop_record(plan, task); !dropped) return pass_on(dropped);
     }
     auto record = GridRun(plan, task, options, *store).run();
     if (!record) return pass_on(record);

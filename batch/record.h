@@ -39,9 +39,9 @@ struct Record {
     // Raw files that were taken and left out, and what there is of them: grids, or frames.
     std::size_t files = 0;
     std::size_t grids = 0;
-    std::string digest;  // identifies the grids to the byte
+    std::string digest;                 // identifies the grids to the byte
     std::vector<NamedReason> left_out;  // of frames: damaged grids
-    std::vector<NamedReason> notes;  // taken, with a remark
+    std::vector<NamedReason> notes;     // taken, with a remark
     HourCounts taken_by_hour{}, left_out_by_hour{};
     // What the last run of the task took. A run that found grids of another one took less.
     UtcTime started, ended;

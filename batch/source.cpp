@@ -86,8 +86,11 @@ class Walk {
              entry.increment(error)) {
             const std::string name = entry->path().filename().string();
             if (pipeline::is_temporary_name(name)) continue;
-            std::error_code ignored;
-            const fs::file_type type = entry->symlink_status(ignored).type();
+            std::error_code unknown;
+            const fs::file_type type = entry->symlink_status(unknown).type();
+            // What has gone meanwhile is not missing.
+            if (unknown && type != fs::file_type::not_found)
+                return tl::unexpected(failure(entry->path(), unknown));
             if (type == fs::file_type::directory && depth < max_depth) {
                 deeper.push_back(entry->path());
             } else if (type == fs::file_type::regular) {
@@ -138,6 +141,8 @@ class Walk {
         }
         std::error_code error;
         const auto size = fs::file_size(path, error);
+        if (error && error != std::errc::no_such_file_or_directory)
+            return tl::unexpected(failure(path, error));
         if (!error) count(name, fs::relative(path.parent_path(), root_).native(), size);
         return {};
     }

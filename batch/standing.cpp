@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "base/checksum.h"
+#include "batch/check.h"
 #include "batch/statistics_task.h"
 #include "pipeline/care/archive_fill.h"
 #include "pipeline/drop/file_facts.h"
@@ -94,8 +95,11 @@ Status remove_damaged(const cache::StoreReader& store, const Plan& plan, const T
     for (const StandingGrid& grid : *standing) {
         const auto sound = is_sound(grid);
         if (!sound) return pass_on(sound);
+        if (*sound) continue;
+        // Until it stands again, no frame is made without it.
+        if (Status dropped = drop_record(plan, task); !dropped) return dropped;
         std::error_code error;
-        if (!*sound) std::filesystem::remove(grid.path, error);
+        std::filesystem::remove(grid.path, error);
         if (error) return fail(ErrorCode::io, "{}: {}", grid.path.native(), error.message());
     }
     return {};

@@ -33,7 +33,7 @@ struct StandingGrid {
 
 // Returns true if all bytes of the grid are those that were written.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
-// Removes those grids of a task that are damaged, so that they are made again.
+// Removes those grids of a task that are damaged, after its record: it is not done any more.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,
                                     const Task& task);
 

@@ -59,6 +59,7 @@ Result<std::uint64_t> count_frames(const cache::StoreReader& store, const Recipe
         const auto frame = cache::GridFile::open(*path);
         if (!frame && frame.error().code == ErrorCode::not_found) continue;
         if (!frame) return pass_on(frame);
+        if (Status sound = frame->verify(); !sound) return pass_on(sound);
         if (Status added = tally.add(frame->view()); !added) return pass_on(added);
         if (Status whole = frame->check_whole(); !whole) return pass_on(whole);
         bytes += frame->bytes_on_disk();

@@ -40,8 +40,13 @@ Result<std::vector<fs::path>> files_below(const fs::path& directory, RebuildRepo
         for (fs::directory_iterator entry(parent, error), end; !error && entry != end;
              entry.increment(error)) {
             if (is_temporary_name(entry->path().filename().native())) continue;
-            std::error_code ignored;
-            const fs::file_type type = entry->symlink_status(ignored).type();
+            std::error_code unknown;
+            const fs::file_type type = entry->symlink_status(unknown).type();
+            if (unknown && type != fs::file_type::not_found) {
+                report.problems.push_back(
+                    {ErrorCode::io,
+                     fmt::format("{}: {}", entry->path().native(), unknown.message())});
+            }
             if (type == fs::file_type::regular) files.push_back(entry->path());
             if (type == fs::file_type::directory && depth < max_depth) {
                 left.emplace_back(entry->path(), depth + 1);

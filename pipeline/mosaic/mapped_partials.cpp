@@ -78,6 +78,8 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
         for (const cache::StoreEntry& entry : *entries) {
             if (bad_.contains(entry.path)) continue;
             auto file = cache::GridFile::open(entry.path);
+            if (!file && file.error().code == ErrorCode::io)
+                file = cache::GridFile::open(entry.path);  // a disk may fail once
             if (!file && ends_it(file.error())) return pass_on(file);
             if (!file) {
                 problems.push_back(file.error().message);

@@ -27,8 +27,8 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
-// What becomes of a partial that cannot be read, which may pass: frames are made without it, as the
-// daemon does, which makes them again later; or it is an error, for who makes each frame once.
+// What becomes of a partial that cannot be read twice in a row: frames are made without it, so that
+// it does not hold up the others' in a daemon; or it is an error, for who makes each frame once.
 enum class Unreadable { is_left_out, is_an_error };
 
 struct OpenPartial {

@@ -258,6 +258,14 @@ TEST_F(BatchTasks, ADamagedGridIsNamedAndMadeAgain) {
     EXPECT_THAT(frames->record.left_out[0].reason, HasSubstr(grid.native()));
     EXPECT_EQ(check(plan, {})->done.left_out, 1U);
     EXPECT_THAT(check(plan, {true, {}})->changed, SizeIs(2)) << "the grid, and frames without it";
+    // 2026-11-29: while it could not be made again, frames were made without it.
+    fs::rename(raw_ / "day", directory_ / "unmounted");
+    fs::create_directory(raw_ / "day");
+    EXPECT_EQ(run(plan, 0).error().code, ErrorCode::io);
+    EXPECT_EQ(run(plan, 1).error().code, ErrorCode::unmet);
+    EXPECT_THAT(check(plan, {})->missing, ::testing::Contains(0U));
+    fs::remove(raw_ / "day");
+    fs::rename(directory_ / "unmounted", raw_ / "day");
     run_all(plan);
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
     EXPECT_THAT(check(plan, {true, {}})->changed, IsEmpty());
