@@ -215,7 +215,7 @@ TEST(GoldenHalfRadial, IsDroppedAndWouldGiveTheReferencesChecksum) {
         const auto crc = static_cast<std::uint32_t>(std::stoul(crc_text, nullptr, 16));
         const std::size_t at = 24 + 3964160 + 28 + part.pointer;
         const auto with_half = crc32(std::span{stream}.subspan(at, part.gates), crc);
-        EXPECT_EQ(nlohmann::json(fmt::format("{:08x}", with_half)),
+        EXPECT_EQ(Json(fmt::format("{:08x}", with_half)),
                   expected.at("moments").at(part.moment).at("crc32"))
             << part.moment;
     }
