@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <ranges>
+#include <sstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -40,8 +40,8 @@ Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
         return any;
     }
     std::vector<std::string> listed;
-    for (const auto part : std::views::split(options.stations, ',')) {
-        std::string name(part.begin(), part.end());
+    std::istringstream names(options.stations + ',');
+    for (std::string name; std::getline(names, name, ',');) {
         if (name == "known") {
             for (const Station& station : all_stations())
                 listed.emplace_back(station.icao);
