@@ -2,6 +2,7 @@
 
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "batch/check.h"
 #include "batch/leftovers.h"
@@ -25,11 +26,18 @@ void add(const pipeline::FillReport& report, Record& record) {
 }  // namespace
 
 Status check_needs(const Plan& plan, std::size_t first, std::size_t end) {
+    std::vector<std::pair<Task, Record>> needed;
     for (std::size_t need = first; need < end; ++need) {
         const auto task = plan.task(need);
         if (!task) return pass_on(task);
-        if (read_record(plan, *task)) continue;
-        return fail(ErrorCode::unmet, "needs task {}, which is not done", need);
+        auto record = read_record(plan, *task);
+        if (!record) return fail(ErrorCode::unmet, "needs task {}, which is not done", need);
+        needed.emplace_back(*task, std::move(*record));
+    }
+    const auto store = cache::StoreReader::open(plan.recipe().cache);
+    if (!store) return pass_on(store);
+    for (const auto& [task, record] : needed) {
+        if (Status there = check_count(*store, plan, task, record); !there) return there;
     }
     return {};
 }

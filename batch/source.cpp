@@ -315,7 +315,9 @@ Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what, const f
     bool from_tars = false;
     for (const std::string& in : what.in) {
         const fs::path place = (root / in).lexically_normal();
-        const bool is_tar = is_archive_name(in) && !fs::is_directory(place);
+        std::error_code unknown;
+        const bool is_tar = is_archive_name(in) && !fs::is_directory(place, unknown);
+        if (unknown) return tl::unexpected(failure(place, unknown));
         from_tars = from_tars || is_tar;
         Status added = is_tar ? add_members(place, what, span, scratch, files, left_out)
                               : add_files(place, what, span, files);

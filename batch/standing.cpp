@@ -81,6 +81,23 @@ Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store
     return standing;
 }
 
+Status check_count(const cache::StoreReader& store, const Plan& plan, const Task& task,
+                   const Record& record) {
+    const Where where = where_of(plan.recipe(), task);
+    std::size_t listed = 0;
+    for (const level2::Moment moment : plan.recipe().moments) {
+        const auto entries = store.list(where.domain, moment, where.from, where.to);
+        if (!entries) return pass_on(entries);
+        listed += entries->size();
+    }
+    if (listed >= record.grids) return {};
+    return fail(
+        ErrorCode::io,
+        "{}: has {} of the {} grids that task {} made; if the others are lost, submit --deep "
+        "makes them again",
+        plan.recipe().cache.native(), listed, record.grids, task.number);
+}
+
 Result<bool> is_sound(const StandingGrid& grid) {
     if (grid.path.empty()) return true;  // the checksum of counts is that of all their bytes
     const auto file = cache::GridFile::open(grid.path);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "batch/plan.h"
+#include "batch/record.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 
@@ -30,6 +31,12 @@ struct StandingGrid {
 // counts.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
+
+// Returns ok if the cache has as many grids of a task as its record says. It looks at names alone,
+// and at the edges of a day it may count a neighbour's. Errors: also io if there are fewer, as
+// where a cache is not mounted.
+[[nodiscard]] Status check_count(const cache::StoreReader& store, const Plan& plan,
+                                 const Task& task, const Record& record);
 
 // Returns true if all bytes of the grid are those that were written.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);

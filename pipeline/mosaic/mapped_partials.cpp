@@ -80,7 +80,9 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
             auto file = cache::GridFile::open(entry.path);
             if (!file && file.error().code == ErrorCode::io)
                 file = cache::GridFile::open(entry.path);  // a disk may fail once
-            if (!file && ends_it(file.error())) return pass_on(file);
+            if (!file && ends_it(file.error()))
+                return fail(is_shortage(file.error().code) ? file.error().code : ErrorCode::io,
+                            "{}", file.error().message);
             if (!file) {
                 problems.push_back(file.error().message);
                 bad_.insert(entry.path);
@@ -99,7 +101,8 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
 
 bool MappedPartials::ends_it(const Error& error) const {
     const bool cannot_be_read =
-        error.code == ErrorCode::io && unreadable_ == Unreadable::is_an_error;
+        (error.code == ErrorCode::io || error.code == ErrorCode::permission) &&
+        unreadable_ == Unreadable::is_an_error;
     return cannot_be_read || is_shortage(error.code);
 }
 

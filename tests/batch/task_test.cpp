@@ -239,6 +239,26 @@ TEST_F(BatchTasks, FramesWaitForAGridThatCannotBeRead) {
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
 }
 
+// 2026-11-29: on a machine without the cache, frames and statistics of nothing were made, for good.
+TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
+    Recipe counted = recipe("one");
+    counted.statistics = grid::Tallied::columns;
+    const Plan plan = plan_of(counted, "plan");
+    ASSERT_TRUE(run(plan, 0));
+    fs::rename(directory_ / "one", directory_ / "unmounted");
+    fs::create_directory(directory_ / "one");
+    const auto frames = run(plan, 1);
+    ASSERT_FALSE(frames);
+    EXPECT_EQ(frames.error().code, ErrorCode::io);
+    EXPECT_THAT(frames.error().message, HasSubstr("has 0 of the 3 grids that task 0 made"));
+    fs::remove_all(directory_ / "one");
+    fs::rename(directory_ / "unmounted", directory_ / "one");
+    ASSERT_TRUE(run(plan, 1));
+    ASSERT_TRUE(run(plan, 2));
+    fs::remove_all(directory_ / "one/north");
+    EXPECT_EQ(run(plan, 3).error().code, ErrorCode::io);
+}
+
 // 2026-11-29: frames without a damaged grid were made without a word, and a deep check passed it.
 TEST_F(BatchTasks, ADamagedGridIsNamedAndMadeAgain) {
     run_all(plan_of(recipe("one"), "plan-one"));
