@@ -22,6 +22,7 @@ const refusals = [
   [401, 'text/html', '<h1>Sign in</h1>'],
   [200, 'text/html', '<h1>We are back soon</h1>'],
   [502, 'application/json', '{"message": "Bad Gateway"}'],
+  [401, 'application/json', '{"message": "Unauthorized"}'],
 ];
 let refusal = refusals[0];
 let isHanging = false; // it takes connections, and sends nothing

@@ -124,7 +124,23 @@ const said1 = `document.getElementById('reading').innerText`;
 const ofTap = await page.until(`${said1}.includes('The column') && ${said1}.includes('tilt') && ${said1}`, 20).catch(() => '');
 check(`a tap reads ${ofTap.split('\n').filter(Boolean).slice(2, 4).join(', ')}`, ofTap.includes(ofPointer[tapped].split('\n')[0]));
 await page.evaluate("document.getElementById('reading-close').click()");
+// 2026-11-29: of a maximum it told the height of the ground, and of a plane what the volume hides.
 await viewer.settled(() => page.resize(400, 266));
+for (const layer of ['maximum=1&volume=0', 'height-km=1']) {
+  await viewer.show(`${inParts(scene)}&${layer}`);
+  await complete();
+  await viewer.settled(() => page.resize(560, 420));
+  await page.touch('touchStart', [resting[tapped]]);
+  await page.touch('touchEnd', []);
+  const tap = await page.until(`${said1}.includes('The column') && ${said1}.includes('dBZ at') && ${said1}`, 20).catch(() => '');
+  const [value] = tap.split('\n').filter((line) => /dBZ at/.test(line));
+  await page.evaluate("document.getElementById('reading-close').click()");
+  await viewer.settled(() => page.resize(400, 266));
+  const hover = (await readAt([resting[tapped]]))[0].split('\n')[0];
+  check(`a tap with ${layer} reads ${value}, the pointer ${hover}`, value !== undefined && value === hover);
+}
+await viewer.show(inParts(scene));
+await complete();
 
 // ---- The graphics processor forgets all
 await page.evaluate(`(() => {

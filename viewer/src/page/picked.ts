@@ -23,6 +23,7 @@ export interface Picked {
     value: number; // where the state is a value
     gate: GateHit | null; // of a sweep
     halvings: number; // how often the cells were halved that were read: 0 if they are the grid's own
+    lacksCells: boolean; // until the cells along the ray have come, something else may be seen there, or at another height
 }
 
 const leastSeen = 0.03; // of a pixel, by the volume before the ground
@@ -97,8 +98,10 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const ground = geometry.ground(x, y);
     const points = [...(wayWithin(geometry, box, x, y) ?? []), ...(ground ? [ground] : [])];
     const cells = points.length > 0 && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
+    const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
     const picked = (layer: PickedLayer, at: Plane, heightM: number, status: CellState | null, value = 0, gate: GateHit | null = null): Picked => ({
         layer, at, place: plane.toPlace(at), heightM, state: status, value, gate,
+        lacksCells: !cells && points.length > 0 && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
         // Some layers are read as they are drawn, the others along the ray.
         halvings: layer === 'sweep' ? 0 : drawing.windows!.halvings(shown.loaded, layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray'),
     });

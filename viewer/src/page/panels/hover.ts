@@ -56,7 +56,7 @@ export class Hover {
         if (!this.at) return;
         const picked = this.app.isGraphicsLost ? null : pick(this.app, this.drawing, ...this.at, true);
         const box = element('hover');
-        box.hidden = !picked || (picked.state === null && picked.layer !== 'outside');
+        box.hidden = !picked || picked.lacksCells || (picked.state === null && picked.layer !== 'outside');
         if (!picked || box.hidden) return;
         this.whenTold(() => this.put());
         box.replaceChildren(...this.lines(picked).map(paragraph));

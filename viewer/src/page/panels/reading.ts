@@ -89,9 +89,9 @@ export class Reader implements Tool {
     click(x: number, y: number): void {
         const what = pick(this.app, this.drawing, x, y, true);
         const { shown } = this.app;
-        this.picked = what && shown && { of: shown, what };
+        this.waits = what?.lacksCells ? [x, y] : null;
+        this.picked = what && shown && !this.waits ? { of: shown, what } : null;
         this.at = what?.at ?? null;
-        this.waits = shown?.loaded.stream && what?.state === null && what.layer !== 'outside' ? [x, y] : null;
         this.put();
         this.drawing.drawMarks();
     }

@@ -88,7 +88,8 @@ export class ToolsPanel {
     }
 
     // Of a region they are those of its sites; of a frame between volumes, the one before it.
-    private async rawFiles(): Promise<RawFile[]> {
+    // Null: the grid is gone, which is said.
+    private async rawFiles(): Promise<RawFile[] | null> {
         const { shown } = this.app;
         if (!shown) return [];
         await this.facts.askSites();
@@ -98,7 +99,9 @@ export class ToolsPanel {
             const name = (await rawBefore(shown.domain, shown.time))?.raw;
             return name ? [{ station: shown.domain, name }] : [];
         }
-        const { source_files, stations } = (await this.facts.ask()).provenance;
+        const facts = await this.facts.ask().catch(error => this.app.fail(error));
+        if (!facts) return null;
+        const { source_files, stations } = facts.provenance;
         const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
         if (source_files.length === 1 && own) return [own];
         const named = source_files.map(name => ({ station: name.slice(0, 4), name }));
