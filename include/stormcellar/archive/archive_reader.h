@@ -71,8 +71,8 @@ struct LeftOut {
 class ArchiveReader {
   public:
     // Opens an archive, reading the descriptor from the start of the file. The descriptor must stay
-    // open as long as the reader. Returns none if the file is not an archive. If its start cannot be
-    // read, which may pass, the reader says so.
+    // open as long as the reader. Returns none if the file is not an archive. If its start cannot
+    // be read, which may pass, the reader says so.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
     // The same for an archive in memory. The bytes must outlive the reader.
     [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
