@@ -164,6 +164,7 @@ struct ArchiveReader::Impl {
             return false;
         const bool may_be_zip = begins_with(start, "PK");
         const int code = read_header(first, may_be_zip ? most_directory_bytes : most_header_bytes);
+        if (packed && packed->begins_with_zero()) return false;
         if (end_at_bound()) return true;
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }

@@ -136,6 +136,7 @@ std::int64_t PackedStream::read_more(::archive* handle, const void** bytes) {
         archive_set_error(handle, EIO, "%s", error_text_of(source_.get()).c_str());
         return ARCHIVE_FATAL;
     }
+    if (unpacked_ == 0 && got > 0) begins_with_zero_ = block_.front() == std::byte{0};
     unpacked_ += static_cast<std::uint64_t>(got);
     const auto source_bytes = static_cast<std::uint64_t>(
         std::max<la_int64_t>(0, archive_filter_bytes(source_.get(), -1)));

@@ -83,6 +83,8 @@ class PackedStream {
     // Returns the bound in bytes if it was reached.
     [[nodiscard]] std::uint64_t met_bound() const { return met_bound_; }
     [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
+    // Returns true if the first byte that came out is zero, which begins no archive.
+    [[nodiscard]] bool begins_with_zero() const { return begins_with_zero_; }
 
   private:
     PackedStream(Handle source, ReadBudget& of_source, Bound bound);
@@ -94,6 +96,7 @@ class PackedStream {
     std::vector<std::byte> block_;
     std::uint64_t unpacked_ = 0;
     std::uint64_t met_bound_ = 0;
+    bool begins_with_zero_ = false;
     ReadBudget* header_ = nullptr;
 };
 

@@ -85,6 +85,7 @@ TEST(ArchiveReader, ZerosAreNone) {
     const std::vector<std::byte> zeros(1'000'000);
     for (const Kind kind : {Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz}) {
         EXPECT_FALSE(ArchiveReader::open(make_archive(kind, {})));
+        EXPECT_FALSE(ArchiveReader::open(packed(kind, zeros)));
     }
     EXPECT_FALSE(ArchiveReader::open(zeros));
 }
