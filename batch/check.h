@@ -39,7 +39,7 @@ struct CheckOptions {
 // Writes the record of a task, and the summary of its directory if it was the last one there.
 [[nodiscard]] Status keep_record(const Plan& plan, const Record& record);
 
-// Removes the record of a task, and the summary that has it: the task is not done any more.
+// Removes the record of a task and the summary that has it, so that the task counts as not done.
 [[nodiscard]] Status drop_record(const Plan& plan, const Task& task);
 
 // Returns what tasks left out, with reasons, from their records.

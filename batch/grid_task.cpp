@@ -140,7 +140,7 @@ class GridRun {
         if (!outcome && !is_shortage(outcome.error().code))
             outcome = ingestor.give_up(path, outcome.error());
         if (!outcome) return pass_on(outcome);
-        // Another user may read it, or the source may come back.
+        // Another user may be able to read it, or the source may be mounted again.
         const auto* const rejected = std::get_if<pipeline::ended::Rejected>(&outcome->ending);
         if ((rejected && rejected->with == ErrorCode::permission) ||
             outcome->result() == IngestResult::vanished) {

@@ -77,7 +77,7 @@ Record read_fields(const Json& json) {
     record.grids = json.at("grids");
     record.digest = json.at("digest");
     record.notes = reasons_of(json.at("notes"));
-    // Records of frames have them since 2026-11-29.
+    // Records of frames before 2026-11-29 lack the list.
     if (json.contains("left_out")) record.left_out = reasons_of(json.at("left_out"));
     record.started = parse_utc(json.at("started").get<std::string>(), {}).value();
     record.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();

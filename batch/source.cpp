@@ -88,7 +88,7 @@ class Walk {
             if (pipeline::is_temporary_name(name)) continue;
             std::error_code unknown;
             const fs::file_type type = entry->symlink_status(unknown).type();
-            // What has gone meanwhile is not missing.
+            // A file that went away meanwhile is not missing.
             if (unknown && type != fs::file_type::not_found)
                 return tl::unexpected(failure(entry->path(), unknown));
             if (type == fs::file_type::directory && depth < max_depth) {

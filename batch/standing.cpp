@@ -45,7 +45,7 @@ bool is_of(const cache::GridDescription& description, const Recipe& recipe, cons
            pipeline::is_of_grid(recipe.archive_options(1), description);
 }
 
-// The file could not be read, which says nothing of what it holds.
+// Returns true if the file could not be read, which says nothing of its contents.
 bool may_be_sound(const Error& error) {
     return error.code == ErrorCode::io || is_shortage(error.code);
 }

@@ -1,9 +1,9 @@
 // batch/standing.h -- the grids of a task that the cache holds, whoever made them.
 //
 // Threads   Pure functions, but for the files.
-// Errors    Those of listing the cache and of reading its files. A grid whose header is damaged,
-// that
-//           is of another shape or was made by another version of this software does not stand.
+// Errors    Those of listing the cache and of reading its files. A grid does not stand if its
+// header
+//           is damaged, it is of another shape, or another version of this software made it.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct StandingGrid {
 
 // Returns true if all bytes of the grid are those that were written.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
-// Removes those grids of a task that are damaged, after its record: it is not done any more.
+// Removes the record of a task that has damaged grids, and then these grids.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,
                                     const Task& task);
 

@@ -6,7 +6,7 @@ if(NOT STORMCELLAR_PRECOMPILE)
   return()
 endif()
 
-# On arm64, gcc 12 ends with an error of its own where the header of SVE follows a precompiled one.
+# gcc 12 for arm64 crashes where the header of SVE follows a precompiled one.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
 endif()

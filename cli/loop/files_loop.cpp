@@ -183,7 +183,7 @@ Result<std::vector<pipeline::LeftOut>> rejected_among(const std::set<fs::path>& 
     if (!stations) return pass_on(stations);
     std::vector<pipeline::LeftOut> rejected;
     for (const std::string& station : *stations) {
-        // Of the volumes, only the newest one is asked for.
+        // Rows of rejected files come with those of volumes, of which one is enough.
         const auto rows = catalog.list(station, {{}, {}, true, 1});
         if (!rows) return pass_on(rows);
         for (const catalog::CatalogEntry& row : *rows) {

@@ -72,7 +72,7 @@ void leave_signals() {
     }
 }
 
-// The ending signals wait, for this thread, as long as this exists.
+// Signals that would end the program wait, in this thread, as long as the object exists.
 class BlockedSignals {
   public:
     BlockedSignals() {

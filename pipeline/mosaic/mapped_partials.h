@@ -27,8 +27,8 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
-// What becomes of a partial that cannot be read twice in a row: frames are made without it, so that
-// it does not hold up the others' in a daemon; or it is an error, for who makes each frame once.
+// A partial that cannot be read, twice in a row, is left out, so that in a daemon it does not hold
+// up the frames of other radars; or it is an error, for a caller that makes each frame once.
 enum class Unreadable { is_left_out, is_an_error };
 
 struct OpenPartial {

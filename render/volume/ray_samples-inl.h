@@ -20,7 +20,7 @@ namespace stormcellar::render::HWY_NAMESPACE {
 
 // For each ray, a bin of the transfer function and the share of valued cells.
 struct Samples {
-    // One that the compiler makes would not be for this target.
+    // The compiler would make an implicit constructor for the default target, not for this one.
     HWY_INLINE Samples() {}
     IntVec bin;
     FloatVec valued;

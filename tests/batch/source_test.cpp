@@ -110,7 +110,7 @@ TEST(Source, LinksAreNotFollowedAndCounted) {
     EXPECT_EQ(listing->first_link.parent_path(), directory.path());
 }
 
-// 2026-11-29: its name was blamed, which says all that it must.
+// 2026-11-29: the plan said that its name has no station and time.
 TEST(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     const testing::TemporaryDirectory directory;
     write(directory / "README");

@@ -180,7 +180,7 @@ TEST_F(BatchTasks, ASourceThatLacksFilesOfThePlanMayCome) {
     EXPECT_EQ(run(plan, 0)->record.grids, 3U);
 }
 
-// 2026-11-29: it was left out for good, and the task was done.
+// 2026-11-29: the file was left out for good, and the task was done.
 TEST_F(BatchTasks, AFileThatCannotBeReadMayBeReadLater) {
     const Plan plan = plan_of(recipe("one"), "plan");
     {

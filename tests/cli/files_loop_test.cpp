@@ -103,7 +103,7 @@ TEST_F(FilesLoop, ACacheThatIsNamedHoldsGridsAndCatalog) {
     EXPECT_EQ(json_of({sequence()}, {"--cache", cache})["grids_found"], 5);
 }
 
-// 2026-11-29: they were missing without a word.
+// 2026-11-29: such members were missing without a word.
 TEST_F(FilesLoop, MembersThatHoldNoVolumeAreNamedEachTime) {
     const fs::path day = directory_ / "day", tar = directory_ / "day.tar";
     fs::create_directory(day);

@@ -29,7 +29,7 @@ Image to_rgba(const AVFrame& frame) {
     return image;
 }
 
-// In ticks. The field has another name since FFmpeg 6.
+// Returns the duration in ticks. The field has another name since FFmpeg 6.
 std::int64_t duration(const AVFrame& frame) {
 #if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 0)
     return frame.duration;

@@ -56,7 +56,7 @@ export class Live {
         try {
             const answer = await askEvents(this.last, abort.signal);
             const wasCutOff = this.app.server.isCutOff;
-            // Somebody else may refuse it, and the server answers otherwise.
+            // A proxy may refuse the stream alone, while the server answers other requests.
             if (!answer.body || !answer.headers.get('Content-Type')?.includes('event-stream')) {
                 this.places.leave();
                 await this.doWithout();

@@ -51,11 +51,11 @@ export class Windows {
     get bytes(): number {
         return [...this.held.values(), ...this.ahead.values()].reduce((sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0), 0);
     }
-    // How often the coarsest window was halved that layers of a grid in parts are made of.
+    // Returns how often the coarsest window of the layers was halved; 0 if the grid is not in parts.
     coarsest(loaded: LoadedGrid): number {
         return Math.max(0, ...[...this.held].map(([purpose, { of, cells }]) => (purpose === 'ray' || of !== loaded ? 0 : cells?.grid.halvings ?? 0)));
     }
-    // How often the cells were halved that are there for a purpose.
+    // Returns how often the cells for a purpose were halved.
     halvings(loaded: LoadedGrid, purpose: Purpose): number {
         return (loaded.stream ? this.cellsOf(loaded, purpose)?.grid : loaded.grid)?.halvings ?? 0;
     }

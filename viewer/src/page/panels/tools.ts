@@ -88,7 +88,7 @@ export class ToolsPanel {
     }
 
     // Of a region they are those of its sites; of a frame between volumes, the one before it.
-    // Null: the grid is gone, which is said.
+    // Returns null if the grid is gone, after saying so.
     private async rawFiles(): Promise<RawFile[] | null> {
         const { shown } = this.app;
         if (!shown) return [];
