@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "batch/check.h"
+#include "batch/held_cache.h"
 #include "batch/leftovers.h"
 #include "batch/standing.h"
 #include "batch/usage.h"
@@ -37,7 +38,7 @@ Status check_needs(const Plan& plan, std::size_t first, std::size_t end) {
     const auto store = cache::StoreReader::open(plan.recipe().cache);
     if (!store) return pass_on(store);
     for (const auto& [task, record] : needed) {
-        if (Status there = check_count(*store, plan, task, record); !there) return there;
+        if (Status there = check_stands(*store, plan, task, record); !there) return there;
     }
     return {};
 }
@@ -45,6 +46,7 @@ Status check_needs(const Plan& plan, std::size_t first, std::size_t end) {
 Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const TaskOptions& options) {
     const auto& hour = std::get<FrameHour>(task.work);
     const Recipe& recipe = plan.recipe();
+    const HeldCache held(recipe.cache);
     if (Status met = check_needs(plan, hour.first_need, hour.end_need); !met) return pass_on(met);
     auto store = cache::StoreWriter::open(real_file_system(), recipe.cache, false);
     if (!store) return pass_on(store);
@@ -73,6 +75,7 @@ Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task, const Tas
     for (const StandingGrid& frame : *standing)
         record.bytes_written += frame.bytes;
     usage.end(record);
+    if (Status same = held.check(); !same) return pass_on(same);
     if (auto old = read_record(plan, task); made == 0 && old && old->digest == record.digest) {
         return TaskOutcome{true, std::move(*old)};
     }

@@ -12,8 +12,8 @@
 
 namespace stormcellar::batch {
 
-// Errors: unmet, naming the first of these tasks that has no record; those of check_count(), and of
-// opening the cache.
+// Errors: unmet, naming the first of these tasks that has no record; those of check_stands(), and
+// of opening the cache.
 [[nodiscard]] Status check_needs(const Plan& plan, std::size_t first, std::size_t end);
 
 [[nodiscard]] Result<TaskOutcome> run_frame_task(const Plan& plan, const Task& task,

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "batch/check.h"
+#include "batch/held_cache.h"
 #include "batch/leftovers.h"
 #include "batch/source.h"
 #include "batch/standing.h"
@@ -194,6 +195,7 @@ class GridRun {
 Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const TaskOptions& options) {
     auto store = cache::StoreWriter::open(real_file_system(), plan.recipe().cache, false);
     if (!store) return pass_on(store);
+    const HeldCache held(plan.recipe().cache);
     remove_own_leftovers(plan.recipe(), task);
     if (Status removed = remove_damaged(*store, plan, task); !removed) return pass_on(removed);
     if (auto record = read_record(plan, task)) {
@@ -205,6 +207,7 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
     }
     auto record = GridRun(plan, task, options, *store).run();
     if (!record) return pass_on(record);
+    if (Status same = held.check(); !same) return pass_on(same);
     if (Status written = keep_record(plan, *record); !written) return pass_on(written);
     return TaskOutcome{false, std::move(*record)};
 }

@@ -50,17 +50,13 @@ bool may_be_sound(const Error& error) {
     return error.code == ErrorCode::io || is_shortage(error.code);
 }
 
-}  // namespace
-
-Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store, const Plan& plan,
-                                                 const Task& task) {
-    const Recipe& recipe = plan.recipe();
+struct Found {
     std::vector<StandingGrid> standing;
-    if (const auto* const part = std::get_if<MonthHour>(&task.work)) {
-        const auto bytes = read_file(tally_path(plan, *part));
-        if (bytes) standing.push_back({{}, 0, {}, xxh3_64(*bytes), bytes->size(), {}});
-        return standing;
-    }
+    std::size_t damaged = 0;  // their headers do not say of which task they are
+};
+
+Result<Found> find_grids(const cache::StoreReader& store, const Recipe& recipe, const Task& task) {
+    Found found;
     const Where where = where_of(recipe, task);
     for (const level2::Moment moment : recipe.moments) {
         const auto entries = store.list(where.domain, moment, where.from, where.to);
@@ -68,34 +64,50 @@ Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store
         for (const cache::StoreEntry& entry : *entries) {
             const auto file = cache::GridFile::open(entry.path);
             if (!file && may_be_sound(file.error())) return pass_on(file);
+            if (!file) ++found.damaged;
             if (!file || !is_of(file->description(), recipe, task)) continue;
             const auto stamp = pipeline::stamp_of(entry.path);
             if (!stamp) continue;
             const grid::Provenance& provenance = file->description().provenance;
-            standing.push_back(
+            found.standing.push_back(
                 {task.kind() == TaskKind::frames ? std::string{} : provenance.source_files.front(),
                  stamp->modified_ns, entry.time, file->checksum(), entry.bytes_on_disk,
                  entry.path});
         }
     }
-    return standing;
+    return found;
 }
 
-Status check_count(const cache::StoreReader& store, const Plan& plan, const Task& task,
-                   const Record& record) {
-    const Where where = where_of(plan.recipe(), task);
-    std::size_t listed = 0;
-    for (const level2::Moment moment : plan.recipe().moments) {
-        const auto entries = store.list(where.domain, moment, where.from, where.to);
-        if (!entries) return pass_on(entries);
-        listed += entries->size();
+}  // namespace
+
+Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store, const Plan& plan,
+                                                 const Task& task) {
+    if (const auto* const part = std::get_if<MonthHour>(&task.work)) {
+        std::vector<StandingGrid> counts;
+        const auto bytes = read_file(tally_path(plan, *part));
+        if (bytes) counts.push_back({{}, 0, {}, xxh3_64(*bytes), bytes->size(), {}});
+        return counts;
     }
-    if (listed >= record.grids) return {};
-    return fail(
-        ErrorCode::io,
-        "{}: has {} of the {} grids that task {} made; if the others are lost, submit --deep "
-        "makes them again",
-        plan.recipe().cache.native(), listed, record.grids, task.number);
+    auto found = find_grids(store, plan.recipe(), task);
+    if (!found) return pass_on(found);
+    return std::move(found->standing);
+}
+
+Status check_stands(const cache::StoreReader& store, const Plan& plan, const Task& task,
+                    const Record& record) {
+    const auto found = find_grids(store, plan.recipe(), task);
+    if (!found) return pass_on(found);
+    const std::size_t there = found->standing.size() + found->damaged;
+    if (there > record.grids) return {};  // another plan has the same cache
+    if (there < record.grids) {
+        return fail(ErrorCode::io,
+                    "{}: has {} of the {} grids that task {} made; if the others are lost, submit "
+                    "--deep makes them again",
+                    plan.recipe().cache.native(), there, record.grids, task.number);
+    }
+    if (found->damaged > 0 || digest_of(found->standing) == record.digest) return {};
+    return fail(ErrorCode::io, "{}: has other grids than task {} made; submit --deep settles it",
+                plan.recipe().cache.native(), task.number);
 }
 
 Result<bool> is_sound(const StandingGrid& grid) {

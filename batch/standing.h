@@ -32,11 +32,11 @@ struct StandingGrid {
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
 
-// Returns ok if the cache has as many grids of a task as its record says. It looks at names alone,
-// and at the edges of a day it may count a neighbour's. Errors: also io if there are fewer, as
-// where a cache is not mounted.
-[[nodiscard]] Status check_count(const cache::StoreReader& store, const Plan& plan,
-                                 const Task& task, const Record& record);
+// Returns ok if the cache has the grids that a task made, by its record. A damaged one is there,
+// and of a day that another plan has grids of, too, only their number is compared. Errors: also io
+// if there are fewer or others, as where a cache is not mounted.
+[[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
+                                  const Task& task, const Record& record);
 
 // Returns true if all bytes of the grid are those that were written.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);

@@ -11,6 +11,7 @@
 #include "base/checksum.h"
 #include "batch/check.h"
 #include "batch/frame_task.h"
+#include "batch/held_cache.h"
 #include "batch/standing.h"
 #include "batch/usage.h"
 #include "pipeline/mosaic/domain_frames.h"
@@ -157,6 +158,7 @@ Result<TaskOutcome> run_statistics_task(const Plan& plan, const Task& task,
                                         const TaskOptions& options) {
     const auto& part = std::get<MonthHour>(task.work);
     const Recipe& recipe = plan.recipe();
+    const HeldCache held(recipe.cache);
     if (Status met = check_needs(plan, part.first_need, part.end_need); !met) return pass_on(met);
     const auto store = cache::StoreReader::open(recipe.cache);
     if (!store) return pass_on(store);
@@ -174,6 +176,7 @@ Result<TaskOutcome> run_statistics_task(const Plan& plan, const Task& task,
     MonthTally counted{empty_tally(recipe), instants.size()};
     const auto read = count_frames(*store, recipe, instants, options, counted.tally);
     if (!read) return pass_on(read);
+    if (Status same = held.check(); !same) return pass_on(same);
     if (Status written = write_tally(plan, part, counted); !written) return pass_on(written);
     const auto standing = grids_standing(*store, plan, task);
     if (!standing) return pass_on(standing);

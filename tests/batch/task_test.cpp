@@ -1,6 +1,7 @@
 // Tasks: what they make is the same however often, where and in how many steps they run.
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -257,6 +258,66 @@ TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
     ASSERT_TRUE(run(plan, 2));
     fs::remove_all(directory_ / "one/north");
     EXPECT_EQ(run(plan, 3).error().code, ErrorCode::io);
+}
+
+// 2026-11-29: two hours of the next day stood in for what was lost of a day.
+TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    ASSERT_TRUE(run(plan, 0));
+    auto store = cache::StoreWriter::open(real_file_system(), directory_ / "one", false);
+    const auto grids = store->list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
+    ASSERT_THAT(*grids, SizeIs(3));
+    {
+        const auto lost = cache::GridFile::open(grids->at(1).path);
+        cache::GridDescription next = lost->description();
+        next.time = at("2005-08-23T00:10Z");
+        next.provenance.source_files = {"KBGM20050823_001000"};
+        ASSERT_TRUE(store->commit("north.KBGM", next, lost->view()));
+    }
+    fs::remove(grids->at(1).path);
+    const auto frames = run(plan, 1);
+    ASSERT_FALSE(frames);
+    EXPECT_EQ(frames.error().code, ErrorCode::io);
+    EXPECT_THAT(frames.error().message, HasSubstr("has 2 of the 3 grids that task 0 made"));
+}
+
+// Another plan's grid of the same day is one more, and does no harm; in place of ours it does.
+TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    ASSERT_TRUE(run(plan, 0));
+    auto store = cache::StoreWriter::open(real_file_system(), directory_ / "one", false);
+    const auto grids = store->list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
+    {
+        const auto ours = cache::GridFile::open(grids->at(1).path);
+        cache::GridDescription other = ours->description();
+        other.time = at("2005-08-22T23:10Z");
+        other.provenance.source_files = {"KBGM20050822_231000"};
+        ASSERT_TRUE(store->commit("north.KBGM", other, ours->view()));
+    }
+    ASSERT_TRUE(run(plan, 1));
+    fs::remove(grids->at(1).path);
+    const auto frames = run(plan, 1);
+    ASSERT_FALSE(frames);
+    EXPECT_THAT(frames.error().message, HasSubstr("other grids than task 0 made"));
+}
+
+// 2026-11-29: a cache that was mounted while a task ran hid its first grids, and nothing missed
+// them.
+TEST_F(BatchTasks, ACacheThatIsReplacedMeanwhileLeavesATaskUndone) {
+    const Plan plan = plan_of(recipe("one"), "plan");
+    std::thread mount([&] {
+        while (!fs::exists(partials("one")) || fs::is_empty(partials("one")))
+            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        fs::rename(directory_ / "one", directory_ / "beneath");
+        fs::create_directory(directory_ / "one");
+    });
+    const auto grids = run(plan, 0);
+    mount.join();
+    ASSERT_FALSE(grids);
+    EXPECT_EQ(grids.error().code, ErrorCode::io) << grids.error().message;
+    EXPECT_FALSE(fs::exists(record_path(plan.directory(), 0)));
+    run_all(plan);
+    EXPECT_THAT(check(plan, {true, {}})->changed, IsEmpty());
 }
 
 // 2026-11-29: frames without a damaged grid were made without a word, and a deep check passed it.
