@@ -23,6 +23,8 @@ const refusals = [
   [200, 'text/html', '<h1>We are back soon</h1>'],
   [502, 'application/json', '{"message": "Bad Gateway"}'],
   [401, 'application/json', '{"message": "Unauthorized"}'],
+  [404, 'application/json', '{"error": "Not Found"}'],
+  [500, 'application/json', '{"error": "There was a problem proxying the request"}'],
 ];
 let refusal = refusals[0];
 let isHanging = false; // it takes connections, and sends nothing

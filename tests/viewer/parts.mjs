@@ -139,6 +139,15 @@ for (const layer of ['maximum=1&volume=0', 'height-km=1']) {
   const hover = (await readAt([resting[tapped]]))[0].split('\n')[0];
   check(`a tap with ${layer} reads ${value}, the pointer ${hover}`, value !== undefined && value === hover);
 }
+
+// ---- Beyond the grid a sweep is read with and without the volume (2026-11-29: with it, the page waited for cells for ever)
+const beyond = [];
+for (const volume of [0, 1]) {
+  await viewer.show(`memory=${memoryMib}&domain=${station}&moment=REF&elevation=0.5&volume=${volume}&tilt=0&field-of-view=0&azimuth=180&zoom=0.5`);
+  await complete();
+  beyond.push((await readAt([[100, 160], [460, 220], [160, 280], [400, 280]])).map((text) => text.split('\n').slice(0, 2).join(', ')));
+}
+check(`beyond the grid: ${beyond[1].join('; ')}`, beyond[0].every((text) => text.includes('tilt')) && beyond[1].join() === beyond[0].join());
 await viewer.show(inParts(scene));
 await complete();
 
@@ -159,7 +168,7 @@ browser.listeners.push(({ method, params: { requestId } }) => {
   if (method !== 'Fetch.requestPaused') return;
   const { responseCode, body } = answer;
   if (responseCode === 0) return void page.send('Fetch.continueRequest', { requestId });
-  page.send('Fetch.fulfillRequest', { requestId, responseCode, responseHeaders: [{ name: 'Content-Type', value: 'application/json' }], body: Buffer.from(JSON.stringify({ error: body })).toString('base64') });
+  page.send('Fetch.fulfillRequest', { requestId, responseCode, responseHeaders: [{ name: 'Stormcellar-Status', value: String(responseCode) }], body: Buffer.from(JSON.stringify({ error: body })).toString('base64') });
   if (responseCode === 500) answer = { responseCode: 0, body: '' };
 });
 await page.evaluate('delete document.documentElement.dataset.missing; undefined');

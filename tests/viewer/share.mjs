@@ -143,6 +143,16 @@ try {
   await press('raw');
   check(`Raw volume says that it is not here`, await page.until("document.getElementById('tool-says').textContent.includes('not here')").catch(() => false));
 
+  // ---- The grid is gone, of which nobody asked before (2026-11-29: its raw file was said not to be here)
+  await page.goto('about:blank');
+  await viewer.open(`domain=${station}&moment=REF&folded=0`);
+  await evaluate(`window.own = window.fetch;
+    window.fetch = (url, ...more) => decodeURIComponent(url).endsWith('${ofGrid}') ? Promise.resolve(new Response(JSON.stringify({ error: 'no such grid' }), { status: 404, headers: { 'Stormcellar-Status': '404' } })).finally(() => (window.asked = true)) : own(url, ...more);
+    undefined`);
+  await press('raw');
+  await page.until('window.asked');
+  check('of the raw file of a grid that is gone, nothing is said', await page.until("document.getElementById('state').textContent.startsWith('There is no picture')").then(async () => (await evaluate("document.getElementById('tool-says').textContent")) === '', () => false));
+
   // ---- Its volume is the second of a file, of which a copy was deleted (2026-11-28: the command drew the first one)
   await page.goto('about:blank');
   await viewer.open(`domain=${station}&moment=REF&folded=0`);
@@ -182,7 +192,7 @@ try {
       if (!String(url).includes('/volumes?to=')) return answer;
       const read = await answer.json();
       // Readers have read it before the timer fires.
-      return { ok: true, status: 200, json: async () => (setTimeout(() => (window.told = true)), read) };
+      return Object.assign(new Response(), { json: async () => (setTimeout(() => (window.told = true)), read) });
     };
     document.getElementById('moment-VEL').click(); undefined`);
   await page.until("document.documentElement.dataset.drawn?.includes('/VEL/') && window.told");

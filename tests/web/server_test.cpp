@@ -70,6 +70,15 @@ TEST_F(WebServer, AnswersWithWhatEveryAnswerHas) {
     EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
 }
 
+// A proxy in front of the server refuses without it.
+TEST_F(WebServer, ARefusalOfItsOwnSaysSo) {
+    add("/gone", [](const Request&) { return json_error(404, "no such grid"); });
+    add("/there", [](const Request&) { return text_answer(200, "image/png", "a tile"); });
+    start();
+    EXPECT_NE(get("/gone").find("Stormcellar-Status: 404"), std::string::npos);
+    EXPECT_EQ(get("/there").find("Stormcellar-Status"), std::string::npos);
+}
+
 // 2026-11-28: a tile of 600 bytes carried 593 bytes of headers, most of them for pages.
 TEST_F(WebServer, DataHasNoHeadersOfPages) {
     add("/tile", [](const Request&) { return text_answer(200, "image/png", "a tile"); });

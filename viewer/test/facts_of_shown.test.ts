@@ -8,7 +8,7 @@ import type { App } from '../src/page/app';
 let isWell = false;
 Object.assign(globalThis, {
     document: { baseURI: 'http://localhost/view/' },
-    fetch: (): Promise<Response> => Promise.resolve(new Response(JSON.stringify({ error: 'trouble', sites: [] }), { status: isWell ? 200 : 500, headers: { 'Content-Type': 'application/json' } })),
+    fetch: (): Promise<Response> => Promise.resolve(new Response(JSON.stringify({ error: 'trouble', sites: [] }), { status: isWell ? 200 : 500, headers: { 'Stormcellar-Status': '' } })),
 });
 
 // 2026-11-28: after one failed answer the pointer had no beam, and a region no volumes, for good.

@@ -156,7 +156,7 @@ test('a window that failed is asked for again, and a frame waits for it', async 
     const statuses = [500, 500, 200, 410];
     const seconds: number[] = [];
     Object.assign(globalThis, {
-        fetch: (): Promise<Response> => Promise.resolve(new Response('{"error":"trouble"}', { status: statuses.shift()!, headers: { 'Content-Type': 'application/json' } })),
+        fetch: (): Promise<Response> => Promise.resolve(new Response('{"error":"trouble"}', { status: statuses.shift()!, headers: { 'Stormcellar-Status': '' } })),
         setTimeout: (act: () => void, ms: number) => (seconds.push(ms / 1000), queueMicrotask(act)),
     });
     const decoder = { ask: () => Promise.resolve({ grid }) } as unknown as Decoder;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace stormcellar::web {
 namespace {
@@ -36,6 +37,8 @@ const Fields& headers_of_pages() {
 
 void add_common_headers(Answer& answer, const Request& request, bool any_origin) {
     answer.with("X-Content-Type-Options", "nosniff");
+    // A proxy's refusal is told from ours by it.
+    if (answer.status >= 400) answer.with("Stormcellar-Status", std::to_string(answer.status));
     if (!is_data(answer)) {
         for (const auto& [name, value] : headers_of_pages())
             answer.with(name, value);

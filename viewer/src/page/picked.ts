@@ -1,5 +1,6 @@
 // What is under a pixel of the picture: what of all that is drawn there is seen most.
 
+import { boundsAbout } from '../atlas/window_choice';
 import { ViewGeometry } from '../camera/geometry';
 import { croppedBox, Crop } from '../scene/layers';
 import { firstVisible, mostVisible, wayWithin } from '../scene/first_visible';
@@ -97,11 +98,12 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const box = croppedBox(whole, state.layers.crop);
     const ground = geometry.ground(x, y);
     const points = [...(wayWithin(geometry, box, x, y) ?? []), ...(ground ? [ground] : [])];
-    const cells = points.length > 0 && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
+    const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
+    const cells = isAlong && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
     const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
     const picked = (layer: PickedLayer, at: Plane, heightM: number, status: CellState | null, value = 0, gate: GateHit | null = null): Picked => ({
         layer, at, place: plane.toPlace(at), heightM, state: status, value, gate,
-        lacksCells: !cells && points.length > 0 && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
+        lacksCells: !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
         // Some layers are read as they are drawn, the others along the ray.
         halvings: layer === 'sweep' ? 0 : drawing.windows!.halvings(shown.loaded, layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray'),
     });

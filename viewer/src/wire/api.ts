@@ -121,21 +121,21 @@ const mostTries = 10;
 // The server's, ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
-// A proxy in front of a server that is gone, or that wants a password, answers for it. The server itself sends no page for
-// these requests; it refuses with its sentence in JSON, or in plain text with the seconds after which to come back.
+// A proxy in front of a server that is gone, or that wants a password, answers for it. The server sends no page for these
+// requests, and its own refusals have this header.
+const ownRefusal = 'Stormcellar-Status';
+
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
     let answer = await fetch(address(path), options);
     for (let tries = 0; answer.status === busy && tries < mostTries; ++tries) {
         await new Promise(done => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
         answer = await fetch(address(path), options);
     }
-    const { ok, status, statusText } = answer;
-    const [type, afterS] = ['Content-Type', 'Retry-After'].map(name => answer.headers.get(name) ?? '');
-    if (ok && !type!.includes('html')) return answer;
-    const told = (await answer.json().catch(() => null)) as { error?: unknown } | null;
-    const sentence = told?.error ?? (type!.startsWith('text/plain') && afterS && (statusText || String(status)));
-    if (ok || status === 502 || status === 504 || typeof sentence !== 'string' || sentence === '') throw new TypeError('no answer');
-    throw new ApiError(status, sentence);
+    const { ok, status, statusText, headers } = answer;
+    if (ok && !headers.get('Content-Type')?.includes('html')) return answer;
+    if (!headers.has(ownRefusal)) throw new TypeError('no answer');
+    const refusal = (await answer.json().catch(() => null)) as { error: string } | null;
+    throw new ApiError(status, refusal?.error ?? (statusText || String(status)));
 }
 
 const told = async <T>(path: string): Promise<T> => (await ask(path)).json() as Promise<T>;
