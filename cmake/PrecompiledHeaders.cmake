@@ -6,6 +6,15 @@ if(NOT STORMCELLAR_PRECOMPILE)
   return()
 endif()
 
+# gcc collects garbage from 128 MB on, which takes a tenth of its time. Without it a batch takes up to 1.3 GB,
+# with it 1.0.
+cmake_host_system_information(RESULT memory_mb QUERY TOTAL_PHYSICAL_MEMORY)
+cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
+math(EXPR memory_mb_each "${memory_mb} / ${processors}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND memory_mb_each GREATER 2500)
+  add_compile_options(--param=ggc-min-heapsize=2000000)
+endif()
+
 # gcc 12 for arm64 crashes where the header of SVE follows a precompiled one.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   add_compile_definitions("HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")

@@ -14,7 +14,7 @@ endfunction()
 # names no other and does not use fmt, so the common precompiled headers are not for it. A room that
 # MOVES files and rows computes little: where everything is built once, it is compiled in batches (see
 # stormcellar_test) and with less optimisation. BATCHES is for rooms that also compute, SINGLY for
-# their directories that do nothing else.
+# their directories that do nothing else, which alone have all optimisation there.
 function(stormcellar_room name)
   cmake_parse_arguments(ARG "ALONE;BATCHES;MOVES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
     ${ARGN})
@@ -39,10 +39,14 @@ function(stormcellar_room name)
   endif()
   if(STORMCELLAR_PRECOMPILE AND (ARG_BATCHES OR ARG_MOVES))
     stormcellar_batches(${target})
+    if(ARG_BATCHES)
+      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+    endif()
     foreach(directory IN LISTS ARG_SINGLY)
       set(singly ${ARG_SOURCES})
       list(FILTER singly INCLUDE REGEX "^${directory}/")
-      set_source_files_properties(${singly} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      set_source_files_properties(${singly} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+        COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
     endforeach()
   endif()
   # Each room is a component of the installed package (cmake/Install.cmake).
