@@ -26,10 +26,11 @@ test('the address holds the whole view', () => {
 });
 
 test('what makes no sense in an address is left at its usual value', () => {
-    const state = stateOf('#time=never&tilt=1e9&zoom=NaN&azimuth=&opacity=-1&look-at-km=1,2&moment=<script>');
+    const state = stateOf('#time=never&tilt=1e9&zoom=NaN&azimuth=&opacity=-1&least=weak&look-at-km=1,2&moment=<script>');
     assert.deepEqual(state.camera, usualState.camera);
     assert.equal(state.time, 'latest');
     assert.equal(state.opacity, usualState.opacity);
+    assert.equal(state.least, null);
     assert.equal(stateOf(`#domain=${'x'.repeat(5000)}`).domain.length, 100);
 });
 
@@ -43,7 +44,7 @@ test('the command names what stormcellar frame knows', () => {
         assert(command.includes(part), `${part} in ${command}`);
 });
 
-// What a shell makes of the words of a command.
+// Returns the words of a command as a shell takes them.
 const words = (command: string): string[] => execFileSync('sh', ['-c', `printf '%s\\0' ${command}`], { encoding: 'utf8' }).split('\0').slice(0, -1);
 
 test('a shell takes each word of the command as it is (2026-11-28: names of others ran commands)', () => {

@@ -1,4 +1,4 @@
-// What the page shows, as one value, and as the text behind # in its address.
+// The view of the page as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
 import { geodesic } from './projection';
@@ -80,7 +80,7 @@ export function addressOf(state: ViewState): string {
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
 
-// The last one of each moment; what makes no sense is none.
+// Returns the last draft of each moment, without words that make no sense.
 function draftsOf(words: string[]): Draft[] {
     const drafts = new Map<string, Draft>();
     for (const word of words.slice(0, mostDrafts)) {
@@ -102,10 +102,11 @@ function timeOf(text: string): string {
     return Number.isNaN(Date.parse(time)) ? 'latest' : time;
 }
 
-// What makes no sense in the text is left at its usual value.
+// Reads the state from the text. A part that makes no sense keeps its usual value.
 export function stateOf(text: string): ViewState {
     const query = new URLSearchParams(text.replace(/^#/, ''));
     const usual = usualState;
+    const least = number(query.get('least'), -1000, 1000, NaN);
     const lookAt = (query.get('look-at-km') ?? '').split(',').map(Number);
     return {
         domain: (query.get('domain') ?? '').slice(0, 100),
@@ -122,7 +123,7 @@ export function stateOf(text: string): ViewState {
         hasGround: query.get('ground') !== '0',
         exaggeration: number(query.get('exaggeration'), 0.1, 100, usual.exaggeration),
         opacity: number(query.get('opacity'), 0.001, 1000, usual.opacity),
-        least: query.get('least') === null ? null : number(query.get('least'), -1000, 1000, 0),
+        least: Number.isNaN(least) ? null : least,
         colors: (query.get('colors') ?? '').slice(0, 100),
         quality: (query.get('quality') ?? '').slice(0, 100),
         memoryMib: number(query.get('memory'), 4, 4096, usual.memoryMib),
@@ -133,7 +134,7 @@ export function stateOf(text: string): ViewState {
     };
 }
 
-// What `stormcellar frame` takes (stormcellar/render/scene.h).
+// Limits of `stormcellar frame` (stormcellar/render/scene.h).
 const leastPerspectiveDeg = 1;
 const mostPlaneM = 60_000;
 const sectionM = { least: 1000, most: 5e6 };
@@ -164,8 +165,8 @@ export function isUsualGrid({ nx, ny, spacing, levelsM }: Pick<PackedGrid, 'nx' 
     return nx === cells && ny === cells && spacing === spacingM && levelsM.length === levels && levelsM.every((m, level) => m === betweenLevelsM * (level + 1));
 }
 
-// The command that draws the same, of several layers one, with a table or a file of colors; empty: the
-// usual ones.
+// Returns the command that draws the same, of several layers one, with a table or a file of colors; empty
+// `colors` are the usual ones.
 export function commandOf(state: ViewState, width: number, height: number, colors: string, file = '', volume = 1): string {
     // A name that begins with a dash would be an option.
     const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', state.moment];
