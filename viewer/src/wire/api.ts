@@ -16,7 +16,7 @@ export class ApiError extends Error {
     }
 }
 
-// The server has no such thing: not that it could not be asked.
+// Returns true if the server has no such thing, but not if it could not be asked.
 export const isAbsent = (error: unknown): boolean => error instanceof ApiError && (error.status === 404 || error.status === 410);
 
 export interface MomentOfDomain {
@@ -46,7 +46,7 @@ export interface Station {
     moments: string[];
     silent_s?: number | null; // for how long nothing came; null: it is not silent
 }
-// What a grid is, of which the page uses a part.
+// Facts of a grid, as far as the page uses them.
 export interface GridFacts {
     id: string; // another one if it is made again
     time: string;
@@ -67,14 +67,14 @@ export interface GridFacts {
     };
     audit: { unit: string; summary: string; rows: AuditRow[] } | null;
 }
-// When a sweep of the grid began, and how fast it turned.
+// Start of a sweep of the grid, and how fast it turned.
 export interface SweepTime {
     elevation_deg: number;
     start: string;
     first_azimuth_deg: number;
     degrees_per_s: number;
 }
-// How far the grid's values are from the gates of a sweep, between two ranges.
+// Difference between the grid's values and the gates of a sweep, between two ranges.
 export interface AuditRow {
     elevation_deg: number;
     range_from_m: number;
@@ -111,7 +111,7 @@ export interface ProbedLevel {
 const base = new URL('..', document.baseURI);
 export const address = (path: string): string => new URL(path.replace(/^\//, ''), base).href;
 
-// Of a map: all around the earth, but for what sides lose when they are rounded.
+// Greatest width of a map: all around the earth, but for what sides lose when they are rounded.
 const mostWideDeg = 359.99;
 
 // A server that computes as much as it may says so, and is asked again.
@@ -121,13 +121,13 @@ const mostTries = 10;
 // The server's, ms since 1970; NaN if it does not say.
 export const timeOf = (answer: Response): number => Date.parse(answer.headers.get('Date') ?? '');
 
-// A proxy in front of a server that is gone, or that wants a password, answers for it. The server sends no page for these
-// requests, and its own refusals have this header.
+// A proxy in front of a server that is gone, or that wants a password, answers for it. The server sends no
+// page for these requests, and its own refusals have this header.
 const ownRefusal = 'Stormcellar-Status';
 
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
     let answer = await fetch(address(path), options);
-    for (let tries = 0; answer.status === busy && tries < mostTries; ++tries) {
+    for (let tries = 0; answer.status === busy && answer.headers.has(ownRefusal) && tries < mostTries; ++tries) {
         await new Promise(done => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
         answer = await fetch(address(path), options);
     }
@@ -147,8 +147,8 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return (await told<{ stations: Station[] }>('api/v1/stations')).stations;
 }
-// Returns the silent stations, each with the seconds since something came from it (undefined: the server cannot say), and
-// the time of the server.
+// Returns the silent stations, each with the seconds since something came from it (undefined: the server
+// cannot say), and the time of the server.
 export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
@@ -164,7 +164,7 @@ export async function region(domain: string): Promise<Region> {
     const found = await told<Omit<Region, 'part_of'>>(`api/v1/regions?${query}`);
     return { ...found, domain, part_of: null };
 }
-// Of which volumes a site of a region is made at an instant, and how far the middles of these are from it.
+// Volumes that a site of a region is made of at an instant, and how far their middles are from it.
 export interface RegionSite {
     site: string;
     volumes: { time: string; middle_s: number }[];
