@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What cmake/Install.cmake installs as documents, in the same places below one directory.
+// Returns true for the documents below, and for all in docs/: cmake/Install.cmake installs them in
+// the same places below one directory.
 bool is_installed(const fs::path& path) {
     static const std::set<fs::path> single = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
                                               "bunzip/README.md"};
@@ -77,7 +78,7 @@ std::vector<Link> links_of(const fs::path& document) {
     return links;
 }
 
-// As pages of Markdown name their headings: lower case, blanks as "-", without other signs.
+// Returns headings as pages of Markdown name them: lower case, blanks as "-", without other signs.
 std::set<std::string> headings_of(const fs::path& document) {
     static const std::regex heading(R"(\n#+ ([^\n]*))");
     std::set<std::string> names;

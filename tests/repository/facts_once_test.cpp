@@ -183,7 +183,7 @@ TEST(FactsOnce, TheCheckSeesWhatItLooksFor) {
     EXPECT_GT(split_sources().size(), 500U);
 }
 
-// How many enumerators an enumeration has, by its text.
+// Counts the enumerators of an enumeration, by its text.
 std::size_t enumerators_in(const std::string& header, const std::string& name) {
     const std::string& code = split_sources().at(header).code;
     const std::regex definition("enum class " + name + R"( [^{;]*\{([^}]*)\})");

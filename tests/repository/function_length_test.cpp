@@ -2,7 +2,8 @@
 // that closes them. The layout is clang-format's (the test Repository.Format), so a function at the
 // level of a namespace goes from a line without indent to a line that is "}", and one in a class
 // from a line with an indent of four to a line that is "    }". A block of a function that has this
-// indent is measured too, and can be no longer than its function.
+// indent is measured too, and can be no longer than its function. In TypeScript a function may also
+// be a constant of arrow form, which ends with "};".
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -42,7 +43,10 @@ std::vector<LongFunction> long_functions(const std::string& text, std::size_t in
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
-        if (line == end && last.line > 0) {
+        const bool ends_constant = line == end + ";" && last.head.find("=>") != std::string::npos;
+        const bool is_class =
+            last.head.starts_with("class ") || last.head.starts_with("export class ");
+        if ((line == end || ends_constant) && last.line > 0 && !is_class) {
             last.lines = number - last.line + 1;
             if (last.lines > most) found.push_back(last);
         }
@@ -60,7 +64,8 @@ TEST(FunctionLength, NoFunctionIsLongerThanSixtyLines) {
         if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(room.path())) {
             const auto ending = entry.path().extension();
-            if (ending != ".h" && ending != ".cpp") continue;
+            if (entry.path().parent_path() == root / "viewer" / "test") continue;
+            if (ending != ".h" && ending != ".cpp" && ending != ".ts") continue;
             ++sources;
             const std::string text = testing::text_of(entry.path());
             for (const std::size_t indent : {0, 4}) {
@@ -72,7 +77,7 @@ TEST(FunctionLength, NoFunctionIsLongerThanSixtyLines) {
             }
         }
     }
-    EXPECT_GE(sources, 1000U);
+    EXPECT_GE(sources, 1100U);
 }
 
 TEST(FunctionLength, AFunctionIsMeasuredFromItsHeadToItsBrace) {

@@ -48,7 +48,7 @@ const std::map<std::string, Rooms> allowed = {
       "cache", "render", "synth", "export", "pipeline", "web"}},
 };
 
-// Of the rooms inside a room, what each may include beside itself; the lowest ones first. A room
+// The inner rooms that each inner room may include beside itself; the lowest ones first. A room
 // that is not named here has none inside.
 const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
     {"level2",
@@ -132,7 +132,7 @@ const std::map<std::string, std::string> homes_of_headers = {
     {"render/integration", "view"},
 };
 
-// What a text includes in quotes, as it is written.
+// Returns the paths that a text includes in quotes, as they are written.
 std::vector<fs::path> quoted_includes(const std::string& text) {
     static const std::regex include(R"re((?:^|\n)\s*#\s*include\s*"([^"]+/[^"]+)")re");
     std::vector<fs::path> found;
@@ -188,7 +188,7 @@ std::vector<fs::path> all_sources_of(const std::string& room) {
     return sources;
 }
 
-// What is wrong with one room's includes; empty when nothing is.
+// Returns what is wrong with one room's includes; empty if nothing is.
 std::vector<std::string> violations(const std::string& room, const Rooms& may) {
     std::vector<std::string> found;
     for (const auto& source : all_sources_of(room)) {

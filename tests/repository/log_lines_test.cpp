@@ -36,7 +36,7 @@ std::vector<std::string> matches(const std::string& text, const std::regex& what
     return found;
 }
 
-// What stands between one text and the next that follows it.
+// Returns the part of a text that begins with `from` and ends before the next `to`.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
     const std::size_t begin = text.find(from);
     if (begin == std::string::npos) return {};

@@ -40,7 +40,7 @@ std::vector<Entry> entries() {
     return found;
 }
 
-// As pqact does: \1 to \9 stand for what was caught.
+// Expands a text as pqact does: \1 to \9 stand for what was caught.
 std::string expanded(const std::string& text, const std::smatch& caught) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {

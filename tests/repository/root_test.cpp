@@ -1,5 +1,5 @@
-// What may stand in the root of the tree: a stray file there is the first thing that a visitor
-// sees. 2026-11-28: a picture named --colors stood there for days.
+// Checks the root of the tree, because a stray file there is the first thing that a visitor sees.
+// 2026-11-28: a picture named --colors stood there for days.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -27,7 +27,7 @@ bool is_one_of(const auto& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-// What git does not look at, of the root: /build/, /demo-output/ and the like.
+// Returns true for names in the root that git ignores: /build/, /demo-output/ and the like.
 bool is_ignored(const std::string& name) {
     std::istringstream lines(testing::text_of(testing::source_directory() / ".gitignore"));
     for (std::string line; std::getline(lines, line);) {
