@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using pipeline::IngestOutcome;
 using pipeline::IngestResult;
 
-// What stands of each file, by its name.
+// Times at which grids were written (ns since 1970), by the names of their volumes.
 using StandingFiles = std::map<std::string, std::int64_t>;
 
 std::size_t hour_of(const fs::path& path) {

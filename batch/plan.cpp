@@ -31,7 +31,8 @@ constexpr int version = 1;
 constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_task_bytes = std::size_t{1} << 20;
 
-// What gridding takes, by docs/performance.md: bytes of raw files a second and processor.
+// Estimates for gridding: bytes of raw files a second and processor, and the cost of each further
+// moment as a share of that of the first. docs/scaling.md has measured rates.
 constexpr double grid_bytes_a_second = 35e6;
 constexpr double share_of_more_moments = 0.6;
 // Seconds for a million cells of a frame.

@@ -36,14 +36,14 @@ struct Record {
     TaskKind kind = TaskKind::grids;
     std::string station;  // of grids
     std::string day;      // of a station's files, as 20130520
-    // Raw files that were taken and left out, and what there is of them: grids, or frames.
+    // Raw files, taken or left out, and the grids or frames that exist.
     std::size_t files = 0;
     std::size_t grids = 0;
     std::string digest;                 // identifies the grids to the byte
     std::vector<NamedReason> left_out;  // of frames: damaged grids
     std::vector<NamedReason> notes;     // taken, with a remark
     HourCounts taken_by_hour{}, left_out_by_hour{};
-    // What the last run of the task took. A run that found grids of another one took less.
+    // Resources that the last run of the task used: less if it found grids of an earlier run.
     UtcTime started, ended;
     double cpu_s = 0;
     std::uint64_t bytes_read = 0, bytes_written = 0, memory_bytes = 0;

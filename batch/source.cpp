@@ -260,7 +260,8 @@ Result<BroughtFiles> fetch_files(const Recipe& recipe, const StationDay& what, c
     const auto report = fetch::fetch(request);
     if (!report) return pass_on(report);
     if (report->stopped) return fail(ErrorCode::busy, "stopped while files were fetched");
-    // What is listed and refused will not come with another try either. What failed may.
+    // Leave out files that the source lists but refuses, because no other try would bring them.
+    // After any other failure, fail: another try may succeed.
     std::vector<pipeline::LeftOut> refused;
     for (const fetch::FetchFailure& failure : report->failures) {
         if (!failure.is_refused) {

@@ -37,7 +37,7 @@ struct NamedVolume {
 // Returns none for a name without a known station and a time, and for files of metadata (_MDM).
 [[nodiscard]] std::optional<NamedVolume> volume_named(std::string_view file_name);
 
-// What one station sent on one day, the work of a task.
+// The files that one station sent on one day. One task grids them.
 struct StationDay {
     std::chrono::sys_days day;
     std::string station;

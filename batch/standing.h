@@ -2,8 +2,8 @@
 //
 // Threads   Pure functions, but for the files.
 // Errors    Those of listing the cache and of reading its files. A grid does not stand if its
-// header
-//           is damaged, it is of another shape, or another version of this software made it.
+//           header is damaged, if it is of another shape, or if another version of this software
+//           made it.
 #pragma once
 
 #include <cstdint>

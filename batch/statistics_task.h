@@ -24,7 +24,7 @@ namespace stormcellar::batch {
 [[nodiscard]] Result<TaskOutcome> run_statistics_task(const Plan& plan, const Task& task,
                                                       const TaskOptions& options);
 
-// What a file of counts has.
+// Contents of a file of counts.
 struct MonthTally {
     grid::GridTally tally;
     std::uint64_t instants = 0;  // at which a frame could be

@@ -16,7 +16,7 @@
 
 namespace stormcellar::batch {
 
-// What a station gave, by the hour of the day.
+// Counts of the raw files of a station, by the hour of the day (UTC).
 struct StationHours {
     HourCounts taken{}, left_out{};
 };
@@ -36,9 +36,9 @@ struct Totals {
 void add(const Record& record, double cost_s, Totals& totals);
 void add(const Totals& more, Totals& all);
 
-// Of totals of at least one record.
+// The totals must hold at least one record.
 [[nodiscard]] nlohmann::ordered_json json_of(const Totals& totals);
-// It throws what nlohmann::json throws if something is missing or of another type.
+// Throws what nlohmann::json throws if something is missing or of another type.
 [[nodiscard]] Totals totals_of(const nlohmann::ordered_json& json);
 
 }  // namespace stormcellar::batch

@@ -60,7 +60,7 @@ std::string command_typed(const CLI::App& app) {
     return words;
 }
 
-// What the parser threw: what was asked for, or what is wrong.
+// Prints the help or version that was asked for, or what is wrong. Returns the exit status.
 int answer(const CLI::ParseError& error, const CLI::App& app) {
     if (error.get_name() == "CallForVersion") return app.exit(error) == 0 ? exit_done : exit_failed;
     const CommandReference program = reference_of(app);

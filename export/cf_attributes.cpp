@@ -11,7 +11,7 @@
 namespace stormcellar::netcdf {
 namespace {
 
-// How CF names a projection and the longitude of its origin (CF-1.8, appendix F).
+// CF names of a projection and of the longitude of its origin (CF-1.8, appendix F).
 struct MappingNames {
     const char* mapping;
     const char* origin_longitude;

@@ -36,15 +36,15 @@ struct MapNames {
 [[nodiscard]] CfAttributes height_attributes();
 [[nodiscard]] CfAttributes row_attributes(const grid::GridSpec& spec);
 [[nodiscard]] CfAttributes column_attributes(const grid::GridSpec& spec);
-// Of the variables lat and lon, where these are no dimensions.
+// Attributes of the variables lat and lon, on maps in meters, where they are no dimensions.
 [[nodiscard]] CfAttributes latitude_attributes();
 [[nodiscard]] CfAttributes longitude_attributes();
 [[nodiscard]] CfAttributes mapping_attributes(const grid::GridSpec& spec);
-// The same in well-known text (WKT 1, as GDAL writes it).
+// The mapping in well-known text (WKT 1, as GDAL writes it).
 [[nodiscard]] std::string well_known_text(const grid::GridSpec& spec);
 // The attributes with which a field refers to the map.
 [[nodiscard]] CfAttributes reference_to_map(const grid::GridSpec& spec);
-// `method` is that of the provenance.
+// `method` comes from the provenance of the grid.
 [[nodiscard]] CfAttributes field_attributes(level2::Moment moment, std::string_view method);
 
 // long_name, standard_name and comment of the states; the flags are apart.

@@ -15,7 +15,7 @@ namespace stormcellar::netcdf {
 
 inline constexpr std::size_t string_length = 32;
 
-// What the parts write, and where to.
+// The volume that all parts write, and the file into which they write it.
 struct CfradialParts {
     NetcdfBuilder& file;
     const level2::Volume& volume;

@@ -22,7 +22,7 @@ constexpr int deflate_level = 1;
 constexpr std::size_t first_threshold_bin = 7;
 constexpr std::size_t thresholds = ValueTally::bins - first_threshold_bin;
 
-// What is counted: columns with their greatest values, or cells.
+// Places that were counted: columns, by their greatest values, or cells.
 struct Places {
     const char* prefix;  // of the names of variables
     const char* place;   // as texts have it

@@ -31,7 +31,7 @@ struct TallyGroup {
     grid::GridTally tally;
 };
 
-// What the groups are.
+// Name of the dimension of the groups, and global attributes of the file.
 struct ClimatologyText {
     const char* group = "all";  // the name of the dimension: hour, month or all
     std::string time_coverage_start, time_coverage_end;

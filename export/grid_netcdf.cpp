@@ -26,7 +26,7 @@ struct Dimensions {
     int time, z, y, x;
 };
 
-// What is written of one grid: its variables, where those of several grids stand in one file.
+// One grid in the file, alone or beside grids of other moments.
 struct Field {
     const Grid& grid;
     bool is_alone = true;
@@ -125,7 +125,7 @@ void write_making(NetcdfBuilder& file, int variable, const Grid& grid) {
     file.text(variable, "averaging", from.averaging);
 }
 
-// What several grids say alike stands once.
+// Returns the notes of all grids. A note that several grids have comes once.
 std::vector<std::string> notes_of(std::span<const Grid> grids) {
     std::vector<std::string> notes;
     for (const Grid& grid : grids) {

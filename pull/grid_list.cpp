@@ -54,8 +54,8 @@ Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> 
                                                      const PullSource& source, UtcTime from,
                                                      UtcTime now) {
     const auto* const begin = reinterpret_cast<const char*>(text.data());
-    // What lies deeper than a list has is not kept: a list of nothing but brackets would take a
-    // hundred times its size.
+    // Drop values that are nested deeper than those of a list, because a list of nothing but
+    // brackets would take a hundred times its size.
     const auto is_kept = [](int depth, json::parse_event_t, const json&) { return depth <= 3; };
     const json all = json::parse(begin, begin + text.size(), is_kept, false);
     if (!all.is_object() || !all.contains("grids") || !all["grids"].is_array()) {

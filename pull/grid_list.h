@@ -16,9 +16,9 @@
 
 namespace stormcellar::pull {
 
-// The server lists at most so many, the newest.
+// The server lists the newest grids, at most this many.
 inline constexpr std::size_t most_listed = 10'000;
-// Of a list with so many.
+// Limit of the text of such a list.
 inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
 
 [[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);

@@ -83,7 +83,7 @@ HttpClient::HttpClient(HttpOptions options)
     const std::string agent = fmt::format("stormcellar-pull/{}", software_version);
     curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
     curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 0L);
-    // What is to be asked stands in the configuration alone.
+    // Ignore proxies from the environment and the user's .netrc; only the configuration counts.
     curl_easy_setopt(easy, CURLOPT_PROXY, "");
     curl_easy_setopt(easy, CURLOPT_NETRC, static_cast<long>(CURL_NETRC_IGNORED));
     curl_easy_setopt(easy, CURLOPT_USERAGENT, agent.c_str());

@@ -56,7 +56,7 @@ class HttpClient {
     ~HttpClient();
 
     [[nodiscard]] Result<HttpAnswer> get(const HttpRequest& request);
-    // How long the last answer asked to wait (Retry-After in seconds); none: it did not say.
+    // Returns the time that the last answer asked to wait (Retry-After); none: it did not say.
     [[nodiscard]] std::optional<std::chrono::seconds> retry_after() const { return retry_after_; }
 
   private:

@@ -20,9 +20,9 @@ namespace stormcellar::pull {
 namespace {
 
 constexpr std::string_view program = "stormcellar-pull";
-// How often the status is written, and the watchdog fed.
+// Period in which the program writes the status and feeds the watchdog.
 constexpr std::chrono::milliseconds turn{1000};
-// A transfer is given up before that; a thread that is silent for so long is stuck.
+// A thread that is silent for this long is stuck; a transfer beats at least once a second.
 constexpr std::chrono::minutes longest_silence{5};
 
 constexpr std::string_view usage =

@@ -39,11 +39,11 @@ class SourcePuller {
                  const std::atomic<bool>& stop);
 
     Status turn();
-    // How long to wait before the next turn.
+    // Returns the time to wait before the next turn.
     [[nodiscard]] std::chrono::milliseconds pause() const;
     [[nodiscard]] SourceStatus status() const;
     [[nodiscard]] const PullSource& source() const { return source_; }
-    // Returns of how many grids something is remembered besides those that are kept.
+    // Returns the size of the larger of its two memories: grids asked for lately, and bad ones.
     [[nodiscard]] std::size_t remembered() const { return std::max(asked_.size(), bad_.size()); }
     // The last time that a turn, or a transfer in it, was seen to go on.
     [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }

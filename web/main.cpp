@@ -30,7 +30,7 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::string_view program = "stormcellar-web";
-// How often the program looks whether there is a catalog, and whether the watchdog is due.
+// Period in which the program looks for a catalog and feeds the watchdog when it is due.
 constexpr std::chrono::milliseconds turn{1000};
 
 constexpr std::string_view usage =

@@ -135,7 +135,7 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
     return write_file_atomically(real_file_system(), file, bytes);
 }
 
-// What the headings of the tables mean.
+// Explanations of the headings of the tables, printed below each.
 constexpr std::string_view words_of_grids =
     "first time: the first grid; further time: each one after it, which uses the places of the\n"
     "columns again. position: how far a sample is off at most. usual, 99 in 100, largest: the "

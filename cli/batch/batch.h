@@ -15,9 +15,9 @@ class App;
 
 namespace stormcellar::cli {
 
-// The exit status of a task that another try, or another machine, may finish (EX_TEMPFAIL).
+// Exit status of a task that another try, or another machine, may finish (EX_TEMPFAIL).
 inline constexpr int exit_try_again = 75;
-// Of a plan of which tasks are not done.
+// Exit status of a check that finds tasks of the plan not done.
 inline constexpr int exit_incomplete = 3;
 
 void add_plan_option(CLI::App& app, std::string& plan);

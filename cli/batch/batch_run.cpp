@@ -49,7 +49,7 @@ Result<TaskRange> parse_tasks(const std::string& text) {
     return range;
 }
 
-// What the data or the plan cause, another try does not change.
+// Asks for another try only if the system failed: no try changes the data or the plan.
 int status_of(const Error& error) {
     if (error.cause() == Cause::system) return exit_try_again;
     return error.code == ErrorCode::bad_argument ? exit_bad_usage : exit_failed;

@@ -20,7 +20,7 @@
 
 namespace stormcellar::cli {
 
-// What the options say of one moment.
+// The options of one moment, parsed.
 struct MomentRequest {
     level2::Moment moment = level2::Moment::ref;
     EffectRequest effects;

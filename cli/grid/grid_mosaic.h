@@ -44,17 +44,17 @@ struct MosaicSources {
     double read_s = 0, decode_s = 0;
 
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes() const;
-    // Those of the volumes that hold the moment; all, if none does.
+    // Returns only the volumes that hold the moment; all, if none does.
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes(level2::Moment moment) const;
     [[nodiscard]] std::size_t site_count() const;
 };
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// What the options ask for, of the moment that `overlap` is for. Without --center the grid lies
-// about the middle of the sites, without an extent it reaches 230 km beyond them; without --time it
-// is for the middle of what the newest volumes of all sites show, or of the newest of them where
-// they lie more than 15 minutes from that.
+// Returns the request for the moment that `overlap` is for, on the grid of the sources: about the
+// middle of the sites without --center, and to 230 km beyond them without an extent. Without --time
+// the mosaic is for the middle between the earliest and the latest of the sites' newest volumes; if
+// not all of these are within 15 minutes of it, for the middle of the newest one.
 [[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
                                                      const GridRequest& request,
                                                      const grid::MosaicOptions& overlap,

@@ -54,7 +54,7 @@ void add_spec_options(CLI::App& app, GridOptions& options);
 
 enum class SizeUnit { km, degrees };
 
-// What the options say before the site is known.
+// The options as far as they can be parsed before the site is known.
 struct GridRequest {
     std::optional<std::array<double, 2>> center_deg;
     grid::Projection projection = grid::Projection::azimuthal_equidistant;

@@ -24,7 +24,7 @@
 
 namespace stormcellar::cli {
 
-// What the rest of the command says about it.
+// An archive request, and what the rest of the command says about it.
 struct ArchiveCall {
     ArchiveRequest request;
     std::filesystem::path catalog;

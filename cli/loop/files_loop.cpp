@@ -109,7 +109,7 @@ Status make_catalog(const fs::path& catalog, const NamedFiles& files, const Loop
     rebuild.drop = "/";
     rebuild.files = files.all;
     rebuild.threads = render::thread_count(options.scene);
-    // What is in the catalog stays there, so the next run continues.
+    // An interrupted run leaves its rows in the catalog, so the next run continues.
     rebuild.progress = [&](std::size_t done, std::size_t all) {
         bar.show(done, all);
         if (!interrupt.flag()) return;

@@ -283,7 +283,7 @@ Status refuse_panels(const LoopOptions& options) {
                                        : std::string{"--panels"});
 }
 
-// What a loop of sweeps cannot do.
+// Refuses what a loop of sweeps cannot do.
 Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
     if (!render::facts_of(scene.product).is_of_sweep) return {};
     if (options.follow.wanted) {

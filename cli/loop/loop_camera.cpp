@@ -38,7 +38,8 @@ Camera placed(const LoopScene& shown, const Camera& camera) {
     return render::turned(view, 0, shown.scene.curved_earth);
 }
 
-// How far a frame is on the way: that of one that ends where it began lacks its last frame.
+// Returns how far along the path frame i is, from 0 to 1. A path that ends where it began leaves
+// out its last frame, because the loop begins with the same one.
 double share_of(const CameraPath& path, std::size_t i, std::size_t there) {
     const std::size_t steps = path.is_closed() ? there : std::max<std::size_t>(there, 2) - 1;
     return static_cast<double>(i) / static_cast<double>(steps);

@@ -17,7 +17,7 @@
 
 namespace stormcellar::cli {
 
-// What is drawn, and the view that was fitted to it.
+// The scene that is drawn, and the view that was fitted to it.
 struct LoopScene {
     render::Scene scene;
     render::FittedView view;
@@ -30,8 +30,8 @@ struct LoopScene {
 // that would all be the same, with what to do.
 [[nodiscard]] Result<std::size_t> frame_count(const LoopSettings& settings, std::size_t grids);
 
-// Returns a camera for each of `all` frames, of which the first `there` are the way there, and the
-// others that way back. Errors: those of CameraPath::make().
+// Returns a camera for each of `all` frames. The first `there` follow the path, and the others go
+// the same way back. Errors: those of CameraPath::make().
 [[nodiscard]] Result<std::vector<render::Camera>> cameras_of(const LoopSettings& settings,
                                                              const LoopScene& shown,
                                                              std::size_t there, std::size_t all);

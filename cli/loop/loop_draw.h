@@ -13,7 +13,7 @@
 
 namespace stormcellar::cli {
 
-// What the frames of a loop share.
+// State that the frames of a loop share.
 struct Drawing {
     render::Scene scene;
     render::FrameCache cache;

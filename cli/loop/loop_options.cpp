@@ -81,7 +81,7 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
 }
 
 Status take_sources(LoopOptions& options) {
-    // Of files, and of an archive, a domain is the name of a mosaic.
+    // If the sources are files or an archive, the domain is the name of a mosaic.
     auto names = tell_apart_from_cache(options.sources, {}, options.cache_place);
     if (!names) return pass_on(names);
     options.files = std::move(names->files);

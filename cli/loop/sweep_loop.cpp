@@ -51,7 +51,7 @@ struct SweepFrame {
     std::optional<UtcTime> nearest_to;  // of several sweeps of the elevation; none: the newest
 };
 
-// What the frames share, and the volume that was decoded last.
+// State that the frames share, and the volume that was decoded last.
 struct SweepDrawing {
     GridOptions grid;
     render::Scene scene;

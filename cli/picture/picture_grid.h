@@ -48,11 +48,11 @@ class PictureGrid {
     [[nodiscard]] bool has_grid() const { return stored_ != nullptr || made_ != nullptr; }
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
     [[nodiscard]] const cache::GridDescription& description() const;
-    // Of files: the station, or the stations of a mosaic with "+" between them.
+    // Returns the domain; for files, the station, or a mosaic's stations with "+" between them.
     [[nodiscard]] const std::string& name() const;
     // The decoded volumes that it was made from; empty for a grid of the cache.
     [[nodiscard]] const std::vector<SourceVolume>& volumes() const;
-    // To be asked after the view was used: a file of the cache may have been cut meanwhile.
+    // Call after the view was used, because a file of the cache may have been truncated meanwhile.
     [[nodiscard]] Status check_whole() const;
 
   private:

@@ -235,7 +235,7 @@ void read_camera_keys(TomlTable& loop, const std::filesystem::path& directory,
     }
 }
 
-// What [loop] has beside the rows of the table: whose grids, of which times, and where to.
+// Reads the keys of [loop] that have no row in the table: whose grids, which times, and where to.
 void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSettings& loop) {
     read_text(table, "domain", loop.domain, [](const std::string& name) -> Status {
         if (cache::is_domain_name(name)) return {};

@@ -26,7 +26,7 @@
 
 namespace stormcellar::cli {
 
-// What [loop] and the options of `loop` say.
+// The settings of a loop, from [loop] and from the options of `loop`.
 struct LoopSettings : LoopChoices {
     std::string domain;
     TimeRangeOptions range;

@@ -27,7 +27,7 @@ namespace stormcellar::cli {
 // Returns the whole output, in memory, to its place. Errors: those of writing.
 [[nodiscard]] Status write_still(const std::string& output, std::span<const std::byte> bytes);
 
-// What -o takes, for help.
+// Returns what -o takes, for help.
 [[nodiscard]] std::string still_help();
 
 // Reads --geotiff. Errors: bad_argument, naming the option, also for an output that is no GeoTIFF.

@@ -77,7 +77,7 @@ struct DomainTotal {
     std::uint64_t pinned_bytes = 0;
 };
 
-// What the newest audited grid of a domain and moment says about its agreement with its gates.
+// The newest audited grid of a domain and moment, and its agreement with its gates.
 struct AuditedGrid {
     StoreEntry entry;
     std::vector<grid::AuditRow> rows;

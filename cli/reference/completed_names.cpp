@@ -24,7 +24,8 @@ fs::path typed_path(const std::string& text) {
     return fs::path(home) / text.substr(2);
 }
 
-// What stands behind this option; bash makes "--cache", "=" and "x" of "--cache=x".
+// Returns the value of this option, empty if it has none. Bash splits "--cache=x" into "--cache",
+// "=" and "x".
 std::string value_behind(std::string_view option, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (words[i].starts_with(option) && words[i].size() > option.size() &&

@@ -54,12 +54,12 @@ struct CommandReference {
 [[nodiscard]] const CommandReference* find_command(const CommandReference& program,
                                                    std::string_view name);
 
-// What help and manual say of an option: its description, its range, its default, and the options
-// with which it may and may not be used. Each is a sentence with its period.
+// Returns what help and manual say of an option: its description, its range, its default, and the
+// options with which it may and may not be used. Each is a sentence with its period.
 [[nodiscard]] std::vector<std::string> sentences_of(const OptionReference& option);
 
 enum class HelpExtent { usual, all };
-// The text of --help or --help-all: at most 80 columns, ends with a line end.
+// Returns the text of --help or --help-all: at most 80 columns, ends with a line end.
 [[nodiscard]] std::string help_of(const CommandReference& command, HelpExtent extent);
 
 // Uses headings and lists of man(7), one heading for each command that does something.

@@ -89,7 +89,7 @@ Words names_of_all(const CommandReference& program) {
     return names;
 }
 
-// What an argument without a name may be: files, unless the table of words says more.
+// Returns what an argument without a name may be: files, unless the table of words says more.
 Kept kept_of_arguments(const CommandReference& command) {
     for (const OptionReference& option : command.options) {
         if (!option.place.empty() && option.kept != Kept::nowhere) return option.kept;
@@ -176,7 +176,7 @@ void write_zsh_command(const CommandReference& command, const Words& all_names, 
     out += "      esac ;;\n  esac\n}\n";
 }
 
-// Whether a value follows, and which.
+// Returns the flags that tell fish if a value follows, and which values to offer.
 std::string fish_values(const OptionReference& option) {
     if (option.value.empty()) return "";
     const Words& values = listed(option);
@@ -199,7 +199,7 @@ std::string fish_values(const OptionReference& option) {
     return " -x" + offered;
 }
 
-// What arguments without a name may be besides files.
+// Writes what arguments without a name may be besides files: domains or commands.
 void write_fish_arguments(const CommandReference& command, const Words& all_names,
                           std::string& out) {
     const Kept kept = kept_of_arguments(command);

@@ -52,8 +52,8 @@ std::string not_a_number(std::string_view said, const CommandReference& command)
                        found != nullptr && found->is_whole ? "whole " : "", text);
 }
 
-// What the parser says, as a sentence: "--last: Value 0 not in range 1 to 9" and
-// "--last: 1 required INT missing" are none.
+// Makes a sentence of the parser's message, which may be "--last: Value 0 not in range 1 to 9" or
+// "--last: 1 required INT missing".
 std::string sentence_of(const std::string& said, const CommandReference& command) {
     constexpr std::string_view value = ": Value ", range = " not in range ";
     const std::size_t at_value = said.find(value), at_range = said.rfind(range);

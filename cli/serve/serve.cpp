@@ -27,7 +27,8 @@ struct ServeOptions {
     int threads = 0;
 };
 
-// What the configuration says, if one is named or if nothing else says what is to be served.
+// Reads the configuration if one is named or if no option says what to serve. Otherwise returns a
+// setup that names no directories.
 Result<web::WebSetup> setup_by_config(const ServeOptions& options) {
     web::WebSetup setup;
     setup.state.clear();

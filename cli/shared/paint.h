@@ -14,8 +14,8 @@ enum class Paint { plain, colors };
 // anything (no-color.org), or if TERM is missing or "dumb".
 [[nodiscard]] Paint paint_for(int descriptor);
 
-// What has gone wrong, in bold red; what may need a look, in yellow. Plain text stays as it is, and
-// so does an empty one.
+// Color texts: bold red is for what has gone wrong, yellow for what may need a look. With
+// Paint::plain a text stays as it is, and so does an empty one.
 [[nodiscard]] std::string in_red(std::string_view text, Paint paint);
 [[nodiscard]] std::string in_yellow(std::string_view text, Paint paint);
 

@@ -31,7 +31,7 @@ Result<std::optional<ServicePlaces>> service_places(const std::string& config) {
     ServicePlaces places;
     places.config = config_in_use(config);
     if (places.config.empty()) return std::optional<ServicePlaces>{};
-    // What the service makes of the rest of the file is for the service to check.
+    // Only the service checks the rest of the file.
     auto toml = TomlFile::open(places.config);
     if (!toml) return pass_on(toml);
     TomlTable root = toml->root();

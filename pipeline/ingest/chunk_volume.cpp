@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 // No chunk has a hundredth of this; a volume's worth of other data is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
-// How many chunks one job reads beside its own. The others come with jobs of their own.
+// A job that reads chunks beside its own stops at this many bytes, or at this many chunks that do
+// not belong to the volume. The other chunks come with jobs of their own.
 constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
 constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};

@@ -34,9 +34,9 @@ class ChunkVolume {
     // Reads the file unless this stamp of it is known. Returns io or no_space if the file cannot be
     // read now, for example for want of descriptors or memory; then poll again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
-    // As add(). With the first chunk it adds all other chunks in the same directory. Errors as
-    // add(). Some chunks may be missing; the volume waits two minutes for them and then goes on
-    // without them.
+    // Calls add(). Until this has succeeded once, it also adds the other chunks in the same
+    // directory, up to the limits of one job. Errors: those of add(), also for the other chunks;
+    // after two minutes of these the volume goes on without the chunks that cannot be read.
     [[nodiscard]] Result<Added> add_with_siblings(const ChunkPath& chunk, const FileStamp& stamp);
 
     // If numbers are missing, adds chunks of this volume that came later, because their own jobs
@@ -71,10 +71,10 @@ class ChunkVolume {
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
     // Some of its sweeps are closed.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
-    // What the catalog can say of the volume before it ends: its start, and the sweeps that have
+    // Returns the facts for the catalog before the volume ends: its start, and the sweeps that have
     // closed. None as long as its first chunk is missing or no sweep has closed.
     [[nodiscard]] std::optional<catalog::VolumeFacts> living_facts() const;
-    // How much it holds, roughly, in memory and on the shelf.
+    // Returns roughly how much it holds in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {live_.held_bytes(), kept_ ? kept_->shelf->bytes() : 0, has_sweeps()};
     }
@@ -94,7 +94,7 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    // What had been read when the job began.
+    // Counters as they were when the job began; they tell when it has read enough.
     struct InOneJob {
         std::uint64_t read_bytes = 0;
         std::size_t refused = 0;
@@ -115,7 +115,7 @@ class ChunkVolume {
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;
-    // Of the closed sweeps: by cut, and the time of the last radial.
+    // Radials of each closed sweep, by cut, and the time of the newest radial in them.
     std::map<std::size_t, std::size_t> radial_counts_;
     std::optional<UtcTime> newest_radial_;
     // Files that were read and are not chunks of this volume, with their stamps.
@@ -126,8 +126,8 @@ class ChunkVolume {
     level2::LiveVolume::Clock::time_point next_catching_up_{};
 };
 
-// When the file came, by the clock of LiveVolume. If a volume is joined again after a restart, or
-// after it was given up, it has waited since its files came.
+// Returns when the file came, by the clock of LiveVolume. If a volume is joined again after a
+// restart, or after it was given up, it has waited since its files came.
 [[nodiscard]] level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp);
 
 }  // namespace stormcellar::pipeline

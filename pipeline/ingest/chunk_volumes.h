@@ -32,7 +32,7 @@ class ChunkVolumes {
         : options_(std::move(options)), volumes_(limits) {}
 
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
-    // What the caller knows of the rest of a volume.
+    // Chunks that the caller still expects of a volume.
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
     // Finds the volume, or makes it. `station` is the station that its path names. Returns null if
     // there is no place for the volume and more of it is expected, or if it was given up and has
@@ -55,7 +55,7 @@ class ChunkVolumes {
     void forget(const ChunkPath& chunk);
     void forget(const ChunkPath& chunk, const Shared& volume);  // if it is still this volume
     [[nodiscard]] std::size_t count() const;
-    // How many volumes were given up since the last call.
+    // Returns the number of volumes that were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:

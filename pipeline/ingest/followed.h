@@ -28,7 +28,8 @@ class Followed {
 
     // Null if it is not followed.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
-    // As GrowingSet::has_place(): idle files or volumes of the station may be given up for it.
+    // Makes a place for one more file or volume of the station. Others may be given up for it, by
+    // the rules of GrowingSet::has_place(). Returns false if there is no place.
     [[nodiscard]] bool make_place(const std::string& station) {
         const bool has_place = things_.has_place(station, Clock::now());
         remember_given_up();
@@ -57,12 +58,12 @@ class Followed {
     }
 
     [[nodiscard]] bool was_given_up(const Key& key) const { return given_up_.contains(key); }
-    // For one that was given up: returns true once, for a second try.
+    // Returns true once for each that was given up, so that it gets a second try.
     [[nodiscard]] bool take_second_try(const Key& key) {
         const auto at = given_up_.find(key);
         return at != given_up_.end() && !std::exchange(at->second.had_second_try, true);
     }
-    // How many were given up since the last call.
+    // Returns the number of those that were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up() { return std::exchange(given_up_count_, 0); }
 
     [[nodiscard]] std::size_t count() const { return things_.count(); }

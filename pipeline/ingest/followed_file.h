@@ -112,7 +112,7 @@ class FollowedFile {
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
-    // How much it holds, roughly, in memory and on the shelf.
+    // Returns roughly how much it holds in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {growing_.held_bytes(), kept_->shelf->bytes(), !kept_->places.empty()};
     }
@@ -156,7 +156,7 @@ class LivingSweeps {
     // Doppler sweep stands until a Doppler sweep has come. The last volume's sweeps are left out if
     // it is more than 20 minutes older. It is valid until the next call.
     [[nodiscard]] const level2::Volume& volume_of(level2::Moment moment);
-    // How many sweeps of that volume are those of the last one.
+    // Counts the standing sweeps in that volume: those that the last volume gave.
     [[nodiscard]] std::size_t standing() const { return standing_; }
 
   private:

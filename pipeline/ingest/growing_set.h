@@ -54,7 +54,7 @@ struct GrowingLimits {
     }
 };
 
-// What a member holds, and what has come of it.
+// Memory and disk space that a member holds, and its progress.
 struct Growth {
     std::uint64_t held_bytes = 0, shelf_bytes = 0;
     bool has_sweeps = false;  // sweeps have closed

@@ -25,7 +25,7 @@ namespace stormcellar::pipeline {
 
 class MosaicMaker;
 
-// Whether a file that cannot be ingested is tried again after this.
+// Tells ingest() if the caller will try the file again after a failure.
 enum class Tries { more_follow, last };
 
 class Ingestor {

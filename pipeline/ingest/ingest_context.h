@@ -40,7 +40,7 @@ struct IngestContext {
     OpenArchives archives;
     std::atomic<int> running{0};  // files that are being ingested at this moment
 
-    // How many threads one file may use.
+    // Returns the number of threads that one of the running files may use.
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
     [[nodiscard]] level2::DecodeOptions decode_options_for(const std::string& station) const;
 

@@ -13,7 +13,7 @@
 
 namespace stormcellar::pipeline {
 
-// Whether a volume that has not ended is gridded, or waits for more.
+// Tells take() to grid a volume that has not ended, or to let it wait for more.
 enum class MayBePartial : bool { no, yes };
 
 // An object is made for one file and used once.
@@ -28,7 +28,7 @@ class TakeVolumes {
     Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
 
   private:
-    // What reading the file found, for all its volumes.
+    // Findings of the decoder about the file, for all its volumes.
     struct Reading {
         bool is_complete = false;
         bool damaged = false;               // bytes are lost

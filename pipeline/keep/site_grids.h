@@ -20,7 +20,7 @@
 
 namespace stormcellar::pipeline {
 
-// What the caller knows about the raw file.
+// Facts about the raw file that the caller knows.
 struct GridSource {
     std::string file;  // without directories
     bool partial = false;

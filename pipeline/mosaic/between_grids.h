@@ -83,7 +83,7 @@ class BetweenGrids {
     std::optional<Domain> mosaic_;  // none: a station's own
     std::unique_ptr<GeometryCache> geometries_;
     std::unique_ptr<InstantCache> instants_;
-    // Of the pair of volumes used last.
+    // The pair of volumes used last (the place of its first in grids_), and its motion.
     std::optional<std::size_t> pair_;
     Motions motions_;
 };

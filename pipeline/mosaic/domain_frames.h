@@ -48,13 +48,13 @@ enum class FrameStanding {
     to_make,  // is missing, damaged, or differs from what the present partials give
 };
 
-// Of a frame that MosaicMaker::make_again() would make.
+// Tells if the frame is due, and if it is the one that MosaicMaker::make_again() would make.
 [[nodiscard]] Result<FrameStanding> standing_of(const cache::StoreReader& store,
                                                 std::span<const Domain> domains,
                                                 const cache::GridName& frame);
 
-// Frames that do not stand and should, newest first: those between the partials of the newest
-// volumes (`newest` before the last) that are newer than the oldest frame which stands.
+// Returns the frames that are due but do not exist, newest first. It looks between the partials of
+// the newest volumes (back to `newest` before the last), but not before the oldest existing frame.
 [[nodiscard]] Result<std::vector<cache::GridName>> missing_frames(const cache::StoreReader& store,
                                                                   std::span<const Domain> domains,
                                                                   std::chrono::milliseconds newest);

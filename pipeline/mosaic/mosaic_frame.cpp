@@ -21,8 +21,7 @@ grid::TimedView timed(const PartialView& partial) {
     return {partial.view, partial.middle(), partial.description->provenance.sweeps};
 }
 
-// What one site gives to a frame: a partial unchanged, or a grid made of two partials for the
-// instant.
+// One site's share of a frame: a partial unchanged, or a grid made of two partials for the instant.
 struct SiteShare {
     const PartialView* nearest = nullptr;
     const PartialView* before = nullptr;  // both, or none

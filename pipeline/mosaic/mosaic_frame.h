@@ -34,7 +34,7 @@
 
 namespace stormcellar::pipeline {
 
-// How volumes become partials.
+// Options for making partials of volumes.
 struct PartialOptions {
     grid::GridderOptions gridder;
     grid::Quantization quantization;
@@ -131,7 +131,7 @@ struct PreviousFrame {
     grid::BrickView cells;
 };
 
-// What was made before and may be used again. The frame has the same bytes without it.
+// Earlier results that may be used again. The frame has the same bytes without them.
 struct MadeBefore {
     // Any frame: its parts (pipeline/mosaic/frame_parts.h) tell what of it can be used.
     const PreviousFrame* frame = nullptr;

@@ -81,7 +81,7 @@ struct FrameMade {
     std::optional<std::vector<grid::GridWindow>> merged;  // as in MosaicFrame
 };
 
-// What make_stale() found.
+// A frame that make_stale() looked at.
 struct StaleFrame {
     cache::GridName name;
     std::optional<FrameMade> made;  // none: it was as it should be, or is not due
@@ -113,7 +113,7 @@ class MosaicMaker {
     Result<std::optional<StaleFrame>> make_stale(int threads, std::vector<std::string>& problems);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }
-    // As find_domain() says, among these domains.
+    // Calls find_domain() for these domains.
     [[nodiscard]] const Domain* find(std::string_view name, level2::Moment moment) const {
         return find_domain(domains_, name, moment);
     }

@@ -14,8 +14,8 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// What a real part says of itself is far below these. The bounds keep the texts of all parts of a
-// frame small, and the work on them short.
+// Real parts stay far below these bounds, which keep the texts of all parts of a frame small, and
+// the work on them short.
 constexpr std::size_t most_notes = 64;  // and as many troubles of the radar
 constexpr std::size_t most_files = 8;   // and as many stations
 constexpr std::size_t most_sweeps = 256;
@@ -25,7 +25,7 @@ constexpr std::size_t most_text_bytes = 1024;
 // The first and the last radial of a volume are minutes from its start.
 constexpr std::chrono::hours farthest_radial_of_part{1};
 
-// Returns what a part says that none says; empty if there is nothing.
+// Names what a part has more of than it may; empty if there is nothing.
 std::string_view excess_of(const grid::Provenance& part) {
     if (part.notes.size() > most_notes || part.radar_troubles.size() > most_notes) return "notes";
     if (part.source_files.size() > most_files || part.stations.size() > most_files) return "names";

@@ -65,7 +65,7 @@ struct IngestOptions {
     // The stations whose data are accepted; null: all that have a name. Data of all other stations
     // are cataloged with those of no known station, and neither followed nor gridded.
     std::shared_ptr<StationRule> stations;
-    // Of each site's own grids: one decoding and one geometry serve all of them. Not empty.
+    // Moments of each site's own grids; one decoding and one geometry serve all. Not empty.
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     double spacing_m = 1000;
     int nx = 460, ny = 460;
@@ -75,8 +75,7 @@ struct IngestOptions {
     FramesWhen frames = FramesWhen::volume_comes;
     // The machines that bring partials of the domains; null: there are none.
     std::shared_ptr<PartialSources> partial_sources;
-    // The number in total: files that are ingested at the same time share the threads, and a single
-    // file has all of them.
+    // Threads in total. Files that are ingested at the same time share them; a single file has all.
     int decode_threads = 1;
     int grid_threads = 1;
     LivingGrids living;

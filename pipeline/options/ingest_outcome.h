@@ -88,7 +88,7 @@ struct IngestOutcome {
         return std::visit([](const auto& end) { return end.result; }, ending);
     }
 
-    // What the file says.
+    // Facts about the file.
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
     std::optional<UtcTime> newest_radial;  // by the radar's clock; only plausible times
@@ -96,7 +96,7 @@ struct IngestOutcome {
     // It looks like one chunk of a volume, but its name is not that of a chunk.
     bool lone_chunk = false;
 
-    // What was made from it.
+    // Grids, partials and frames that were made from it.
     bool partial = false;  // some volume was incomplete or damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic/mosaic_maker.h)
@@ -105,7 +105,7 @@ struct IngestOutcome {
         false;         // some volume was not gridded because the cache's limits left no room for it
     int not_kept = 0;  // volumes of which the cache's limits keep no grid: nothing was made of them
 
-    // Where its volume grows, or grew.
+    // State of the volume of the file, if that grows or grew.
     bool goes_on = false;  // the volume is followed, and a sweep of it has closed
     std::vector<std::filesystem::path> living;  // grids of volumes that have not ended
     bool living_left_out = false;               // for lack of time
@@ -116,7 +116,7 @@ struct IngestOutcome {
     // The chunk that represented the volume until this one came.
     std::filesystem::path former_representative;
 
-    // How long each step took.
+    // Time that each step took.
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
 

@@ -33,7 +33,7 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Status predict(MosaicScene& scene, const grid::PlanOptions& options,
                              accuracy::Chain& chain);
 
-// How far the fastest echo of any pair of volumes moves, by the motion that the grids show.
+// Distances that the fastest echo of any pair of volumes moves, by the motion that the grids show.
 struct Displacements {
     double to_instant_m = 0;     // from a volume's middle
     double within_volume_m = 0;  // from a volume's middle to its first or last sweep

@@ -16,7 +16,7 @@ constexpr std::array<double, 3> channel_weight = {2, 4, 3};
 // a color, with channels scaled so that distances are weighted
 using Point = std::array<double, 3>;
 
-// What is grouped: the color of a cell of the histogram, and the number of its pixels.
+// An item to be grouped: the color of a cell of the histogram, and the number of its pixels.
 struct Sample {
     Point point{};
     double count = 0;

@@ -60,7 +60,7 @@ inline constexpr std::array<std::string_view, 2> colour_families{"smooth", "nws"
 // Returns a moment's own table of a family; null for any other name.
 [[nodiscard]] const ColourTable* table_of_family(std::string_view family, level2::Moment moment);
 
-// What a picture says of a moment, and its default colours: render's layer over
+// The texts of a picture for a moment, and its default colors: render's layer over
 // stormcellar/level2/moment.h.
 struct MomentLook {
     level2::Moment moment = level2::Moment::ref;

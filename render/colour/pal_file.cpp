@@ -26,7 +26,7 @@ struct Entry {
     bool solid = false;
 };
 
-// What the name of a product or a unit says about the values.
+// The moment or unit of the values that the name of a product stands for.
 struct Meaning {
     std::string_view word;
     std::optional<Moment> moment;
@@ -38,7 +38,7 @@ constexpr Meaning products[] = {
     {"EET", {}, "km"},        {"VIL", {}, "kg/m2"},    {"DVL", {}, "kg/m2"},
 };
 
-// How many of the file's units make one of ours.
+// A unit of files, and how many of it make one of ours.
 struct FileUnit {
     std::string_view word;
     double per_ours;

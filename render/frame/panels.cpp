@@ -26,7 +26,7 @@ Status check_panels(std::span<const Panel> panels) {
     return {};
 }
 
-// What the whole picture says: the first panel's facts, and its product unless the panels differ.
+// Returns the first panel's facts for the whole picture; its product lists all panels' moments.
 DrawnFacts facts_of_whole(std::span<const Panel> panels,
                           const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();

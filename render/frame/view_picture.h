@@ -18,7 +18,7 @@
 
 namespace stormcellar::render {
 
-// What is drawn: a grid, its facts, how it is to be seen, and the summary of its columns.
+// The input of a picture: a grid, its facts, the scene, and the summary of its columns.
 struct DrawnView {
     const grid::BrickView& view;
     const FrameFacts& facts;

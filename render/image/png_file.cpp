@@ -33,7 +33,7 @@ void flush_nothing(png_structp /*png*/) {}
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// Only C calls and trivial objects may be here, because libpng leaves by longjmp when it fails.
+// Uses C calls and trivial objects only, because libpng leaves by longjmp when it fails.
 bool write_png(png_structp png, png_infop info, const Image& image, bool opaque, png_textp texts,
                int text_count) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -41,7 +41,7 @@ bool write_png(png_structp png, png_infop info, const Image& image, bool opaque,
                  static_cast<png_uint_32>(image.height), 8,
                  opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    // As measured on frames, this takes an eighth of the default's time for a sixth more bytes.
+    // Measured on frames, this takes an eighth of the default's time for a sixth more bytes.
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, 1);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -146,7 +146,7 @@ int bits_for(int colours) {
     return colours <= 2 ? 1 : colours <= 4 ? 2 : colours <= 16 ? 4 : 8;
 }
 
-// As write_png(): C calls and trivial objects only.
+// Uses C calls and trivial objects only, like write_png().
 bool write_palette_png(png_structp png, png_infop info, int width, int height,
                        const PaletteChunks& chunks, const std::uint8_t* pixels) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;

@@ -44,8 +44,8 @@ void draw_heights(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
     draw_texts(canvas, fonts, lines, marks.height_texts);
 }
 
-// How directions on the ground look in the middle of the picture: a unit circle of the ground
-// appears as an ellipse, scaled so that its long axis is 1.
+// Turns directions on the ground into directions in the middle of the picture. A unit circle of the
+// ground becomes an ellipse, scaled so that its long axis is 1.
 class GroundTurn {
   public:
     explicit GroundTurn(const ViewGeometry& geometry) {

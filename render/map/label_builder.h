@@ -28,7 +28,7 @@ struct LabelBlock {
     bool hatched = false;
 };
 
-// What is drawn around a picture.
+// The parts that are drawn around a picture.
 struct LabelParts {
     std::vector<LabelBlock> blocks;  // color bars and legends
     std::vector<Rect> outlines;      // around color bars, whose ends may have the color of the page
@@ -41,7 +41,7 @@ struct LabelStyle {
     Rgba8 colour{};
 };
 
-// Which part of a text stands at its place.
+// The part of a text that is at its place.
 enum class Align { left, middle, right };
 
 class LabelBuilder {

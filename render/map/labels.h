@@ -34,7 +34,7 @@ struct LabelLayout : LabelParts {
     const Shades* shades = &shades::dark;
 };
 
-// What the labels say about the picture beside the facts of its grid.
+// The facts about the picture that its labels show, beside those of its grid.
 struct DrawnFacts {
     Legend legend;
     double ring_spacing_m = 50e3;  // as drawn

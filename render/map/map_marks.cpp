@@ -25,7 +25,7 @@ constexpr std::array towns = {TownLook{400'000, 10.5, true}, TownLook{100'000, 9
 // Where there are more sites, their names are small, and fewer.
 constexpr std::size_t few_sites = 3;
 constexpr double north_radius = 17;
-// Of the scale of heights: 1 to 10 km, 5 to 50 thousand feet.
+// Bounds of the steps in the scale of heights: 1 to 10 km, 5 to 50 thousand feet.
 constexpr double least_step_m = 1000;
 constexpr double most_step_m = 15300;
 

@@ -16,7 +16,7 @@
 
 namespace stormcellar::render {
 
-// How help says what a place may be.
+// The forms of a place, for help.
 inline constexpr std::string_view place_for_help =
     "LAT,LON in degrees, a town as in \"Moore, OK\", or a radar as in KTLX";
 

@@ -36,7 +36,7 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status check_time_zone(const std::string& zone);
 [[nodiscard]] Status check_colors(const std::string& name);
 [[nodiscard]] Status check_smoothing(const std::string& name);
-// What these may be, for help.
+// Return the known names, for help.
 [[nodiscard]] std::string known_moments();
 [[nodiscard]] std::string known_smoothings();
 

@@ -25,7 +25,7 @@ namespace stormcellar::render {
 struct LoopChoices;
 struct SceneOptions;
 
-// What the options set.
+// The objects that the options set.
 struct PictureSettings {
     SceneOptions& options;
     Scene& scene;       // that of the options
@@ -53,7 +53,7 @@ struct NumberValue {
     bool or_zero = false;
     Checked checked = Checked::with_the_scene;
 };
-// As many numbers as there are places: "35,-98" on the command line, an array in a scene file.
+// A number of a NumbersValue, which is "35,-98" on the command line and an array in a scene file.
 struct NumberPlace {
     std::string_view name;
     NumberRange range;
@@ -61,14 +61,14 @@ struct NumberPlace {
 struct NumbersValue {
     std::span<const NumberPlace> places{};
     void (*set)(PictureSettings, std::span<const double>) = nullptr;
-    // How the command line reads them; null: as numbers separated by commas.
+    // Reads the numbers of the command line; null: they are separated by commas.
     Result<std::vector<double>> (*read)(const std::string& option,
                                         const std::string& text) = nullptr;
 };
 struct TextValue {
     std::string* (*field)(PictureSettings) = nullptr;
     Status (*check)(const std::string&) = nullptr;  // its message says why a text is refused
-    // What a text stands for in a scene file of this directory; null: for itself.
+    // Resolves a text of a scene file in this directory; null: a text stands for itself.
     std::string (*beside)(const std::filesystem::path& directory,
                           const std::string& text) = nullptr;
     std::string (*known)() = nullptr;  // the texts that there are, for {} in the help; null: any
@@ -96,7 +96,7 @@ struct ProductUse {
                (!with_threshold || facts_of(product).threshold_dbz != nullptr) &&
                (!maps || is_map(product));
     }
-    // As in "cappi", "any product but section".
+    // Returns these products as a text: "cappi", "any product but section".
     [[nodiscard]] std::string text() const;
 };
 
@@ -118,7 +118,7 @@ struct PictureOption {
 // In the order of --help.
 [[nodiscard]] std::span<const PictureOption> picture_options();
 
-// Those that other code asks about.
+// The options that other code asks about.
 [[nodiscard]] const PictureOption& slices_option();
 [[nodiscard]] const PictureOption& section_option();
 [[nodiscard]] const PictureOption& moment_option();
@@ -148,7 +148,7 @@ enum class ViewPart {
 
 // The option as a parameter of an address: "tilt" of "--tilt".
 [[nodiscard]] std::string_view parameter_of(const PictureOption& option);
-// As a message names a key: "[volume] slices".
+// Returns the key as messages name it: "[volume] slices".
 [[nodiscard]] std::string key_of(const PictureOption& option);
 [[nodiscard]] std::string help_of(const PictureOption& option);
 

@@ -24,10 +24,10 @@ namespace stormcellar::render {
 
 inline constexpr NumberRange thread_range{0, 1024};
 
-// How messages name an option.
+// The spelling of an option in messages.
 enum class Spelling { option, parameter };  // "--tilt", "tilt"
 
-// What the options of a picture set, and the scene files (picture_options.h).
+// The settings of a picture, from its options and from a scene file (picture_options.h).
 struct SceneOptions {
     std::string product = "volume";
     std::string moment{level2::moment_name(level2::Moment::ref)};
@@ -48,7 +48,7 @@ struct SceneOptions {
     Spelling spelling = Spelling::option;
 };
 
-// What the rows of [loop] set.
+// The settings of the rows of [loop].
 struct LoopChoices {
     int last = 0;    // of the grids only so many; 0: all
     int frames = 0;  // spread over the grids; 0: one for each, or as many as the camera's way lasts

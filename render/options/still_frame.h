@@ -22,7 +22,7 @@
 
 namespace stormcellar::render {
 
-// What a still is drawn of. What is referred to must outlive it.
+// The grid and the options that a still is drawn from. All that it refers to must outlive it.
 struct StillSource {
     const std::string& domain;
     const grid::BrickView& view;
@@ -40,7 +40,7 @@ struct StillSource {
 // Errors: those of fit_picture().
 [[nodiscard]] Status fit_to_grid(const StillSource& source, Scene& scene);
 
-// How a still is written.
+// The settings for writing a still.
 struct StillWriting {
     const StillFormat& format;
     TiffContent tiff = TiffContent::values;

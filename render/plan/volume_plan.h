@@ -22,7 +22,7 @@
 
 namespace stormcellar::render {
 
-// What is to be drawn. All arguments must outlive the scene.
+// A scene that is drawn with several choices. All arguments must outlive it.
 class VolumeScene {
   public:
     // `width` and `height` are those of the picture without its labels.
@@ -44,7 +44,7 @@ class VolumeScene {
     std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to these stay valid
 };
 
-// Whether to predict sizes also for effects that the scene does not ask for. No plan needs them.
+// The effects to predict: those that the scene asks for, or all. No plan needs the others.
 enum class Predicted { asked, all };
 
 // Predicts the size and cost of each effect for this scene. Settings stay.

@@ -87,8 +87,8 @@ inline constexpr double least_depth_m = 500;
 // Returns the height of the radar, or the mean of several.
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
-// Of the scene's product, whose view is a map; the scene must be valid for the view and its facts.
-// The columns are not used for a ppi. bad_argument as the products.
+// Returns the field of the scene's product, whose view is a map. The scene must be valid for the
+// view and its facts. The columns are not used for a ppi. Errors: bad_argument, as of the products.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
                                           const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);

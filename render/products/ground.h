@@ -25,11 +25,11 @@ namespace stormcellar::render {
 // A column that was seen below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// What the ground shows about the columns over it: whether they were seen from low down, only
-// higher up, or not at all; or, if haze shows the rest, only whether they were seen.
+// The detail in which the ground shows how the columns over it were seen: from low down, only
+// higher up, or not at all; or, if haze shows the rest, only seen or not.
 enum class GroundTells { how_low, whether_seen };
 
-// How the ground is painted.
+// The settings for painting the ground.
 struct GroundLook {
     const Shades* shades = &shades::dark;
     const WaterMask* water = nullptr;  // null: all is land, and there is nothing beyond the grid

@@ -102,7 +102,7 @@ void place_raster(const grid::GridSpec& spec, TiffFacts& facts) {
     facts.top_left = {spec.x_m(0) - spec.spacing_m / 2, spec.y_m(spec.ny - 1) + spec.spacing_m / 2};
 }
 
-// What a pixel of the state raster is: the states of cells, and one for tops that may be higher.
+// A class of pixels in the state raster: a state of cells, or tops that may be higher.
 struct StateClass {
     std::uint8_t code = 0;
     std::string_view name = {};

@@ -259,7 +259,7 @@ void put_directory(TiffBytes& file, const std::vector<Field>& fields, std::uint3
     file.insert(file.end(), values.begin(), values.end());
 }
 
-// What GDAL's COG driver writes before the first directory, and looks for.
+// Returns the text that GDAL's COG driver writes before the first directory, and looks for.
 std::string layout_text() {
     const std::string lines =
         "LAYOUT=IFDS_BEFORE_DATA\n"

@@ -39,7 +39,7 @@ Status complain(std::size_t index, std::string_view why) {
     return fail(ErrorCode::bad_argument, "key {} of the camera {}", index + 1, why);
 }
 
-// What makes no sense in one key, or beside the first one.
+// Refuses a key that makes no sense by itself, or beside the first one or the one before it.
 Status check_key(const std::vector<CameraKey>& keys, std::size_t i) {
     const CameraKey& key = keys[i];
     const CameraKey& first = keys.front();

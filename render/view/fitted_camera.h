@@ -28,7 +28,7 @@
 
 namespace stormcellar::render {
 
-// What fit_view() chooses; all else stays as the scene has it.
+// The parts of the view that fit_view() chooses; all else stays as the scene has it.
 struct FitParts {
     bool azimuth = true, tilt = true, field_of_view = true, place = true;
     bool exaggeration = true, opacity = true, sun = true;

@@ -43,7 +43,7 @@ constexpr auto unit_facts = std::to_array<UnitFacts>({
 });
 static_assert(is_in_order(unit_facts, &UnitFacts::unit));
 
-// What a unit may be of.
+// A quantity that a unit may be of.
 struct Quantity {
     bool UnitFacts::*of = nullptr;
     Unit Units::*unit = nullptr;

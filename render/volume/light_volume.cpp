@@ -44,7 +44,7 @@ Held held(float position, int size) {
             inside - static_cast<float>(below)};
 }
 
-// How the light comes through the coarse cells: plane by plane along the main axis, from the plane
+// The way of the light through the coarse cells: plane by plane along the main axis, from the plane
 // `first` on, by `step`. From one plane to the next it moves by (du, dv) cells across, and crosses
 // length_m of air.
 struct LightWay {

@@ -21,8 +21,8 @@ struct PixelPlace {
     int x = 0, y = 0;
 };
 
-// What all rays of a picture share, in drawn space: the start and the step of a ray are linear in
-// the pixel.
+// The geometry that all rays of a picture share, in drawn space: the start and the step of a ray
+// are linear in the pixel.
 struct RayLines {
     struct Linear {
         Vec3 origin{}, per_x{}, per_y{};

@@ -65,7 +65,7 @@ struct Rays {
     }
 };
 
-// What the rays find at one slice.
+// The values that the rays find at one slice.
 struct SliceFinds {
     HWY_ALIGN std::int32_t bin[lanes];
     HWY_ALIGN float valued[lanes];

@@ -24,7 +24,7 @@ struct CurvedLevels {
     float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
 };
 
-// How the volume is lit: the words of a ShadeField.
+// The light in the volume: the words of a ShadeField.
 struct PacketLight {
     const std::byte* words = nullptr;
     std::int32_t stride_x = 0, stride_y = 0;

@@ -105,7 +105,7 @@ class ShadeField::Baker {
             }
         }
     }
-    // Whether a cell of a brick of states has no echo.
+    // Returns true if a cell of a brick of states has no echo.
     [[nodiscard]] bool is_clear(const grid::BrickEntry& brick, std::size_t cell) const {
         const auto four_cells =
             static_cast<unsigned>(view_.states[brick.status_index * state_block_bytes + cell / 4]);

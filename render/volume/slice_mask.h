@@ -39,12 +39,12 @@ class SliceMask {
     bool fill_band(int tile_row, std::vector<std::uint64_t>& words) const;
 
   private:
-    // What visible cells may color: the cells, and everything between them and their neighbors.
+    // The space that visible cells may color: the cells, and all between them and their neighbors.
     struct Box {
         Vec3 low, high;  // in drawn space, widened by half a tile where the box is farthest
         int first_tile, last_tile, first_row, last_row;
     };
-    // How far the rays go along each axis: reciprocals of a step, and whether the ray moves at all.
+    // The motion of the rays along each axis; `per_step` is 1 / step, if the ray moves at all.
     struct Direction {
         Vec3 per_step;
         bool moves[3];

@@ -18,7 +18,7 @@ inline constexpr std::size_t step_bins = 256;
 inline constexpr std::size_t bins_of_a_vector = 8;
 using OfBins = std::array<double, step_bins + bins_of_a_vector>;
 
-// What each bin looks like: the optical depth of a step that lies wholly in it, and its color.
+// The look of each bin: the optical depth of a step that is wholly in it, and its color.
 struct BinLooks {
     OfBins depth{};
     std::array<OfBins, 3> colour{};
@@ -29,8 +29,8 @@ struct PieceOpacities {
     OfBins whole{}, half{};  // for each bin
 };
 
-// Of the step that has bin i at its lower end: what of the color gets out at its front, the light
-// that gets through it, and the sum of the depths of its bins.
+// At i, the step with bin i at its lower end: the color that gets out at its front, the light that
+// gets through it, and the sum of the depths of its bins.
 struct StepIntegrals {
     std::array<OfBins, 3> colour;
     OfBins through, depth;

@@ -23,7 +23,7 @@
 
 namespace stormcellar::render {
 
-// What a step of the reference length looks like if its whole width holds values. A step of another
+// The look of a step of the reference length whose whole width holds values. A step of another
 // length, or with another share of values, has the same color and that multiple of the depth.
 struct TransferEntry {
     float red = 0, green = 0, blue = 0;  // 0..1, not premultiplied

@@ -92,8 +92,8 @@ void expect_agreement(const Reported& reported, double position_tolerance_deg) {
     EXPECT_NEAR(station->antenna_altitude_m, reported.antenna_altitude_m, 1.3) << reported.icao;
 }
 
-// What the radars say of themselves in message 31 since 2013: site + tower, both in whole meters
-// rounded down, and for the TDWR the site height alone.
+// Positions that radars report in message 31 since 2013. The altitude is site + tower, both in
+// whole meters rounded down, and for the TDWR the site height alone.
 TEST(StationTable, AgreesWithMessage31) {
     const Reported volumes[] = {
         {"KATX", 48.19461, -122.4957, 161 + 34},

@@ -1,4 +1,4 @@
-// How far a plan is, by its records.
+// Tests how far a plan is done, by the records of its tasks.
 #include "batch/check.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// What Slurm and make are told.
+// Tests what the engines tell Slurm and make to do.
 #include "batch/engines.h"
 
 #include <cstdlib>

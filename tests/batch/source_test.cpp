@@ -1,4 +1,4 @@
-// Which files an archive has, and how they come to a task.
+// Tests which files an archive has, and how they come to a task.
 #include "batch/source.h"
 
 #include <fstream>
@@ -252,7 +252,7 @@ TEST(Source, ABucketIsFetchedToTheScratchDirectory) {
     EXPECT_EQ(failed.error().code, ErrorCode::io);
     EXPECT_THAT(failed.error().message, HasSubstr("1 of 2 files could not be fetched"));
 
-    // What the bucket lists and does not give never comes.
+    // A file that the bucket lists but does not give never comes.
     bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
                      {fetch::MockBucket::Fault::missing});
     const auto without = bring(recipe, what, scratch.path(), stop);

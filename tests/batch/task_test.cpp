@@ -85,7 +85,7 @@ TEST_F(BatchTasks, TwoAtTheSameTimeLeaveTheBytesOfOne) {
 TEST_F(BatchTasks, AKilledTaskContinuesWithTheFileThatItWasAt) {
     const Plan whole = plan_of(recipe("one"), "plan-one");
     run_all(whole);
-    // Of the second file it wrote a part, and a temporary file stayed.
+    // The killed task did not finish the grid of its third file and left a temporary file.
     const Plan plan = plan_of(recipe("two"), "plan-two");
     run_all(plan);
     ASSERT_TRUE(fs::remove(record_path(plan.directory(), 0)));

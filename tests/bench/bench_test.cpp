@@ -113,7 +113,7 @@ TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
     EXPECT_EQ(rows[0]["threads"], 1);
 }
 
-// What tasks make of one site's hour, and one process of the same files.
+// The benchmark makes one site's hour by tasks, and in one process from the same files.
 TEST(BenchBatch, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_batch"), {"--engine", "condor"}).status, 2);

@@ -79,7 +79,7 @@ TEST(BlockTables, WhatContradictsIsBad) {
     }
 }
 
-// As in libbz2 since 1.0.7.
+// libbz2 has done so since 1.0.7.
 TEST(BlockTables, SelectorsThatNoBlockNeedsAreDropped) {
     BlockPlan many = small_plan();
     many.selectors.assign(20'000, 0);

@@ -193,7 +193,7 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     EXPECT_EQ(account_.newest("northeast"), account_noon + minutes{60});
     EXPECT_THAT(account_.down_to("northeast", 0, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0)));
-    // Of a part that fell silent, not even the newest grid outlives the age.
+    // If a part fell silent, not even its newest grid outlives the age.
     budgets_.domains["northeast"].age = minutes{30};
     EXPECT_THAT(account_.expired("northeast", budgets_, 100),
                 ElementsAre(grid_named("northeast.KBOX", 0), grid_named("northeast.KOKX", 5)));

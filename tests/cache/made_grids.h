@@ -22,7 +22,7 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 // that runs and holes vary. Of 16-bit codes: 8 KiB a brick.
 [[nodiscard]] const grid::BrickGrid& sized_grid(int stored);
 
-// What is said of such a grid; `number` goes into its notes, so that files can be told apart.
+// Describes such a grid; `number` goes into its notes, so that files can be told apart.
 [[nodiscard]] cache::GridDescription sized_description(UtcTime time, int number = 0);
 
 // Commits such a grid.
@@ -33,7 +33,7 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 // Every grid of a cache, by domain, moment and time.
 [[nodiscard]] std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store);
 
-// That each of them opens, verifies and has a sized grid's cells; "" or what is wrong.
+// Opens and verifies a grid, and expects the cells of a sized one. Returns "" or what is wrong.
 [[nodiscard]] std::string trouble_in(const cache::StoreEntry& entry);
 
 }  // namespace stormcellar::testing

@@ -1,4 +1,4 @@
-// What a rolling store keeps and what it lets go, on real files; time and disk are the test's.
+// Tests what a rolling store keeps and evicts, on real files. The test controls time and disk.
 #include <fstream>
 
 #include <gmock/gmock.h>

@@ -240,7 +240,7 @@ TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
     }
 }
 
-// What a link leads to is none of the raw files, whatever its name.
+// A file behind a link is none of the raw files, whatever its name.
 TEST_F(CatalogTest, FilesBehindADirectoryThatBecameALinkAreGone) {
     const testing::TemporaryDirectory place;
     const std::filesystem::path drop = place / "drop";

@@ -170,7 +170,7 @@ TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
     }
 }
 
-// What is noted unread never undoes what was found by reading, wherever that stands.
+// A note of an unread file never undoes what reading it found, in whichever database that is.
 TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
     FileFacts note = file("/d/a", {}, "");
     note.state = FileState::seen;

@@ -74,7 +74,7 @@ class DamagedDatabase : public ::testing::Test {
         }
         return found;
     }
-    // How many there are, each as it was registered.
+    // Returns the number of rows, and expects each to be as it was registered.
     std::size_t expect_true_rows(const CatalogReader& catalog) {
         const auto entries = *catalog.list("KTLX", {});
         for (const CatalogEntry& entry : entries) {

@@ -37,7 +37,7 @@ FileFacts facts_of(int number, FileState state, const std::string& station = "KT
     return facts;
 }
 
-// What was asked for, in order, and how much of it was answered.
+// The requests that were answered, and the one that was not.
 struct Progress {
     std::map<fs::path, FileState> answered;
     std::optional<std::pair<fs::path, FileState>> asked;  // and not answered: may be there or not
@@ -71,7 +71,7 @@ bool write_all(const fs::path& directory, Progress& progress) {
         }
         if (!ask(*catalog, facts_of(100 + first, FileState::rejected, ""), progress)) return false;
         if (!ask_gone(*catalog, facts_of(first + 1, FileState::gone).path, progress)) return false;
-        // What stood under a name belongs to another station now.
+        // The file of this name now belongs to another station.
         if (!ask(*catalog, facts_of(first + 2, FileState::partial, "KDMX"), progress)) return false;
     }
     return true;

@@ -20,7 +20,7 @@ class KnownStations : public ::testing::Test {
         options.stations = rule_ = std::make_shared<StationRule>(std::move(rule));
         return *CatalogWriter::open(catalog_, options);
     }
-    // As an older configuration that believed every name leaves it.
+    // Leaves a database as an older configuration did, which believed every name.
     void put(const std::string& station, std::chrono::minutes age = {}) {
         {
             auto catalog = *CatalogWriter::open(catalog_);

@@ -129,7 +129,7 @@ TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
     expect_that_it_is_over(catalog);
 }
 
-// Who waits for a lock is a worker, who is missing for the other stations meanwhile.
+// A worker that waits for a lock serves no other station meanwhile.
 TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAndThen) {
     constexpr double one_wait_s = 10;
     auto catalog = *CatalogWriter::open(catalog_);

@@ -1,4 +1,4 @@
-// Who may only read can query while another writes.
+// A process that may only read can query while another one writes.
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a reader may not do does not compile.
+// A call that a reader may not make does not compile.
 template <class Catalog>
 concept Registers = requires(Catalog& catalog, const FileFacts& facts) {
     catalog.register_file(facts);
@@ -53,7 +53,7 @@ class Reader {
         ::waitpid(child_, nullptr, 0);
     }
 
-    // How many volumes it sees; minus one when it could not read. The error goes to stderr.
+    // Returns the number of volumes that it sees; -1 if it cannot read. The error goes to stderr.
     int count() {
         int answer = -2;
         if (::write(orders_[1], "?", 1) != 1) return -3;

@@ -1,4 +1,4 @@
-// What rows may take: rows of files that are gone make room, and else new ones are left out.
+// Tests the bounds of rows: rows of files that are gone make room, and else new ones are left out.
 #include <gtest/gtest.h>
 
 #include "tests/catalog/catalog_fixture.h"
@@ -14,7 +14,7 @@ class RowsBound : public ::testing::Test {
         return *CatalogWriter::open(directory_ / "catalog", options);
     }
     static std::string path(int k) { return fmt::format("/d/{:06}", k); }
-    // As an attack's: seen, so that it is not synced.
+    // Describes a file of an attack, which is only seen, so that its row is not synced.
     static FileFacts unknown(int k) {
         FileFacts facts = file(path(k), {}, "");
         facts.state = FileState::seen;

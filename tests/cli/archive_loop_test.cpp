@@ -41,7 +41,7 @@ class ArchiveLoop : public ::testing::Test {
     [[nodiscard]] testing::ProgramResult run(const std::vector<std::string>& more) const {
         return testing::run_program(STORMCELLAR_PROGRAM, arguments(more));
     }
-    // Of one station at a coarse grid, which is quick.
+    // Makes a loop of one station with a coarse grid, which is quick.
     [[nodiscard]] testing::ProgramResult run_station(std::vector<std::string> more) const {
         const std::vector<std::string> station = {
             "--stations", "KBGM",   "--spacing-km",     "4",    "--extent-km",

@@ -71,7 +71,7 @@ class Batch : public ::testing::Test {
         more.insert(more.begin(), {"batch", command, "--plan", place(name)});
         return run(more);
     }
-    // What a loop makes of the same files.
+    // Returns the grids that a loop makes of the same files.
     [[nodiscard]] std::map<std::string, std::vector<std::byte>> grids_of_a_loop() const {
         std::vector<std::string> arguments{
             "loop",     "--catalog",   place("catalog"), "--stations", "KBGM",         "--cache",

@@ -245,7 +245,7 @@ TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     };
     EXPECT_EQ(time_of_frame({chunks}), "22:02");
     EXPECT_EQ(time_of_frame({chunks, "--volume", "1"}), "22:00");
-    // As the shell's pattern 20240601-220000-* names them.
+    // The shell's pattern 20240601-220000-* names these.
     std::vector<std::string> named;
     for (const auto& entry : fs::directory_iterator(chunks)) {
         if (entry.path().filename().native().starts_with("20240601-220000-"))
@@ -259,7 +259,7 @@ TEST_F(FieldCases, OfChunksOfTwoVolumesTheNewestIsTaken) {
     EXPECT_EQ(json_of(named)["station"], "KTLX");
 }
 
-// Of a file with several volumes, too, --volume chooses.
+// --volume also chooses among the volumes of one file.
 TEST_F(FieldCases, AVolumeOfAFileMayBeChosen) {
     const std::string file = (cases_.parent_path() / "volumes/KBBX20060113_170337.gz").native();
     if (!fs::exists(file)) GTEST_SKIP() << file;

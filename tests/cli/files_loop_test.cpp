@@ -79,7 +79,7 @@ TEST_F(FilesLoop, OnlyTheFilesThatAreNamedAreShown) {
     EXPECT_EQ(two["frames"], 2);
     EXPECT_EQ(two["grids_found"], 2);
     EXPECT_EQ(two["from"], "2005-08-22T02:50:01Z");
-    // Of the three volumes, the first began before that and ended after it.
+    // The first of the three volumes began before that time and ended after it.
     EXPECT_EQ(json_of({sequence()}, {"--from", "2005-08-22T03:00"})["frames"], 3);
 }
 

@@ -235,7 +235,7 @@ TEST_F(Follow, WhatCanNeverBeMadeIsRefusedAtOnce) {
 
 TEST_F(Follow, EndsWithItsParent) {
     commit("20050822_024400", 22);
-    // Of another parent than the one that started it: that one has ended.
+    // Process 1 did not start the program, so the program assumes that its parent has ended.
     const auto orphan = testing::run_program(STORMCELLAR_PROGRAM,
                                              arguments({"--with-parent", "1", "-o", out("a.gif")}));
     EXPECT_EQ(orphan.status, 0);

@@ -27,7 +27,7 @@ class Frame : public ::testing::Test {
         }
     }
 
-    // Of one of the two times: 20 m/s below, -20 m/s above, not seen in the east.
+    // Commits velocities for one of the times: 20 m/s below, -20 m/s above, not seen in the east.
     void commit_velocity(cache::StoreWriter& store, grid::Grid grid) {
         grid.moment = level2::Moment::vel;
         const auto levels = static_cast<std::size_t>(grid.spec.nz());

@@ -175,7 +175,7 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     const std::string of_2022 = volume("KLOT20220317_000842_V06");
     EXPECT_EQ(moments_of({of_2022, "--moment", "all"}),
               (Names{"REF", "VEL", "SW", "ZDR", "PHI", "RHO", "CFP"}));
-    // Of several files one instant serves every moment, though their sweeps are of other times.
+    // With several files, one instant serves every moment, though their sweeps are of other times.
     EXPECT_EQ(moments_of({of_1999, volume("KTLX19990503_235621.gz"), "--moment", "REF,VEL"}),
               (Names{"REF", "VEL"}));
     const ProgramResult missing = grid({of_1999, "-o", file("no.nc"), "--moment", "REF,RHO"});

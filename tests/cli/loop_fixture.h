@@ -60,7 +60,7 @@ class Loop : public ::testing::Test {
     std::vector<fs::path> grids_;
 };
 
-// Of a PNG or APNG, by keyword.
+// Returns the texts of a PNG or APNG, by keyword.
 inline std::map<std::string, std::string> png_texts(const std::string& path) {
     const auto bytes = *read_file(path);
     const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -85,7 +85,5 @@ TEST_F(Loop, FramesOfADamagedGridAreNotCounted) {
     EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("Frames: 2\n"));
 }
 
-// Whatever is in the grids, colors mean the same in each frame.
-
 }  // namespace
 }  // namespace stormcellar

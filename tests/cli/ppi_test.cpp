@@ -25,7 +25,7 @@ class Ppi : public FilesAndService {
         return out(name);
     }
 
-    // What is at a place of the sweep that the words name.
+    // Returns the facts of a frame, with what is at a place of the sweep that the words name.
     [[nodiscard]] nlohmann::json probe(std::vector<std::string> words) const {
         words.insert(words.begin(), {"frame", "--product", "ppi", "--json"});
         const auto ran = run(words);
@@ -46,7 +46,7 @@ TEST_F(Ppi, SaysWhichSweepsThereAre) {
     EXPECT_FALSE(fs::exists(out("a.png")));
 }
 
-// Of a file that is cut short the sweeps and the radials that are there are drawn.
+// If a file is cut short, the sweeps and radials that it still holds are drawn.
 TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
     // A third of the first sweep: the radials from the west to the northeast.
     const std::string begun = cut_volume("KLBB20160601_150025_V06", 400'000);

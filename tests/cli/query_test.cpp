@@ -86,7 +86,7 @@ TEST_F(QueryTest, GetCopiesRawBytesAndLeavesWhatIsThere) {
     EXPECT_EQ(run(forced).status, 0);
 }
 
-// What came as one file a chunk goes as one file, which holds what the chunks hold.
+// A volume that came as one file a chunk goes out as one file, which holds what the chunks hold.
 TEST_F(QueryTest, GetJoinsTheChunksOfAVolume) {
     const std::filesystem::path drop = directory_ / "drop/KLOT";
     std::filesystem::create_directories(drop.parent_path());
@@ -162,7 +162,7 @@ TEST_F(QueryTest, GetDecodesTheVolumesOfAFileThatWereAskedFor) {
               (std::set{name + "2.nc", name + "3.nc"}));
 }
 
-// What cannot be decoded any more is named, and the others are written.
+// A file that can no longer be decoded is named, and the others are written.
 TEST_F(QueryTest, GetDecodesWhatItCanAndNamesTheRest) {
     const auto copy = directory_ / "KBGM20050822_025549.gz";
     std::filesystem::copy_file(
@@ -218,7 +218,7 @@ TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.gz"),
               *read_file(kbgm / "KBGM20050822_024414.gz"));
     EXPECT_EQ(*read_file(out + "/KBGM20050822_024414_2.gz"), *read_file(copy));
-    // What is no longer what was catalogued is not handed out.
+    // A file that has changed since it was cataloged is not handed out.
     std::filesystem::resize_file(copy, 1000);
     const auto changed =
         run({"catalog", "get", "--station", "KBGM", "--from", "2005-08-22T02:55", "-o", out + "2"});

@@ -1,4 +1,4 @@
-// What help shows, over the commands that the program really has.
+// Tests what help shows, with the commands that the program really has.
 #include <algorithm>
 #include <sstream>
 

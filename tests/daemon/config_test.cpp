@@ -260,7 +260,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
               "s.toml:6: [log] level: \"loud\" must be one of debug, info, warning, error");
 }
 
-// What the grid room refuses is refused here, with the line.
+// The configuration refuses what the grid room refuses, and names the line.
 TEST_F(ConfigFile, LevelsThatDoNotRiseAreRefused) {
     EXPECT_TRUE(complaint(std::string(paths) + "[ingest]\nlevels_km = [2, 1]\n")
                     .starts_with("s.toml:6: [ingest] levels_km: "));

@@ -75,7 +75,7 @@ std::vector<catalog::CatalogEntry> rows(const RunningDaemon& daemon, const std::
     return entries ? *entries : std::vector<catalog::CatalogEntry>{};
 }
 
-// As LDM writes with -close: the file is opened, added to and closed for each piece.
+// Writes as LDM does with -close: opens the file, appends and closes it again for each piece.
 void append_in_pieces(const fs::path& path, const std::string& text, std::size_t pieces) {
     const std::size_t size = text.size() / pieces + 1;
     for (std::size_t at = 0; at < text.size(); at += size) {
@@ -96,7 +96,7 @@ void take_in_one_volume(RunningDaemon& daemon) {
     })) << daemon.log();
 }
 
-// What `stormcellar grid` makes of the file, as the cache holds it.
+// Grids the file alone, as `stormcellar grid` does, and returns it as the cache holds it.
 grid::BrickGrid gridded_alone(const fs::path& raw, level2::Moment moment) {
     level2::DecodeOptions options;
     options.selection.moments = {moment};
@@ -193,7 +193,7 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
 
     const json status = daemon.status();
     EXPECT_EQ(status["state"], "stopped");
-    // What a scan finds, before the start or in a directory not yet watched, has no known close.
+    // Files that scans find, at the start or in directories not yet watched, have no known close.
     EXPECT_GE(status["latency_s"]["count"], 1);
     EXPECT_LE(status["latency_s"]["count"], 4) << "the first stood there before";
     EXPECT_GT(status["latency_s"]["max"], 0);
@@ -419,7 +419,7 @@ TEST(EndToEnd, EndsAtOnceWhenKilledByInterrupt) {
     EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds{5});
 }
 
-// As with a spool that is mounted late.
+// An example is a spool that is mounted late.
 TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
     STORMCELLAR_NEED_DATA();
     const std::vector<fs::path> volumes =

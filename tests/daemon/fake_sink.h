@@ -52,17 +52,17 @@ class FakeSink final : public Sink {
         if (rolls) rolls(step);
         return {};
     }
-    // What else they do; set before the sink is used.
+    // Further actions of mark_missing() and roll_cache(). Set them before the sink is used.
     std::function<void(const OnStep&)> looks, rolls;
     [[nodiscard]] int missing_looks() const { return missing_looks_; }
 
-    // False when it takes too long.
+    // Returns false if it takes too long.
     bool wait_for_calls(std::size_t count) {
         std::unique_lock lock(mutex_);
         return called_.wait_for(lock, std::chrono::seconds{20},
                                 [&] { return calls_.size() >= count; });
     }
-    // In their order; what there is after a while, where it is less.
+    // Returns them in their order; after a while, also if there are fewer.
     std::vector<std::string> wait_for_noted(std::size_t count) {
         std::unique_lock lock(mutex_);
         called_.wait_for(lock, std::chrono::seconds{20}, [&] { return noted_.size() >= count; });

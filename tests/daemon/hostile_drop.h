@@ -88,7 +88,7 @@ class HostileDrop : public ::testing::Test {
         }
         EXPECT_LT(took.count(), most_seconds);
     }
-    // How many sweeps the volumes have that the catalog knows, in any state.
+    // Returns the number of sweeps of each volume that the catalog knows, in any state.
     std::multiset<int> sweeps_known() {
         std::multiset<int> sweeps;
         auto catalog = catalog::CatalogReader::open(daemon_.catalog());

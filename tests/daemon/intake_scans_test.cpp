@@ -1,4 +1,4 @@
-// What scans find, and files that are not there any more.
+// Tests what scans find, and files that are no longer there.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/intake_fixture.h"
@@ -9,7 +9,7 @@ namespace {
 using pipeline::IngestResult;
 using std::chrono::seconds;
 
-// Of the files in a directory that is moved away the kernel says nothing.
+// If a directory is moved away, the kernel says nothing of the files in it.
 TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
     followed.ending = pipeline::ended::Incomplete{.is_followed = true};

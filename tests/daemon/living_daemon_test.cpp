@@ -45,7 +45,7 @@ class LivingDaemon : public ::testing::Test {
         const std::size_t start = from == 0 ? 0 : ends_[from - 1];
         return std::span{bytes_}.subspan(start, ends_[to - 1] - start);
     }
-    // What stands of KLOT, if anything.
+    // Returns the newest grid of KLOT, if there is one.
     std::optional<cache::GridDescription> newest() const {
         const auto store = cache::StoreReader::open(daemon_.cache());
         if (!store) return std::nullopt;
@@ -97,7 +97,7 @@ TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
         return is_living(grid) && grid.provenance.sweeps.size() > sweeps;
     })) << daemon_.log();
     EXPECT_EQ(daemon_.status()["ingested"], 0);
-    // What came of it is in the status before any volume is.
+    // The status counts the living grids before any volume.
     EXPECT_TRUE(daemon_.wait_for([](const json& s) {
         const auto& stations = s["stations"];
         return stations.size() == 1 && s["sweep_latency_s"]["count"] > 0 &&
@@ -118,7 +118,7 @@ TEST_F(LivingDaemon, FilesOfOneChunkEachBecomeAVolume) {
     const fs::path directory = daemon_.drop() / "KLOT/494";
     fs::create_directories(directory);
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-        // As pqact names them: without leading zeros.
+        // pqact names chunks without leading zeros.
         const std::string kind = i == 0 ? "S" : i + 1 == ends_.size() ? "E" : "I";
         OpenFile(directory / ("20220317-000842-" + std::to_string(i + 1) + "-" + kind))
             .append(pieces(i, i + 1));

@@ -1,4 +1,4 @@
-// What the dashboard, the alerts and the manual name is what the daemon exports.
+// The dashboard, the alerts and the manual name only metrics that the daemon exports.
 #include <cstdlib>
 #include <fstream>
 #include <map>

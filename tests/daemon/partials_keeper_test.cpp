@@ -53,7 +53,7 @@ class PartialsKeeperTest : public ::testing::Test {
         fs::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
     }
-    // As rsync does it.
+    // Writes a hidden file and renames it, as rsync does.
     void bring(const std::string& machine, const InventedPartial& partial) {
         const auto [bytes, place] = made(partial);
         const fs::path path = directory_ / machine / place;
@@ -123,7 +123,7 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     auto damaged = bytes;
     damaged.back() ^= 1;
     write(path, damaged);
-    // As if it had been written an hour ago.
+    // The file seems to have been written an hour ago.
     fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours{1});
     start();
     EXPECT_TRUE(comes([&] { return north().refused == 1; }));

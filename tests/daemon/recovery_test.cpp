@@ -184,7 +184,7 @@ TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
     EXPECT_EQ(list("north.KBGM").size(), 1U) << "the first volume's raw file is gone";
 }
 
-// What nothing is left of to make it from: dropped, and the reason is in the log.
+// If nothing is left to make a grid from, it is dropped, and the log says why.
 TEST_F(Recovery, AMosaicThatNobodyConfiguresAnyMoreIsDroppedWithTheReason) {
     put(first);
     put(second);
@@ -239,7 +239,7 @@ TEST_F(Recovery, KilledWhileItWorks) {
             ++whole;
         }
     }
-    // What the killed daemon last said says nothing about the one that starts now.
+    // The last status of the killed daemon says nothing about the one that starts now.
     fs::remove(daemon_.cache().parent_path() / "state" / "status.json");
     daemon_.start("[ingest]\nspacing_km = 2\n");
     ASSERT_TRUE(daemon_.wait_for([](const json& s) {

@@ -1,6 +1,6 @@
-// What a reload does with each key of the configuration: it either counts at once, or a sentence in
-// the log says that it needs a restart. A key that does neither would be lost in silence, as
-// [catalog] bytes was until 2026-11-25.
+// Tests what a reload does with each key of the configuration: it either counts at once, or a
+// sentence in the log says that it needs a restart. A key that does neither would be lost in
+// silence, as [catalog] bytes was until 2026-11-25.
 #include <fstream>
 #include <regex>
 #include <set>

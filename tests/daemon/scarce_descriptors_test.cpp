@@ -1,4 +1,4 @@
-// What the watcher cannot look at for want of descriptors, and that the intake has it found again.
+// If the watcher cannot look at a file for want of descriptors, the intake has it found again.
 #include <filesystem>
 #include <memory>
 #include <set>

@@ -182,7 +182,7 @@ TEST_F(ServiceTest, LivesOnRescansWhereThereAreNoEvents) {
     EXPECT_TRUE(sink_->wait_for_calls(1));
 }
 
-// As on NFS: no event comes, and that is known.
+// On NFS no event comes, and the service knows that.
 TEST_F(ServiceTest, PollsWhereChangesComeWithoutEvents) {
     class Silent final : public EventSource {
       public:
@@ -315,7 +315,7 @@ TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
-// As /srv/drop -> /mnt/spool/nexrad2 where /mnt/spool is mounted later.
+// An example is /srv/drop -> /mnt/spool/nexrad2 where /mnt/spool is mounted later.
 TEST_F(ServiceTest, StartsBeforeWhatItsDropDirectoryLinksTo) {
     config_.reloadable.rescan = std::chrono::milliseconds{200};
     fs::remove(config_.fixed.paths.drop);
@@ -361,7 +361,7 @@ TEST_F(ServiceTest, FeedsTheWatchdogWhenIdle) {
     EXPECT_TRUE(wait_for_message("WATCHDOG=1"));
 }
 
-// How often the watchdog was fed.
+// Counts how many times the watchdog was fed.
 std::ptrdiff_t meals(const FakeNotifier& notifier) {
     const auto sent = notifier.sent();
     return std::count(sent.begin(), sent.end(), "WATCHDOG=1");

@@ -49,7 +49,7 @@ TEST_F(StateKeeperTest, RemovesWhatAKilledServiceLeft) {
     EXPECT_FALSE(fs::exists(state_ / ".stormcellar-tmp-status"));
     EXPECT_FALSE(fs::exists(catalog / ".stormcellar-tmp-4242-0"));
     EXPECT_TRUE(fs::exists(catalog / "drop-directory"));
-    // What this service itself is writing stays.
+    // A file that this service itself is writing stays.
     write_file(catalog / ".stormcellar-tmp-4242-0", "half");
     ASSERT_TRUE(keeper_.hold());
     EXPECT_TRUE(fs::exists(catalog / ".stormcellar-tmp-4242-0"));

@@ -1,4 +1,4 @@
-// What is remembered of files that were being ingested when the process ended.
+// Tests what the service remembers of files that it was ingesting when the process ended.
 #include "daemon/queue/tried_files.h"
 
 #include <gmock/gmock.h>

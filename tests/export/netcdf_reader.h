@@ -20,7 +20,7 @@ class Reader {
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    // As they are stored: scale_factor and add_offset are not applied.
+    // Reads values as they are stored, without applying scale_factor and add_offset.
     std::vector<double> values(const char* name, std::size_t count) {
         std::vector<double> read(count);
         EXPECT_EQ(nc_get_var_double(id_, variable(name), read.data()), NC_NOERR) << name;

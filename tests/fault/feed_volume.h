@@ -13,8 +13,8 @@
 
 namespace stormcellar::fault {
 
-// What a radar sees of a scene's first volume: `gates` gates of each radial, and no others. Throws
-// where the scene is not good.
+// Returns what a radar sees of a scene's first volume: `gates` gates of each radial, and no others.
+// Throws if the scene is not valid.
 [[nodiscard]] level2::Volume observed_volume(std::string_view scene, std::uint16_t gates);
 
 // A file's bytes in the pieces of synth::piece_ends().

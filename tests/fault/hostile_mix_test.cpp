@@ -36,7 +36,7 @@ constexpr std::size_t queue_limit = 20'000;
 constexpr std::uint64_t cache_bytes = 1'000'000'000;
 constexpr std::uint64_t mib = std::uint64_t{1} << 20U;
 
-// What the plan gives to databases and growing volumes, and everything else.
+// Adds up what the plan gives to databases and growing volumes, and a reserve for all else.
 std::size_t most_descriptors() {
     constexpr std::size_t reserved = 256;
     const auto plan = daemon::DescriptorPlan::of_this_process();

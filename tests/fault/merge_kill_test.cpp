@@ -48,7 +48,7 @@ class Merging : public ::testing::Test {
         }
         return files;
     }
-    // What a machine makes that nothing disturbs.
+    // Returns what a machine makes if nothing disturbs it.
     [[nodiscard]] Files undisturbed() const {
         daemon::RunningDaemon daemon;
         daemon.start(configuration());

@@ -28,7 +28,8 @@ class Upgrade : public HostileCases {
         put(own_radar + format_compact(time), volume_bytes(claims));
         return time;
     }
-    // As the daemon left it that gridded whatever came: what it did for all, "any" does for 64.
+    // Makes the state that the daemon left when it still gridded whatever came. It did so for all
+    // stations; with "any" the daemon of today does so for 64.
     void make_state_of_before() {
         start({.ingest = "stations = \"any\"\n"});
         old_volume_ = put_good("KTLX");
@@ -73,7 +74,7 @@ TEST_F(Upgrade, AnOldStateKeepsWorkingAndTheLogSaysWhatIsOfNoStation) {
     EXPECT_TRUE(fs::exists(daemon_.catalog() / "drop-directory"));
 }
 
-// What the line of the log advises.
+// The line of the log advises the user to add this table.
 TEST_F(Upgrade, WithATableOfItsOwnAnOldStationGoesOn) {
     make_state_of_before();
     start();

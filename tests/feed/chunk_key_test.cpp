@@ -61,7 +61,7 @@ TEST(ChunkKey, NothingElseIsTaken) {
         EXPECT_FALSE(parse_chunk_key(key, now)) << key;
 }
 
-// Whatever a bucket names, what is taken is a path of three parts without anything odd in it.
+// Only a path of three parts without anything odd in it is taken, whatever a bucket names.
 TEST(ChunkKey, OfChangedKeysOnlySuchAreTakenThatAreWrittenTheSame) {
     std::mt19937 chance(1);
     const std::string good = "KTLX/494/20220317-000842-001-S";

@@ -59,7 +59,8 @@ class FeedPrograms : public ::testing::Test {
                       [](const auto& one) { return one.first.find("/.") != std::string::npos; });
         return files;
     }
-    // What another daemon makes of the same chunks, written as LDM writes them. Empty: it did not.
+    // Returns what another daemon makes of the same chunks, written as LDM writes them; empty if it
+    // did not ingest all.
     static std::map<std::string, std::string> grids_by_ldm(
         const std::map<std::string, std::string>& objects, int volumes) {
         RunningDaemon daemon;

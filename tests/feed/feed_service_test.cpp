@@ -156,7 +156,7 @@ TEST_F(FeedingFrom, SizesThatNoChunkHasAreNotAskedFor) {
     EXPECT_EQ(bucket_.count("GET " + key(2)) + bucket_.count("GET " + key(3)), 0U);
 }
 
-// What a server may say instead of a listing; it answers well from the third time on.
+// A server may say one of these instead of a listing. It answers the next attempt well.
 TEST_F(FeedingFrom, ListingsThatAreNoneAreAskedForAgain) {
     std::string many;
     for (int i = 0; i < 1100; ++i)

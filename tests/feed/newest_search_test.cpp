@@ -57,7 +57,7 @@ TEST(NewestSearch, FindsTheNewestOfAnyRing) {
             ASSERT_TRUE(found.start) << newest << ' ' << kept;
             EXPECT_EQ(found.start->number, before(newest)) << newest << ' ' << kept;
             EXPECT_LE(found.questions, 13);
-            // Of what is in that directory only the volume before the newest is from there on.
+            // From that time on, the directory holds only the volume before the newest.
             const UtcTime wanted = noon - minutes{6};
             EXPECT_LE(found.start->from, wanted);
             EXPECT_GT(found.start->from, wanted - minutes{5 * 999});

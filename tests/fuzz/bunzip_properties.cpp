@@ -39,7 +39,7 @@ void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted,
     const bunzip::Status status = !is_longer ? reader.status() : bunzip::Status::too_large;
     const int end = static_cast<int>(status), wanted_end = static_cast<int>(wanted.status);
     if (end != wanted_end) fail(fmt::format("it ends as {} and not as {}", end, wanted_end));
-    // Of a block that ends inside a run, libbz2 returns more or less, depending on its output
+    // If a block ends inside a run, libbz2 returns more or less of it, depending on its output
     // pieces.
     if (status != bunzip::Status::corrupt && made != wanted.bytes.size()) fail("its output ends");
     if (status == bunzip::Status::whole && reader.input_bytes() != wanted.input_bytes)
@@ -66,7 +66,7 @@ void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimi
                     wanted.bytes.begin())) {
         fail("others");
     }
-    // As above: the damage may be found before the limit or behind it.
+    // If the stream is damaged, one may find that before the limit and the other behind it.
     if (unlimited.status == LibraryOutcome::Status::corrupt) return;
     if (static_cast<int>(outcome.status) != static_cast<int>(wanted.status)) fail("another end");
     if (made.size() != wanted.bytes.size()) fail("others");

@@ -102,8 +102,8 @@ void require_same_cells(const grid::Grid& a, const grid::Grid& b) {
     require(a.values == b.values, "other values");
 }
 
-// What verify() has accepted can be written. The result is the same grid, and writing it once more
-// gives the same bytes.
+// A grid that verify() has accepted can be written. The result is the same grid, and writing it
+// once more gives the same bytes.
 void require_writable(const GridFile& file, const grid::Grid& cells) {
     OneMemoryFile first, second;
     const auto written =

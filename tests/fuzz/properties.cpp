@@ -89,7 +89,7 @@ void require_well_formed(const Sweep& sweep, const SweepMoment& moment) {
     require(std::isfinite(moment.scale) && std::isfinite(moment.offset), "scale or offset");
 }
 
-// Of these one is kept; the note begins with their number.
+// Returns the number of radials that came twice, with which the note begins. One of two is kept.
 std::uint64_t radials_that_came_twice(const DecodeReport& report) {
     for (const level2::Problem& problem : report.problems)
         if (problem.code == "radials_came_twice") return std::stoull(problem.message);

@@ -82,7 +82,7 @@ void check_part(const std::string& body, const std::string& content_range,
             "the body is not what Content-Range says");
 }
 
-// What a file of two pieces answers.
+// Checks what a file of two pieces answers.
 void check_entity(const Request& request) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
     std::string whole;

@@ -53,7 +53,7 @@ Bytes ldm_volume() {
                        wire::ldm_record(sweeps.subspan(radials.size() / 2), true, 1)});
 }
 
-// As the project's own writer packs it.
+// Returns a volume as the project's own writer packs it.
 Bytes written_volume() {
     auto decoded = level2::decode(ldm_volume());
     if (!decoded) throw std::runtime_error(decoded.error().message);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int32_t gates_a_block = 32;
 
-// Of whole blocks, like the stretch.
+// Looks at whole blocks, like the stretch.
 bool is_quiet(const std::vector<std::uint8_t>& codes, std::int32_t first, std::int32_t last) {
     const std::int32_t first_gate = first / gates_a_block * gates_a_block;
     const std::int32_t end_gate = (last / gates_a_block + 1) * gates_a_block;

@@ -247,7 +247,7 @@ TEST(Mosaic, MeansBelowTheCodesAreClampedAndCounted) {
     EXPECT_LT(made->cells.clamped_count(), 60U);
 }
 
-// What docs/geometry.md says about c (arc^2 + height^2): the slant range over the 4/3 earth.
+// docs/geometry.md says how near c (arc^2 + height^2) is to the slant range over the 4/3 earth.
 TEST(Mosaic, TheDetectionLimitIsThatOfTheSlantRange) {
     double largest_db = 0;
     for (const double altitude_m : {0.0, 3000.0}) {

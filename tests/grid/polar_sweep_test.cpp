@@ -278,7 +278,7 @@ TEST(PolarSweep, TheGreatestArcIsThatOfTheLastGate) {
     EXPECT_NEAR(arc_m, beam.forward({300e3, 0.5}).arc_m, 1);
 }
 
-// Which edges pass over an arc on their own side of the beam's center, by the model itself.
+// The edges that pass over an arc on their own side of the beam's center, by the model itself.
 struct Edges {
     bool lower = false, upper = false;
     bool operator==(const Edges&) const = default;

@@ -100,7 +100,7 @@ std::vector<const Partial*> by_name(std::span<const Partial> partials) {
 
 namespace {
 
-// What the sites see of a cell.
+// Returns what each site sees of a cell, without the sites that do not see it.
 std::vector<Seen> all_seen(const GridSpec& domain, const std::vector<const Partial*>& sorted,
                            const std::vector<long double>& arcs_m, const MosaicOptions& options,
                            int ix, int iy, int iz) {

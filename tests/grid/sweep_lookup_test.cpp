@@ -96,7 +96,7 @@ class SlowSweep {
             if (turn > 0) after = std::min(after, turn);
             const double best = turn_deg(place.azimuth_deg,
                                          static_cast<double>(sweep_.radials[nearest].azimuth_deg));
-            // Of two at one azimuth the later one counts.
+            // If two are at one azimuth, the later one counts.
             if (std::abs(turn) <= std::abs(best)) nearest = i;
         }
         const double off = std::min(after, -before);
@@ -177,7 +177,7 @@ const std::vector<Case>& cases() {
     return all;
 }
 
-// How many places of each state were compared.
+// Numbers of places of each state that were compared.
 struct Compared {
     int value = 0, no_echo = 0, range_folded = 0, not_seen = 0, skipped = 0;
 

@@ -70,7 +70,7 @@ double worst_off_plane_m(double elevation_deg, double farthest_m, double latitud
     return worst_m;
 }
 
-// As far as the beam is below 21 km.
+// Looks to 470 km, or at least to where the beam is 21 km high (grid/sweep/sweep_mixture.h).
 TEST(GatesInside, StandWhereThePlaneThroughTheCentreHasThem) {
     struct Place {
         double latitude_deg;

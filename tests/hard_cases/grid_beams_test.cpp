@@ -158,7 +158,7 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     }
 }
 
-// Of some beams the lower edge comes down to earth, of others the upper one, and edges cross the
+// Some beams have a lower edge that comes down to earth, others an upper one, and edges cross the
 // center of their beam. Each sweep has one strength, so that values show weights.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
     std::vector<SweepPlan> plans;

@@ -13,7 +13,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// As in tests/grid/gridder_oracle_test.cpp.
+// The accuracies are those of tests/grid/gridder_oracle_test.cpp.
 constexpr double height_accuracy_m = 1;
 constexpr double weight_accuracy = 2e-3;
 constexpr double value_accuracy = 0.05;

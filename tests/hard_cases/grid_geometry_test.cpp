@@ -44,7 +44,7 @@ TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     int compared = 0;
     for (const int gate : {1, 2, 4, 40, 400, 919, 1880}) {
-        // As a float, which is what a radial has.
+        // A radial has its elevation as a float.
         const auto measured_deg = static_cast<double>(static_cast<float>(elevation_deg));
         const EarthPoint point = beam.forward({250.0 * gate - 1, measured_deg});
         if (point.height_m < -900 || point.height_m > 59e3) continue;

@@ -188,7 +188,7 @@ void MessageMutants::rearranged(Draft& draft, Random& random) const {
     const std::size_t kind = below(random, kinds.size());
     const std::size_t a = any_message(random);
     std::size_t b = any_message(random);
-    // What comes before its sweep begins a sweep of its own, so only neighbors change places there.
+    // A radial before its sweep begins a sweep of its own, so only neighbors change places there.
     if (kind == 2 && elevation_number(a) != elevation_number(b))
         b = std::min(a + 1, draft.order.size() - 1);
     std::vector<std::size_t>& order = draft.order;

@@ -12,7 +12,7 @@
 
 namespace stormcellar::level2 {
 
-// What may become of a radial of the undamaged volume.
+// The fates that a radial of the undamaged volume may have.
 enum class Fate {
     kept,      // outside the damage: returned unchanged
     may_fall,  // shares a checksum with damaged bytes: returned unchanged, or not at all
@@ -30,13 +30,13 @@ struct Mutant {
     std::string what;  // for a person who has to reproduce it
     wire::Bytes file;
     std::vector<ExpectedRadial> expected;  // in the order of the volume
-    // Whether the damage changed a length or type, which the report must name even if every radial
+    // True if the damage changed a length or type, which the report must name even if every radial
     // is kept.
     bool always_named = false;
     bool anything_after = false;  // nothing guards the rest of the file
 };
 
-// What comes late or twice is returned once, where it belongs.
+// Sorts the expected radials: one that comes late or twice is returned once, where it belongs.
 inline void put_in_order(std::vector<ExpectedRadial>& expected) {
     std::ranges::sort(expected, {}, &ExpectedRadial::radial);
     const auto is_same = [](const ExpectedRadial& a, const ExpectedRadial& b) {

@@ -80,7 +80,7 @@ std::vector<std::byte> bytes_of(const fs::path& path) {
     return joined;
 }
 
-// What is being decoded, so that the handler below can name it after a crash or a hang.
+// Names what is being decoded, for the handler below to print after a crash or a hang.
 char current[400];
 
 void say_current(int signal_number) {
@@ -96,7 +96,7 @@ long peak_memory_kib() {
     return usage.ru_maxrss;
 }
 
-// Of all volumes, printed at the end.
+// The figures of all volumes, printed at the end.
 std::map<std::string, KindFigures> all_figures;
 
 class FiguresPrinter : public ::testing::Environment {

@@ -114,7 +114,7 @@ TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
     }
 }
 
-// What the mutants have found, each in its smallest form.
+// ---- Found by mutants, each in its smallest form
 
 // 2026-11-21, on seven legacy volumes: a header at the wrong place can be plausible, and then so is
 // the one a frame later. The reader took hundreds of frames for messages of unknown types.

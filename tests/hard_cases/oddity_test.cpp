@@ -26,7 +26,7 @@ namespace {
 
 using wire::Bytes;
 
-// What must happen to the gates of radials with an odd field.
+// The rule for the gates of radials with an odd field.
 enum class Rule { keep, name_what_is_lost };
 
 struct OddField {

@@ -20,9 +20,9 @@ struct PictureDifference {
 
 inline constexpr double visible = 3;
 
-// What other letters may change. The tile decides about labels: of everything that
-// tests/images/synthetic_picture_test.cpp must find, the smallest is a tile of 3.8 (a label that
-// moved); of what it tolerates, the largest is 2.1.
+// The difference that other letters may make. The tile decides about labels: the smallest
+// difference that tests/images/synthetic_picture_test.cpp must find is a tile of 3.8 (a label that
+// moved), and the largest that it tolerates is 2.1.
 struct Tolerance {
     double percentile_99 = 3;
     double visible_share = 0.01;

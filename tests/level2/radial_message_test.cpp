@@ -67,7 +67,7 @@ TEST(Message31, VolumeBlockIsReadFieldByField) {
     EXPECT_TRUE(block->rest.empty());
 }
 
-// Whatever is cut off, nothing outside the message is read and no half radial is returned.
+// A message may be cut anywhere: nothing outside it is read, and no half radial is returned.
 TEST(Message31, CutAnywhereIsRefused) {
     const wire::Bytes bytes = wire::message_31({});
     const auto body = body_of(bytes);

@@ -34,7 +34,7 @@ grid::GridSpec small_spec() {
 
 class BetweenGridsTest : public ::testing::Test {
   protected:
-    // As the scene is so many seconds after noon, all of one moment.
+    // Commits the scene as it is so many seconds after noon, all seen at once.
     void commit(double seconds, double seen_km = 1e9) {
         grid::Grid grid = grid::blob_grid(small_spec(), storm, seconds, seen_km);
         grid.time = grid.start_time = grid.end_time = at(seconds);
@@ -184,7 +184,7 @@ TEST_F(BetweenGridsTest, AGridThatDoesNotVerifyIsAnErrorOfItsFrames) {
     EXPECT_THAT(problems, SizeIs(1));
 }
 
-// Of a domain that is kept as volumes come.
+// Makes grids between the frames of a domain that is kept as volumes come.
 class BetweenMosaics : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }

@@ -162,7 +162,7 @@ TEST_F(ChunkFiles, AChunkThatItsFileHoldsTwiceIsReadOnce) {
     EXPECT_TRUE(again->bytes == whole->bytes);
 }
 
-// Of chunks, too, an archive's grids are made of what was cataloged alone.
+// An archive's grids are made only of files that were cataloged, also if these are chunks.
 TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     RebuildOptions options;
     options.catalog = directory_ / "catalog";

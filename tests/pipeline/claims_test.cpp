@@ -1,4 +1,4 @@
-// What a file may claim by what it says of itself: whose it is, when, and how much it holds.
+// Tests what a file may claim about itself: its station, its time, and how much it holds.
 #include <algorithm>
 #include <fstream>
 
@@ -156,7 +156,7 @@ TEST_F(Claims, AVolumeWithoutATimeIsNotGridded) {
     EXPECT_EQ(store_.domains()->size(), 0U);
 }
 
-// What fails for us is tried again, and rejected in the end with its reason.
+// If we cannot store a file, it is tried again, and in the end rejected with the reason.
 TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
     Ingestor& ingestor = with(nullptr);
     std::ofstream(directory_ / "cache/KTLX") << "something else stands where its grids should";

@@ -38,7 +38,7 @@ class GrowingSetTest : public ::testing::Test {
     bool grow(const std::string& key, const std::string& station, const Growth& growth) {
         return set_.grew(key, set_.find(key).get(), station, growth, now_);
     }
-    // What shows that it goes on: a sweep has closed, and more came later.
+    // Shows that a thing goes on: a sweep has closed, and more came later.
     void let_go_on(const std::string& key, const std::string& station) {
         now_ += seconds{2};
         ASSERT_TRUE(grow(key, station, {.has_sweeps = true}));

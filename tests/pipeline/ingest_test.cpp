@@ -85,7 +85,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     EXPECT_EQ(only_entry("KBGM").state, FileState::gone);
 }
 
-// As message 2 of these files says.
+// Message 2 of these files says so.
 TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
     STORMCELLAR_NEED_DATA();
     const auto troubles_of = [&](const std::string& name, const std::string& station) {

@@ -109,12 +109,12 @@ class LivingChunks : public Living {
             const std::size_t from = i == 0 ? 0 : ends[i - 1];
             parts_.push_back(std::span{bytes_}.subspan(from, ends[i] - from));
         }
-        // What the whole file gives.
+        // Grids the whole file for comparison.
         const fs::path file = directory_ / "KLOT20220317_000842_V06";
         append_to(file, bytes_);
         ASSERT_EQ(whole_.ingestor->ingest(file, false)->result(), IngestResult::gridded);
     }
-    // As another process would, with so much room for what is put aside.
+    // Begins again as another process would, with so much room on the shelf.
     void begin_again_with(std::uint64_t shelf_bytes) {
         house_.ingestor.reset();
         IngestOptions options = small_grid();

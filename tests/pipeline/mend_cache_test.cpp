@@ -264,7 +264,7 @@ class MendMosaic : public ::testing::Test {
         file.seekp(-1, std::ios::end);
         file.put(last);
     }
-    // As after a restart: nothing is left in memory of what was made before.
+    // Mends as after a restart: nothing that was made before is left in memory.
     Result<MendedGrid> mend_afresh(const cache::StoreEntry& entry, MendDepth depth) {
         Ingestor ingestor(catalog_, store_, with_domain());
         return CacheMender(catalog_, store_, ingestor, {level2::Moment::ref}).mend(entry, depth);

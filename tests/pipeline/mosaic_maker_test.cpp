@@ -117,7 +117,7 @@ TEST_F(MosaicKeeperTest, AVolumeOfChunksWhoseHeaderComesLateStandsOnce) {
     ASSERT_EQ(partials().size(), 1U);
     EXPECT_EQ(partials()[0].time, whole.volume.start_time());
 
-    // What is left of its files when scour has taken the first takes nothing away.
+    // The files that are left when scour has taken the first one take nothing away.
     take(cut);
     const auto stand = partials();
     EXPECT_TRUE(std::any_of(stand.begin(), stand.end(), [&](const cache::StoreEntry& entry) {
@@ -183,7 +183,7 @@ TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
     EXPECT_EQ(a.values, b.values);
 }
 
-// Of one site alone all bricks are its own, so all are merged; that it was an update is counted.
+// If there is one site, all bricks are its own, so all are merged; it still counts as an update.
 TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
     take(load_volume(sequence[0]));
     EXPECT_EQ(take(load_volume(sequence[2])).updated, 0U) << "no frame stood";

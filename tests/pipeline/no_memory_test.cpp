@@ -12,7 +12,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// As the daemon calls it: what is thrown becomes an error (daemon/queue/worker_pool.cpp).
+// Ingests as the daemon does: an exception becomes an error (daemon/queue/worker_pool.cpp).
 Result<IngestOutcome> ingest_with(House& house, const fs::path& path, std::int64_t allocations) {
     try {
         const WithMemoryFor memory(allocations);
@@ -75,7 +75,7 @@ TEST_F(Living, WithoutMemoryAFileIsAskedForAgain) {
     EXPECT_TRUE(std::ranges::equal(a->view().codes, b->view().codes));
 }
 
-// Of a followed file what was decoded is lost, and the rest of the volume is not.
+// A followed file loses what was decoded of it, but the volume does not lose the rest.
 TEST_F(Living, WithoutMemoryAGrowingFileIsBegunAnew) {
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::map<fs::path, std::vector<std::byte>>;
 
-// What is local of a machine.
+// The facts that are local to a machine.
 struct Local {
     std::string before, behind;  // of the name of a file
     std::chrono::hours age{0};   // of the files, an hour more for each next one

@@ -68,7 +68,8 @@ TEST(GridList, LeavesOutWhatMakesNoSense) {
     }
 }
 
-// Whatever a machine sends: a name is that of a part of these domains, and leads nowhere else.
+// Every name that is taken from a list is that of a part of these domains and leads nowhere else,
+// whatever a machine sends.
 TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
     const std::string good = R"({"grids":[)" + entry("us.KTLX", "REF", "2026-11-27T11:50:00Z") +
                              "," + entry("us.KINX", "VEL", "2026-11-27T11:55:00.250Z") +

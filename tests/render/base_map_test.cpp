@@ -54,8 +54,8 @@ TEST(BaseMap, ASmallMapIsReadAsTheFormatSays) {
     EXPECT_NEAR(map->cities()[0].place.longitude_deg, -10e-4, 1e-12);
 }
 
-// Whatever one byte of the payload is, with a matching checksum: there is an answer, and no read
-// beyond the end.
+// One byte of the payload may be anything, with a matching checksum: there is an answer, and no
+// read beyond the end.
 TEST(BaseMap, LiesWithAGoodChecksumAreRefusedOrHarmless) {
     int refused = 0;
     for (std::size_t i = 0; i < small_payload.size(); ++i) {
@@ -214,7 +214,7 @@ TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
     }
 }
 
-// Whether a place lies within the rings of the coast, of which every edge turns land to sea.
+// Returns true if a place is within the rings of the coast, whose edges each turn land to sea.
 bool is_land(const BaseMap& map, int detail, grid::GeoPoint place) {
     bool is_within = false;
     for (const MapSet& set : map.sets()) {

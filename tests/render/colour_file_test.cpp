@@ -262,7 +262,7 @@ TEST(TomlColours, ErrorsNameLineAndKey) {
     EXPECT_THAT(message("point = 7\n"), ::testing::HasSubstr("point"));
 }
 
-// Whatever bytes a file holds: an error of one line, or a table that validate() accepts.
+// A file may hold any bytes: it gives an error of one line, or a table that validate() accepts.
 template <class Parse>
 void expect_sound_for_mutations(std::string_view seed, const Parse& parse) {
     std::mt19937 random(20261122);

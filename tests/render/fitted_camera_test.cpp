@@ -100,7 +100,7 @@ TEST(FittedCamera, WideEchoIsSeenFromAbove) {
     EXPECT_GT(fitted.opacity, 1.5);
 }
 
-// What could be divided by nothing: no echo, one cell, nothing seen, one level.
+// These cases could lead to a division by zero: no echo, one cell, nothing seen, one level.
 TEST(FittedCamera, IsSaneForWhatIsHardlyThere) {
     const auto check = [](const grid::BrickGrid& bricks, bool has_echo) {
         for (const Moment moment : {Moment::ref, Moment::vel}) {
@@ -212,8 +212,8 @@ TEST(ClearAir, IsEchoWithoutAnythingStronger) {
     EXPECT_FALSE(is_clear_air({}));
 }
 
-// What the ground about KDMX sends back on a clear day, 90 km2 of 20 dBZ, was drawn with the colors
-// of rain, almost black (2026-11-26).
+// The echo of the ground about KDMX on a clear day, 90 km2 of 20 dBZ, was drawn with the colors of
+// rain, almost black (2026-11-26).
 TEST(ClearAir, MayHaveSpecksOfStrongerEcho) {
     const grid::GridSpec spec = small_spec(64, 20);
     const auto clear = [&](double dbz, int side) {

@@ -66,7 +66,7 @@ TEST(LitColour, DarkensAndLightens) {
     EXPECT_GT(ok_lab_of_srgb(lit_colour(green, 1.3F)).l, 1.1 * ok_lab_of_srgb(green).l);
 }
 
-// What a picture with light finds, before it is lit.
+// The layer of a picture with light, before it is lit.
 struct Found {
     SlicerRoom room;
     Layer plain;

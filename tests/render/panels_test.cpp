@@ -76,7 +76,7 @@ TEST(PanelLayout, NothingOverlapsAtAnySize) {
                     EXPECT_EQ(picture.width, std::round(picture.width));
                     shown += picture.width * picture.height;
                 }
-                // Of three panels a place stays empty.
+                // With three panels, a place stays empty.
                 EXPECT_GT(shown / width / height, count == 3 ? 0.4 : 0.5);
             }
         }

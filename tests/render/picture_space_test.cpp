@@ -38,7 +38,7 @@ TEST(PictureSpace, TheMapFillsMostOfTheFrame) {
     }
 }
 
-// Of a square grid's map, in pixels of the picture.
+// Measures the map of a square grid in pixels of the picture.
 TEST(PictureSpace, ASquareGridIsAsLargeAsTheFrameAllows) {
     const grid::GridSpec spec = grid::default_spec(35.3, -97.3);
     for (const auto& [width, height] : common_sizes) {

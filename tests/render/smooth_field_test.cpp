@@ -71,7 +71,7 @@ FlatField field_of(unsigned inner, unsigned outer) {
         for (int x = 0; x < 4; ++x) {
             const bool is_inner = x >= 1 && x <= 2 && y >= 1 && y <= 2;
             unsigned& pattern = is_inner ? inner : outer;
-            // Of the outer cells it only matters whether they have a value.
+            // An outer cell only matters by having a value or none.
             const unsigned states = is_inner ? 4 : 2;
             const unsigned state = pattern % states;
             pattern /= states;

@@ -66,7 +66,7 @@ class StillGdal : public ::testing::TestWithParam<grid::ProjectionFacts> {
         return nlohmann::json::parse(ran.out);
     }
 
-    // What GDAL finds at each place, band by band.
+    // Returns what GDAL finds at each place, band by band.
     [[nodiscard]] std::vector<std::vector<double>> at(const std::string& name, int bands,
                                                       const std::vector<grid::GeoPoint>& places) {
         {

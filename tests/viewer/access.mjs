@@ -1,4 +1,4 @@
-// What everybody can use: names of controls, keys, contrast, small and large windows, and units
+// Checks that everybody can use the page: names of controls, keys, contrast, small and large windows, and units
 // (scripts/check-viewer).
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -104,7 +104,7 @@ const layout = `(() => {
   if (document.documentElement.scrollWidth > innerWidth) bad.push('the page scrolls sideways');
   return bad;
 })()`;
-// What lies badly for good. A panel makes room for the head one frame after its text has changed.
+// Returns what stays misplaced. A panel makes room for the head one frame after its text has changed.
 const misplaced = async () => {
   let bad = await evaluate(layout);
   for (let turn = 0; turn < 50 && bad.length > 0; ++turn) {

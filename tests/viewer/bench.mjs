@@ -1,6 +1,6 @@
-// How fast the viewer's page is in Chromium (scripts/bench-viewer). Prints a row for each figure.
+// Measures how fast the viewer's page is in Chromium (scripts/bench-viewer). Prints a row for each figure.
 //   node bench.mjs ADDRESS first|steps|nation [ROUNDS]
-// The first server has one volume, that of the steps a grid at several times, the nation's a mosaic of the United States.
+// The server has one volume for `first`, a grid at several times for `steps`, a mosaic of the country for `nation`.
 import { CheckedPage } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
@@ -37,7 +37,7 @@ async function firstPictures(view) {
   row('bytes on the wire until then', median(pictures.map(({ bytes }) => bytes)));
 }
 
-// How many frames are drawn a second while a hand turns the view, and by which rung the last ones.
+// Counts the frames that are drawn a second while a hand turns the view, and names the rung of the last one.
 async function turning(page) {
   const frames = [];
   await page.evaluate(`window.frames_ = []; new MutationObserver(() => frames_.push([performance.now(), document.documentElement.dataset.rung]))

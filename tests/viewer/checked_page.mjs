@@ -3,7 +3,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-// The largest difference that the page may have from the slicer: CIEDE2000, 99th percentile of the pixels that show echo.
+// The largest difference allowed between page and slicer: CIEDE2000, 99th percentile of the pixels that show echo.
 export const mostDifference = 2;
 
 // Says what holds and what does not; the program's status follows.
@@ -25,7 +25,8 @@ export class CheckedPage {
     await this.page.goto(`${this.address}/view/#${view}`);
     await this.page.until(drawn, patience);
   }
-  // Changes the view, and waits for its fine picture: what is drawn before the page has taken the address does not count.
+  // Changes the view, and waits for its fine picture. A picture that is drawn before the page has taken the address
+  // does not count.
   async show(view) {
     await this.page.evaluate(`new Promise((done) => {
       addEventListener('hashchange', () => { delete ${drawn}; done(); }, { once: true });
@@ -42,7 +43,7 @@ export class CheckedPage {
   frameMs() {
     return this.page.evaluate('document.documentElement.dataset.frameMs');
   }
-  // What the address says.
+  // Returns what the address says.
   told(name) {
     return this.page.evaluate(`new URLSearchParams(location.hash.slice(1)).get(${JSON.stringify(name)})`);
   }
@@ -138,7 +139,8 @@ export class Slicer {
     }
     return this.files.get(grid.path);
   }
-  // `before` has words for the program. CIEDE2000 of a picture: 99th percentile, mean, greatest; and over how many pixels.
+  // Returns the CIEDE2000 of a picture: 99th percentile, mean, greatest, and the number of pixels. `before` has words
+  // for the program.
   compare(file, picture, scene, more = []) {
     const { azimuth, tilt, zoom, field, exaggeration, opacity, at } = scene;
     const words = [azimuth, tilt, zoom, field, exaggeration, opacity, ...at.map((km) => km * 1000)].map(String);

@@ -1,4 +1,4 @@
-// What the page draws first in Firefox, which has a renderer of its own (scripts/check-viewer).
+// Checks what the page draws first in Firefox, which has a renderer of its own (scripts/check-viewer).
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 

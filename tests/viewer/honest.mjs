@@ -1,5 +1,5 @@
-// What the page says of what is not there: a radar, a moment or a time of a link, the server, news, the graphics
-// processor (scripts/check-viewer). It passes requests on to the server, so that it can cut them off.
+// Checks what the page says of things that are not there: a radar, a moment or a time of a link, the server, news, the
+// graphics processor (scripts/check-viewer). It passes requests on to the server, so that it can cut them off.
 //   node honest.mjs ADDRESS STATION OTHER_STATION
 import { createServer, request } from 'node:http';
 

@@ -1,5 +1,5 @@
-// Measures the viewer's ladder in Chromium (scripts/viewer-ladder): time of a frame, texels that a pixel asks for,
-// and the difference from the slicer with many slices, for each rung and scene. It prints a table, and with --write puts
+// Measures the viewer's ladder in Chromium (scripts/viewer-ladder): time of a frame, texels that a pixel asks for, and
+// the difference from the slicer with many slices, for each rung and scene. It prints a table, and with --write puts
 // the figures into the viewer's own table.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -50,7 +50,7 @@ async function frameMs(viewer, scene, quality) {
 
 async function measure(rung, scene, file) {
   const viewer = viewers.get(memoryOf(rung));
-  // What is behind is not drawn.
+  // A page that is behind another one is not drawn.
   await viewer.page.send('Page.bringToFront');
   const quality = `memory=${memoryOf(rung)}&quality=${encodeURIComponent(rung)}`;
   const ms = await frameMs(viewer, scene, quality);
@@ -76,7 +76,7 @@ for (const scene of scenes) {
 }
 await browser.end();
 
-// What the page says of a rung: its cost over all scenes, and the largest difference of any.
+// The figures that the page gives for a rung: its cost over all scenes, and the largest difference of any.
 const total = (results) => results.reduce((sum, { ms }) => sum + ms, 0);
 const costOf = ({ results }) => total(results) / total(rows[0].results);
 const dEOf = ({ results }) => Math.max(...results.map(({ dE }) => dE));

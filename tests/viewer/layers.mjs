@@ -1,5 +1,5 @@
-// What the layers of the viewer show, in Chromium (scripts/check-viewer): flat ones against the pictures of
-// `stormcellar frame`, which cut the same grid by themselves, and what mouse and keys do to them.
+// Checks the layers of the viewer in Chromium (scripts/check-viewer): flat ones against the pictures of `stormcellar
+// frame`, which cut the same grid by themselves, and what mouse and keys do to them.
 //   node layers.mjs ADDRESS STATION VOLUME PROGRAM DIFFERENCE DIRECTORY
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -23,8 +23,8 @@ const isQuiet = (color) => quiet.some((one) => isNear(color, one, 1));
 
 const framed = (words, w, h) => pictureOf(page, program, [volume, ...words, '--no-labels'], w, h, directory);
 
-// How many pixels show a value in either picture, and in how many of these the other one has another color.
-// The outermost are left out, where the pictures have a border.
+// Counts the pixels that show a value in either picture, and those of them that have another color in the other one. It
+// leaves out the outermost pixels, where the pictures have a border.
 function compared(ours, theirs, most = 3) {
   let [shown, off] = [0, 0];
   for (let y = 2; y < ours.height - 2; ++y) {
@@ -94,7 +94,7 @@ for (let y = 0; y < height; ++y) {
 // A ray may step over a cell that just reaches the value.
 check(`surface: of ${inside} pixels where the column maximum reaches 45 dBZ ${missing} are missing, and there are ${more} others`,
   inside > 30 && missing <= 0.06 * inside && more <= 0.005 * inside);
-// Of two moments the one has the shape, and the other one the colors.
+// If two moments are chosen, one gives the shape, and the other one the colors.
 await viewer.show(`${above}&moment=VEL&surface=45&surface-moment=REF`);
 const colored = image(await viewer.pixels());
 let [shape, others] = [0, 0];

@@ -1,6 +1,6 @@
-// How long after a sweep has closed the viewer shows it (scripts/bench-viewer): a real volume is appended record by record
-// to a file of the drop directory, as LDM does, and the next record waits until the page has drawn what the last one
-// brought. Prints rows.
+// Measures how long after a sweep has closed the viewer shows it (scripts/bench-viewer). It appends a real volume
+// record by record to a file of the drop directory, as LDM does, and holds the next record until the page has drawn
+// what the last one brought. Prints rows.
 //   node live.mjs ADDRESS STATION VOLUME FILE_IN_DROP_DIRECTORY
 import { appendFileSync, mkdirSync, readFileSync } from 'node:fs';
 import { dirname } from 'node:path';
@@ -64,7 +64,7 @@ try {
     const closed = send();
     const first = await page.until('drawn_[0]', longestMs / 1000).catch(() => null);
     if (!first) continue;
-    // What follows at once belongs to the same sweep.
+    // A picture that follows at once belongs to the same sweep.
     await wait(longestMs / 5);
     found.push({ all: first[0] - closed, frame: first[1] });
   }

@@ -1,4 +1,4 @@
-// What the page of the viewer draws and does, in Chromium (scripts/check-viewer).
+// Checks what the page of the viewer draws and does, in Chromium (scripts/check-viewer).
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -46,7 +46,7 @@ const scenes = [
 ];
 if (pictures) mkdirSync(pictures, { recursive: true });
 let compared = 0;
-// Of the short form every third scene: from each side of the ground, of two moments, of both volumes.
+// The short form draws every third scene, which still shows both projections, two moments and both volumes.
 const isShort = Boolean(process.env.STORMCELLAR_SHORT);
 for (const [number, [one, moment, azimuth, tilt, zoom, field, exaggeration, opacity, at]] of scenes.entries()) {
   if (isShort && number % 3 !== 0) continue;

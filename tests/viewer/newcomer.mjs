@@ -81,7 +81,7 @@ try {
   const read = Number(said.match(/-?\d+\.\d+/)[0]);
   check(`${said}; among cells ${greatest}`, read <= greatest + 0.5 && read > greatest - 3);
 
-  // Who gets the link sees the same.
+  // Another page that opens the link shows the same.
   const link = await page.evaluate('navigator.clipboard.readText()');
   const other = await browser.page(width, height);
   const shared = new CheckedPage(other, address);

@@ -1,5 +1,6 @@
-// A grid that is fetched in parts, as one that is too large for the page's memory is (scripts/check-viewer): what it says
-// until all is there, its picture against the slicer's, and what it does when the graphics processor or the server forgets.
+// Checks a grid that is fetched in parts, as one is that is too large for the page's memory (scripts/check-viewer):
+// what the page says until all is there, its picture against the slicer's, and what it does if the graphics processor
+// or the server forgets.
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -26,7 +27,7 @@ async function sectionAbout([eastKm, northKm]) {
   const at = (x, y) => [latitude + y / 111.1, longitude + x / (111.3 * Math.cos((latitude * Math.PI) / 180))];
   return [...at(eastKm - 35, northKm - 20), ...at(eastKm + 35, northKm + 20)].map((degrees) => degrees.toFixed(4)).join(',');
 }
-// How many pixels of two pictures differ: edges of colors may lie a pixel aside.
+// Counts the pixels that differ between two pictures: edges of colors may be a pixel aside.
 function differing(one, other) {
   let [shown, off] = [0, 0];
   for (let i = one.length % 3; i < one.length; i += 3) {
@@ -35,7 +36,7 @@ function differing(one, other) {
   }
   return { shown, off };
 }
-// What the page says of places where the pointer rests, which are not below its controls.
+// Returns what the page says of places where the pointer rests, which are not below its controls.
 async function readAt(places) {
   await viewer.settled(() => page.resize(560, 420));
   const found = [];
@@ -105,7 +106,8 @@ await viewer.show(inParts(scene));
 const ofPointer = await readAt(resting);
 check(`under the pointer: ${ofPointer[0].replaceAll('\n', ', ')}`, ofPointer.filter((text) => /^-?[\d.]+ dBZ at [\d.]+ km\n/.test(text)).length > 1);
 
-// ---- Layers of halved cells are read as they are drawn, and that is said (2026-11-29: it was not, and the height was that of another value)
+// ---- Layers of halved cells are read as they are drawn, and the page says so (2026-11-29: it did not, and gave the
+// height of another value)
 for (const [layer, pattern] of [['maximum=1', /^-?[\d.]+ dBZ\nmaximum of the column\ngreatest of [248] x [248] cells\n/], ['height-km=3', /^-?[\d.]+ dBZ at 3\.0 km\non the plane\ngreatest of [248] x [248] cells\n/]]) {
   await viewer.show(`memory=4&volume=0&tilt=0&field-of-view=0&azimuth=180&domain=${station}&moment=REF&${layer}`);
   const read = await readAt([[280, 200], [200, 220], [330, 260], [300, 230], [250, 240], [260, 180]]);
@@ -115,7 +117,7 @@ for (const [layer, pattern] of [['maximum=1', /^-?[\d.]+ dBZ\nmaximum of the col
 await viewer.show(inParts(scene));
 await complete();
 
-// ---- A finger, which never rests over the picture, reads the same (2026-11-28: it read the column of the ground behind)
+// ---- A finger, which never rests over the picture, reads the same (2026-11-28: it read the ground's column behind)
 const [tapped] = ofPointer.flatMap((text, i) => (/^-?[\d.]+ dBZ at/.test(text) ? [i] : []));
 await viewer.settled(() => page.resize(560, 420));
 await page.touch('touchStart', [resting[tapped]]);
@@ -140,7 +142,7 @@ for (const layer of ['maximum=1&volume=0', 'height-km=1']) {
   check(`a tap with ${layer} reads ${value}, the pointer ${hover}`, value !== undefined && value === hover);
 }
 
-// ---- Beyond the grid a sweep is read with and without the volume (2026-11-29: with it, the page waited for cells for ever)
+// ---- Beyond the grid a sweep is read with and without the volume (2026-11-29: with it, the page waited forever)
 const beyond = [];
 for (const volume of [0, 1]) {
   await viewer.show(`memory=${memoryMib}&domain=${station}&moment=REF&elevation=0.5&volume=${volume}&tilt=0&field-of-view=0&azimuth=180&zoom=0.5`);
@@ -161,7 +163,7 @@ await page.evaluate(`(() => {
 await complete();
 check('after the context was lost the picture is the same', (await viewer.pixels()).equals(fine));
 
-// ---- The view moves on, and an answer fails (2026-11-28: nothing was asked for again, and the page said that it is loading)
+// ---- The view moves on, and an answer fails (2026-11-28: the page said that it was loading, and never asked again)
 let answer = { responseCode: 500, body: 'there is trouble' };
 await page.send('Fetch.enable', { patterns: [{ urlPattern: '*bricks=*' }] });
 browser.listeners.push(({ method, params: { requestId } }) => {

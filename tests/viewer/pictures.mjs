@@ -13,7 +13,7 @@ try {
   const evaluate = (text) => page.evaluate(text);
   const press = (id) => evaluate(`document.getElementById('${id}').click()`);
   await viewer.open(`domain=${station}&moment=REF&zoom=2&exaggeration=3&quality=${encodeURIComponent('64 slices, half resolution')}`);
-  // What is saved, with what the page shows at this moment.
+  // A click on a link notes what is saved, and the title that the page shows at this moment.
   await evaluate(`HTMLAnchorElement.prototype.click = function () {
     window.taken = { href: this.href, name: this.download, title: document.getElementById('title').textContent };
   }; undefined`);
@@ -51,7 +51,7 @@ try {
   check(`${same} of ${letters} pixels of letters are in ${name} where the page shows them`, letters > 200 && same > 0.99 * letters);
 
   if (sequence) {
-    // ---- While it plays, the picture, its title and its name are of one volume (2026-11-28: 7 of 8 had the next one's time)
+    // ---- While it plays, picture, title and name are of one volume (2026-11-28: 7 of 8 had the next one's time)
     await viewer.show(`domain=${station}&moment=REF&zoom=2&exaggeration=3&quality=${encodeURIComponent('64 slices')}`);
     await page.until("Number(document.getElementById('times').max) >= 4");
     await press('play');
@@ -87,7 +87,7 @@ try {
     check(`${right} of ${played.length} pictures saved while it plays are of the time that they name`, right === played.length);
   }
 
-  // ---- While another moment comes, the picture is of the one that is drawn then (2026-11-28: velocities were named SW)
+  // ---- While another moment comes, the picture is of the drawn one (2026-11-28: velocities were named SW)
   await viewer.show(`domain=${station}&moment=REF&zoom=2&exaggeration=3&quality=${encodeURIComponent('64 slices')}`);
   await evaluate('window.taken = undefined; undefined');
   await evaluate("document.getElementById('moment-VEL').click(); document.getElementById('save').click()");
@@ -95,7 +95,7 @@ try {
   const drawn = await evaluate('document.documentElement.dataset.drawn');
   check(`a picture that is asked for while VEL comes is of what is drawn: ${later.name}, ${drawn}`, later.name.includes('_VEL_') && drawn.includes('/VEL/'));
 
-  // ---- What is lit is what is drawn (2026-11-28: the button of the moment that comes was, over the picture of the one before)
+  // ---- The lit button is that of the drawn moment (2026-11-28: it was that of the next one, over the picture before)
   await page.send('Fetch.enable', { patterns: [{ urlPattern: '*/packed*' }] });
   const held = new Promise((done) => browser.listeners.push(({ method, params }) => method === 'Fetch.requestPaused' && done(params.requestId)));
   await evaluate("document.getElementById('moment-SW').click()");

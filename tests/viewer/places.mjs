@@ -1,4 +1,4 @@
-// How a user gets in and around (scripts/check-viewer): the map of all stations by mouse, keys, fingers and words.
+// Checks how a user gets in and around: the map of all stations by mouse, keys, fingers, words (scripts/check-viewer).
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 

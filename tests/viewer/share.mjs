@@ -1,4 +1,4 @@
-// What the page gives along: its link, the command that draws the same, the picture, the grid (scripts/check-viewer).
+// Checks what a user takes along: link, command that draws the same, picture, grid (scripts/check-viewer).
 //   node share.mjs ADDRESS STATION VOLUME PROGRAM DIRECTORY [PICTURE_DIRECTORY]
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -37,7 +37,7 @@ try {
   await evaluate('window.copied = undefined');
   await press('command');
   const command = await page.until('window.copied');
-  // As a shell reads them.
+  // A shell splits the command.
   const words = execFileSync('sh', ['-c', `printf '%s\\n' ${command}`], { encoding: 'utf8' }).trimEnd().split('\n').slice(1);
   check(`the command reads the raw volume: ${command}`, words[0] === 'frame' && words[1] === basename(volume));
   const drawn = join(resolve(directory), 'command.png');
@@ -66,7 +66,7 @@ try {
   await viewer.show(`domain=${station}&moment=VEL&azimuth=200&tilt=60&zoom=2&folded=0`);
   await press('command');
   check('without it there is one, and it is offered', (await isOffered()) && (await page.until('window.copied')).includes('--moment VEL'));
-  // What cannot be said is not offered (2026-11-28: of several layers it drew one without a word).
+  // If no command draws the same, none is offered (2026-11-28: of several layers it drew one without a word).
   await viewer.show(link.split('#')[1]);
   await evaluate('window.copied = undefined');
   await press('command');

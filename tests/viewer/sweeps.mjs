@@ -39,7 +39,8 @@ try {
     check(`the command names it: ${command}`, command.includes(`--product ppi --sweep ${other.sweep} `));
   }
 
-  // ---- What is not drawn is not said to be (2026-11-28: a sweep that could not be fetched did not exist, and a surface was there)
+  // ---- The page says what it does not draw (2026-11-28: it told of a surface that it did not draw, and said that
+  // there is no sweep if it could not fetch it)
   await viewer.show(`${above}&surface=20&surface-moment=ZZZ`);
   const notShown = await page.until("document.getElementById('layers-told').textContent.includes('not shown') && document.getElementById('layers-told').textContent", 20).catch(told);
   check(`a surface of a moment that is not there: ${notShown}`, notShown.includes('not shown: no ZZZ'));
@@ -123,7 +124,7 @@ try {
         return count;
       }; undefined`;
     await evaluate(looks);
-    // What the page shows while it plays all times twice: time, layers, and how many pixels are not black.
+    // Records what the page shows while it plays all times twice: time, layers, and how many pixels are not black.
     const played = async (view) => {
       await viewer.show(view);
       await page.until("Number(document.getElementById('times').max) >= 4");

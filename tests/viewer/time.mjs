@@ -1,4 +1,4 @@
-// What the timeline of the page does with several volumes of one station (scripts/check-viewer).
+// Checks what the timeline of the page does with several volumes of one station (scripts/check-viewer).
 import { CheckedPage, check, gridsOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';
 
@@ -38,7 +38,7 @@ try {
   await viewer.settled(() => page.key('.'));
   await viewer.settled(() => page.key(','));
 
-  // What is played is loaded: never a picture of another time than the page says.
+  // Playback shows loaded pictures alone: never one of another time than the page says.
   await press('loop-to');
   await viewer.settled(() => press('earlier'));
   await press('loop-from');

@@ -1,4 +1,4 @@
-// Land and water of the page's ground, pixel by pixel against the picture of `stormcellar frame` (scripts/check-viewer).
+// Compares land and water of the page's ground, pixel by pixel, with `stormcellar frame` (scripts/check-viewer).
 //   node water.mjs ADDRESS STATION VOLUME PROGRAM DIRECTORY
 import { CheckedPage, check, gridsOf, image, pictureOf } from './checked_page.mjs';
 import { Browser } from './devtools.mjs';

@@ -1,4 +1,4 @@
-// What changes in the cache mean: grids of sites, mosaics, evicted grids, old news.
+// Tests the events for changes in the cache: grids of sites, mosaics, evicted grids, old news.
 #include "web/data/grid_events.h"
 
 #include <fstream>

@@ -98,7 +98,7 @@ TEST_F(HostileClients, IdleConnectionsBeyondTheLimitAreRefused) {
     }
     EXPECT_LE(service_->facts().connections, clients / 8);
     EXPECT_LE(resident_mib() - before_mib, 64 + 0.06 * static_cast<double>(clients));
-    // Those that were let in are ended in time, so that an honest client finds a place.
+    // The server ends idle connections, so that an honest client finds a place in time.
     EXPECT_TRUE(wait_for([&] { return status_at(grid_path) == 200; }));
     for (const auto& client : idle)
         ASSERT_TRUE(!client->is_connected() || client->is_closed(10s));
@@ -166,7 +166,7 @@ TEST_F(HostileClients, NoIdThatDoesNotExistIsAnswered) {
     EXPECT_EQ(status_at(grid_path), 200);
 }
 
-// What a fuzzer of the sockets would send: requests that are cut, changed and joined.
+// Sends what a fuzzer of the sockets would: requests that are cut, changed and joined.
 TEST_F(HostileClients, ChangedRequestsDoNotHurt) {
     start();
     const std::size_t requests = count_from_environment("STORMCELLAR_WEB_REQUESTS", 300);

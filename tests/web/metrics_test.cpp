@@ -1,4 +1,4 @@
-// What is counted, and /metrics of a whole server, read as strictly as Prometheus may.
+// Tests what is counted, and /metrics of a whole server, read as strictly as Prometheus may.
 #include <limits>
 #include <regex>
 

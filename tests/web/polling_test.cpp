@@ -1,4 +1,4 @@
-// What GR2Analyst, GRLevel2 and others poll (docs/web/raw.md), asked as they ask it.
+// Asks for what GR2Analyst, GRLevel2 and others poll (docs/web/raw.md), in the way that they do.
 #include "web/doors/polling.h"
 
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ class S3 : public ::testing::Test {
     Answer get(const std::string& target, Fields headers = {}) {
         return asked(*door_, target, std::move(headers));
     }
-    // What stands in the elements of this path, of a list that was asked for with this query.
+    // Asks for a list with this query, and returns the texts in its elements of this path.
     std::vector<std::string> texts(const std::string& query, const char* path) {
         const Answer answer = get(bucket + query);
         EXPECT_EQ(answer.status, 200U) << query;

@@ -74,7 +74,7 @@ std::vector<UtcTime> some_starts() {
             start_at("2024-11-30T12:00:00Z")};
 }
 
-// What a list must give, by looking at every key: keys, and prefixes that end in a delimiter.
+// Looks at every key for what a list must give: keys, and prefixes that end in a delimiter.
 std::vector<std::string> expected_list(const std::vector<std::string>& keys,
                                        const S3ListOptions& options) {
     std::vector<std::string> entries;

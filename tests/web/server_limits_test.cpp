@@ -1,4 +1,4 @@
-// What one client, or all together, may hold of a server.
+// Tests how much of a server one client, or all together, may hold.
 #include <chrono>
 #include <memory>
 #include <string>

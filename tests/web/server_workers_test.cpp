@@ -1,4 +1,4 @@
-// How the server shares its workers, and what it does when an answer throws.
+// Tests how the server shares its workers, and what it does if an answer throws.
 #include <atomic>
 #include <future>
 #include <memory>
@@ -65,7 +65,7 @@ TEST_F(WebServerWorkers, ADoorWithWorkersOfItsOwnHoldsUpNoOther) {
     EXPECT_EQ(drawn, 2);
 }
 
-// What waits is answered if its turn comes soon, and told to come back otherwise.
+// A request that waits is answered if its turn comes soon, and told to come back otherwise.
 TEST_F(WebServerWorkers, RequestsThatWaitForADoorsWorkersAreAnsweredWhenItStops) {
     for (const auto busy_for : {20ms, 2500ms}) {
         std::promise<void> released;

@@ -357,7 +357,7 @@ TEST_F(Thredds, TheCoverageGoesOnAcrossTheAntimeridian) {
     EXPECT_TRUE(starts(plains, "-103.0", "11.0")) << plains;
 }
 
-// What the IDV's HTTP layer does with a file, over a connection.
+// Reads a file over a connection, as the IDV's HTTP layer does.
 TEST_F(Thredds, TheIdvOpensAFileByRanges) {
     auto doors = std::make_shared<Doors>();
     doors->add("/thredds", std::make_shared<ThreddsDoor>(served_volumes().files()));

@@ -31,7 +31,7 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
         for (auto at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
             const auto from = at + before.size();
             const std::string name = text.substr(from, text.find('"', from) - from);
-            // What other doors answer is asked for early.
+            // The page asks early for these, which other doors answer.
             if (name.starts_with("data:") || name.starts_with("../api/")) continue;
             EXPECT_EQ(get("/view/" + name).status, 200u) << name;
             ++count;

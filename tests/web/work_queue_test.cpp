@@ -1,4 +1,4 @@
-// How clients share the threads that make answers.
+// Tests how clients share the threads that make answers.
 #include "web/http/work_queue.h"
 
 #include <future>

@@ -75,7 +75,7 @@ test('of a volume the cell is read that contributes most (2026-11-28: the first 
         }
     }
     assert.ok(below > 5);
-    // What is hidden by something solid does not count.
+    // Something solid that hides all leaves nothing to count.
     const nothing = mostVisible({ grid, middle: [0, 0] }, geometry, box, 200, 200, -Infinity, perM);
     assert.deepEqual([nothing.cell, nothing.through], [null, 1]);
 });

@@ -34,7 +34,7 @@ test('a flight begins where the picture seems to be seen from', () => {
         const off = takenOff(from, view);
         assert.ok(off.fieldOfViewDeg > 0 && off.zoom === 1);
         const [before, after] = [geometryOf(from), geometryOf(off)];
-        // What was in the middle still is, and as large.
+        // The point in the middle stays there, and what surrounds it is as large.
         const target: Vec3 = from.lookAtM ? [from.lookAtM[0], from.lookAtM[1], from.lookAtM[2] * view.exaggeration] : before.middle;
         const pixel = after.project(target)!;
         assert.ok(Math.abs(pixel[0] - 398) < 0.01 && Math.abs(pixel[1] - 266) < 0.01);

@@ -1,4 +1,4 @@
-// What the tests use of node, without its own types.
+// Declares what the tests use of node, without its own types.
 declare module 'node:test' {
     export default function test(name: string, body: () => void | Promise<void>): void;
 }

@@ -170,7 +170,7 @@ test('what is written is read again', () => {
     assert.deepEqual(again.range_folded, table.range_folded);
 });
 
-// Whatever a file holds: an error of one line, or a table whose numbers make sense.
+// A changed file gives an error of one line, or a table whose numbers make sense.
 test('changed files are tables or errors', () => {
     let seed = 20261127;
     const random = (below: number) => ((seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) >>> 8) % below;

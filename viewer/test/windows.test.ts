@@ -27,7 +27,7 @@ const grid = readPackedGrid(packedGrid(made));
 const pyramid: Pyramid = pyramidOf(grid);
 const plenty = { columns: 1e9, bytes: 1e9 };
 
-// As the server cuts it: each cell is the greatest of 2^level x 2^level, and the center stays where it is.
+// Cuts as the server does: each cell is the greatest of 2^level x 2^level, and the center stays where it is.
 function cut({ level, x, y }: BrickWindow): PackedGrid {
     const cell = 2 ** level;
     const [x0, y0] = [x[0] * 16, y[0] * 16];

@@ -34,7 +34,7 @@ struct BindAddress {
 // Errors: bad_argument for a text that is not ADDRESS:PORT with a numeric address.
 [[nodiscard]] Result<BindAddress> parse_bind_address(std::string_view text);
 
-// What can be served. The order is that of names_of_parts.
+// Parts that the server can serve, in the order of names_of_parts.
 enum class WebPart {
     volumes,   // raw files: /volumes
     thredds,   // the THREDDS radar server: /thredds
@@ -80,7 +80,7 @@ struct ConfiguredCollection {
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
-// What the THREDDS radar server says of a station, instead of what the station table says.
+// A station as the THREDDS radar server describes it, in place of its row in the station table.
 struct ConfiguredPlace {
     std::string id;  // "KFTG", or "FTG" as in Level III
     std::string name, state;

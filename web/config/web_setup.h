@@ -34,9 +34,9 @@ struct WebSetup {
 // not looked at. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
 [[nodiscard]] Result<WebSetup> load_web_setup(const std::filesystem::path& file);
 
-// What a reload cannot apply: a sentence for each part of `fresh` that differs from `running` and
-// takes effect only at a start, [paths] and [[station]]. All of [web], [log] and [[loop]] takes
-// effect at once.
+// Returns a sentence for each part of `fresh` that differs from `running` and that a reload cannot
+// apply: [paths] and [[station]] take effect only at a start. All of [web], [log] and [[loop]]
+// takes effect at once.
 [[nodiscard]] std::vector<std::string> needs_restart(const WebSetup& fresh,
                                                      const WebSetup& running);
 

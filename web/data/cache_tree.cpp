@@ -353,7 +353,7 @@ void CacheTree::handle_directory(const Place& place, std::uint32_t mask, const s
     }
 }
 
-// What an event told need not be read again by the next scan.
+// Notes the time of the directory after an event, so that the next scan does not read it again.
 void CacheTree::note_time(const Place& place, Seen& seen) const {
     struct stat facts {};
     if (::lstat(path_of(place).c_str(), &facts) != 0) return;

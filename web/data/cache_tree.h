@@ -42,7 +42,7 @@ class CacheTree {
     void tell_everything();
 
   private:
-    // How a directory was when it was last read.
+    // State of a directory when it was last read.
     struct Seen {
         int watch = -1;
         std::uint64_t device = 0, inode = 0;

@@ -55,10 +55,10 @@ struct Event {
     std::string json;  // one object on one line
 };
 
-// What a client wants to hear. Stations and domains are places: an event fits if it is of one of
-// these stations or of one of these domains, or if neither is given. Moments and types must fit,
-// too, if they are given. An event without a moment fits any list of moments, so that who asks for
-// REF hears of silent stations. A reset fits every filter.
+// Selects the events that a client wants to hear. Stations and domains are places: an event fits if
+// it is of one of these stations or of one of these domains, or if neither is given. Moments and
+// types must fit, too, if they are given. An event without a moment fits any list of moments, so
+// that a client that asks for REF hears of silent stations. A reset fits every filter.
 struct EventFilter {
     std::vector<std::string> stations = {}, domains = {};
     std::vector<level2::Moment> moments = {};
@@ -66,7 +66,7 @@ struct EventFilter {
     [[nodiscard]] bool fits(const Event& event) const;
 };
 
-// Where a client was: the run of the server, and the number of the last event that it has.
+// The last event that a client has: the run of the server, and the number of the event.
 struct EventId {
     std::string run;
     std::uint64_t number = 0;

@@ -32,7 +32,7 @@ constexpr std::size_t most_changes_waiting = 20'000;
 
 }  // namespace
 
-// What the watch of the cache has told and the feed has not read. The watch may outlive the feed.
+// Changes that the cache watch has told and the feed has not read. The watch may outlive the feed.
 struct WaitingChanges {
     void add(const CacheChange& change) {
         {
@@ -45,7 +45,7 @@ struct WaitingChanges {
         }
         more.notify_one();
     }
-    // Waits until there is something, or it is to stop. Returns what there is.
+    // Waits for changes until the given time or a stop. Returns those that have come.
     std::vector<CacheChange> take(SteadyTime until) {
         std::unique_lock lock(mutex);
         more.wait_until(lock, until, [this] { return is_stopping || !changes.empty(); });

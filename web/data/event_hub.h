@@ -41,7 +41,7 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
 
     // Numbers the event and wakes those whose filter it fits.
     void publish(Event event);
-    // To be called once a second: heartbeats, a fifteenth of the listeners at a time.
+    // Call once a second. Each call sends a heartbeat to a fifteenth of the listeners.
     void tick();
 
     // Begins to listen after the event of this id; none: after the newest. If events were lost
@@ -104,8 +104,8 @@ class EventHub::Listener : public std::enable_shared_from_this<EventHub::Listene
     std::mutex wake_mutex_;
     std::function<void()> wake_;
 
-    // Of the hub's mutex. `next_`: the first event that it may not have read; without meaning
-    // while nothing is pending.
+    // Guarded by the hub's mutex. `next_` is the first event that the listener may not have read;
+    // it has no meaning while nothing is pending.
     std::uint64_t next_ = 0;
     bool is_pending_ = true, beat_due_ = false;
     std::size_t beat_ = 0;

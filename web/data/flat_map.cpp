@@ -166,7 +166,7 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
         if (auto kept = find_kept(key)) return kept;
         making_.insert(key);
     }
-    // Those who wait must not wait for ever if there is no memory for the map.
+    // Wakes the threads that wait for the map, even if there is no memory for it.
     struct Ending {
         FlatMaps& maps;
         const std::string& key;

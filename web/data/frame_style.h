@@ -25,7 +25,7 @@ namespace stormcellar::web {
 inline constexpr std::int64_t most_frame_pixels = 3840 * 2160;
 inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // pixels times slices
 
-// What a query asks for.
+// The picture that a query asks for.
 struct FrameStyle {
     render::SceneOptions options;
     std::vector<render::PanelScene> panels;  // one, or several in one picture
@@ -41,7 +41,7 @@ struct FrameStyle {
 [[nodiscard]] Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
                                              std::span<const std::string_view> others);
 
-// What a panel of a picture shows. What is referred to must outlive it.
+// The grid that a panel of a picture shows. Its cells and description must outlive the panel.
 struct DrawnPanel {
     grid::BrickView view;
     const cache::GridDescription* description;

@@ -52,7 +52,7 @@ EventType type_of(bool is_site, bool is_living) {
     return is_living ? EventType::sweep_gridded : EventType::volume_complete;
 }
 
-// What every event of a grid has.
+// Returns the fields that every event of a grid has.
 EventJson grid_json(EventType type, const cache::GridName& name, const cache::GridFacts& grid,
                     UtcTime now) {
     const std::string moment(level2::moment_name(name.moment));
@@ -114,7 +114,7 @@ void GridEvents::add_grid(const CacheChange& change, UtcTime now, std::vector<Ev
     const cache::GridName& name = change.grid;
     const std::filesystem::path& root = grids_->cache();
     const Result<int> opened = open_beneath(root, root / cache::relative_path(name));
-    // What is gone again is told as gone.
+    // If the grid is gone again, the change by which it went tells so.
     if (!opened) return;
     const Descriptor file(*opened);
     struct stat facts {};

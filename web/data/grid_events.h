@@ -41,7 +41,7 @@ class GridEvents {
     [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
   private:
-    // What tells one file of a name from the next.
+    // Tells a file from the next one of the same name.
     struct Told {
         UtcTime time;
         std::uint64_t inode = 0;

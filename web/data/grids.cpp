@@ -21,7 +21,7 @@
 
 namespace stormcellar::web {
 
-// What tells one file from the file that replaces it.
+// Tells a file from the one that replaces it.
 struct GridFileStamp {
     std::uint64_t device = 0, inode = 0, size = 0;
     std::int64_t modified_ns = 0;
@@ -40,7 +40,7 @@ GridFileStamp stamp_of_grid(const struct stat& facts) {
             std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec};
 }
 
-// What an open grid holds in memory. Codes that are mapped are not counted.
+// Counts the bytes that an open grid holds in memory, without codes that are mapped.
 std::uint64_t memory_of(const cache::GridFile& file) {
     const grid::BrickView view = file.view();
     std::uint64_t bytes = 16384 + view.bricks.size_bytes() + view.states.size();
@@ -270,7 +270,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     }
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;
 
-    // Those who want the same grid at the same time wait for the one who opens it.
+    // If several requests want the same grid at the same time, one opens it and the others wait.
     const std::size_t hash = std::hash<std::string>{}(path.native());
     const std::scoped_lock lock(impl_->opening[hash % opening_locks]);
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;

@@ -31,8 +31,8 @@ namespace stormcellar::web {
 struct GridsOptions {
     std::filesystem::path cache;
     std::size_t most_open = 64;
-    // Of the memory that open grids hold: tables, states, and codes if these are packed. The grid
-    // used last is kept even if it is larger.
+    // Limit of the memory that open grids hold: tables, states, and codes if these are packed. The
+    // grid used last is kept even if it is larger.
     std::uint64_t most_open_bytes = std::uint64_t{256} << 20;
 };
 
@@ -68,7 +68,7 @@ class Grids {
     [[nodiscard]] std::vector<UtcTime> times(std::string_view domain, level2::Moment moment,
                                              std::optional<UtcTime> from = {},
                                              std::optional<UtcTime> to = {}) const;
-    // As newest_believed() says.
+    // Returns the newest of these times, by newest_believed(); none if there is no grid.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view domain,
                                                 level2::Moment moment) const;
     // Returns the grid. Errors: not_found; those of GridFile::open().

@@ -53,7 +53,7 @@ struct MapPicture {
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
 
-// What a layer shows at a place. Without a value, the value is 0.
+// The value that a layer shows at a place. It is 0 unless the status says that there is one.
 struct MapValue {
     grid::CellStatus status = grid::CellStatus::not_seen;
     float value = 0;
@@ -96,9 +96,9 @@ class MapPictures {
     std::list<KnownBox> boxes_;  // the most recently used first
 };
 
-// How often a field is halved for pixels of this window: until a cell has at least 0.87 of the side
-// of a pixel, so that next to no cell falls between pixels, or there is no smaller form. It does
-// not depend on where the window is, so that tiles fit together.
+// Returns how often to halve a field for pixels of this window: until a cell has at least 0.87 of
+// the side of a pixel, so that next to no cell falls between pixels, or there is no smaller form.
+// The result does not depend on where the window is, so that tiles fit together.
 [[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
                                std::size_t levels);
 

@@ -52,7 +52,7 @@ PackedHeader header_of(const PackedSource& source) {
     return header;
 }
 
-// How many blocks of states and bricks of codes a range of the table has.
+// Counts of the blocks of states and the bricks of codes in a range of the table.
 struct BlockCounts {
     std::uint32_t states = 0, codes = 0;
 };

@@ -136,7 +136,7 @@ static_assert(offsetof(PackedBrick, min_code) == 4);
 static_assert(offsetof(PackedBrick, max_code) == 6);
 static_assert(offsetof(PackedBrick, at) == 8);
 
-// What is packed, and what the header says of it beside.
+// The grid to pack, and facts about it for the header.
 struct PackedSource {
     const cache::GridDescription* description = nullptr;  // its spec may be that of a halved grid
     grid::BrickView view;
@@ -146,7 +146,7 @@ struct PackedSource {
     bool values_alone = false;
 };
 
-// What one answer may hold, before it is compressed.
+// Limits of one answer, before it is compressed.
 inline constexpr std::uint64_t most_packed_bytes = std::uint64_t{64} << 20;
 inline constexpr std::size_t most_bricks_of_a_range = 16384;
 

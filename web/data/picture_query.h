@@ -5,9 +5,8 @@
 // (threads) are no parameters, and colors are taken by name only: a query never names a file.
 //
 // Threads   Pure functions.
-// Errors    bad_argument, naming the parameter, for one that is not known, is given twice, is
-// longer
-//           than 256 bytes or has a value that makes no sense.
+// Errors    bad_argument, naming the parameter, for one that is not known, is given twice, has more
+//           than 256 bytes or a value that makes no sense.
 #pragma once
 
 #include <span>
@@ -26,9 +25,9 @@ struct PictureQuery {
 };
 
 using TakesOption = bool (*)(const render::PictureOption&);
-// Every option of a picture.
+// Returns true for every option of a picture.
 [[nodiscard]] bool is_of_frames(const render::PictureOption& option);
-// Those that a map without a page around it has: not its size, theme and labels.
+// Returns true for options that apply to a bare map: not its product, size, theme and labels.
 [[nodiscard]] bool is_of_bare_maps(const render::PictureOption& option);
 
 // Reads the options that `takes` allows. `others` are parameters that the door itself reads.

@@ -94,8 +94,8 @@ Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
     std::vector<CatalogEntry> chunks;
     int due = 1;
     for (auto& [number, row] : by_number) {
-        // What comes behind a gap, or was not read yet, is not yet the next part of a volume that
-        // grows.
+        // If the volume grows, stop at a gap or at a chunk that was not read yet, because later
+        // chunks are not yet its next part.
         if (is_growing(entry) && (number > due || row.content_hash == 0)) break;
         due = number + 1;
         chunks.push_back(std::move(row));

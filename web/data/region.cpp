@@ -70,12 +70,12 @@ grid::GridSpec region_spec(const RegionBox& box, double spacing_m, std::vector<d
     return spec;
 }
 
-// How far the corners of a site's grid are from its site.
+// Returns the distance from a site to the corners of its grid, in meters.
 double reach_of_grid(const grid::GridSpec& spec) {
     return 0.5 * std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m());
 }
 
-// Whether a place is in the box, or within so many degrees of it.
+// Returns true if the place is in the box, or within the margin about it.
 bool is_about(const StationPlace& place, const RegionBox& box, double margin_deg) {
     const double across =
         std::remainder(place.longitude_deg - 0.5 * (box.west_deg + box.east_deg), 360.0);
@@ -84,7 +84,7 @@ bool is_about(const StationPlace& place, const RegionBox& box, double margin_deg
            place.latitude_deg < box.north_deg + margin_deg;
 }
 
-// A site near the box, with its newest grid of the moment; without one it stands in the box.
+// A site near the box, with its newest grid of the moment. If that is null, the site is in the box.
 struct NearbySite {
     std::string name;
     std::shared_ptr<const OpenGrid> newest;
@@ -149,7 +149,8 @@ class SiteLayer {
             columns_.emplace(from_, to_);
         }
         laid.bricks = columns_->lay(view);
-        // Codes that were cut meanwhile read as zeros, which are not seen.
+        // If the file was truncated while we read it, missing codes read as 0 (not seen), so check
+        // that the file is still whole.
         if (Status whole = laid.source->file.check_whole(); !whole) return pass_on(whole);
         return std::optional<LaidGrid>{std::move(laid)};
     }
@@ -239,7 +240,7 @@ Result<RegionPlan> plan_region(Grids& grids, const RegionBox& box, level2::Momen
             continue;
         }
         const grid::GridSpec& own = newest->file.description().spec;
-        // The first that reaches the box says what the others must be.
+        // The first site in reach fixes spacing, levels and codes of the region.
         if (plan.sites.empty()) {
             plan.spec = region_spec(box, own.cell_height_m(), own.levels_m);
             plan.quantization = newest->file.view().quantization;

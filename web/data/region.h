@@ -31,7 +31,7 @@ struct RegionBox {
 // 530 to 550. Longitudes that are equal stay so.
 [[nodiscard]] RegionBox turned(RegionBox box);
 
-// What one request may take.
+// Limits of one request.
 inline constexpr std::size_t most_region_columns = 1'000'000;
 inline constexpr std::size_t most_region_sites = 32;
 inline constexpr int most_region_halvings = 3;
@@ -43,7 +43,7 @@ struct LeftOutSite {
     std::string site, reason;
 };
 
-// What the grid of a region is, before it is made.
+// Describes the grid of a region before it is made.
 struct RegionPlan {
     level2::Moment moment = level2::Moment::ref;
     grid::GridSpec spec;
@@ -66,13 +66,13 @@ struct RegionPlan {
 // rising.
 [[nodiscard]] std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan);
 
-// What a site gives to an instant: its volumes before and after it, of which one may be none. With
-// one alone, that is taken as it is.
+// The volumes of a site before and after an instant. If one of them is null, the other is taken as
+// it is.
 struct RegionSite {
     std::string site;
     std::shared_ptr<const OpenGrid> before, after;
     std::string left_out_because;  // where there is neither
-    // From the instant to the middle of a volume; less than 0 before it.
+    // Returns the seconds from the instant to the middle of a volume; negative if it was before.
     [[nodiscard]] static double seconds_to(const OpenGrid& volume, UtcTime instant);
 };
 // Returns the sites of the plan with their volumes near the instant. Errors: those of

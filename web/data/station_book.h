@@ -18,7 +18,7 @@
 
 namespace stormcellar::web {
 
-// What is known of a volume when it is first seen.
+// Facts that are known of a volume when it is first seen.
 struct SeenVolume {
     UtcTime start;
     int vcp = 0;  // 0: not known

@@ -123,7 +123,7 @@ std::optional<std::string> TimeNumbers::problem() const {
     return problem_;
 }
 
-// What cannot be removed is in nobody's way: it is tried again at the next start.
+// A file that cannot be removed is in nobody's way, and the next start tries again.
 void TimeNumbers::remove_leftovers() const {
     std::error_code failed;
     for (std::filesystem::directory_iterator at(directory_, failed), end; !failed && at != end;

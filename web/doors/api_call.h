@@ -85,7 +85,7 @@ struct ApiCall {
     [[nodiscard]] std::string path_value(std::string_view name) const;
 };
 
-// What went wrong, as an answer.
+// A value, or the answer that says what went wrong.
 template <class T>
 using Answered = tl::expected<T, Answer>;
 [[nodiscard]] inline tl::unexpected<Answer> refuse(Answer answer) {
@@ -126,12 +126,12 @@ struct AskedRegion {
     RegionPlan plan;
 };
 [[nodiscard]] Answered<AskedRegion> asked_region(const ApiCall& call);
-// The answer to those who ask for a grid that is not there.
+// Answers a request for a grid that is not there.
 [[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
 
 // Answers with JSON, which clients ask for again each time unless it has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
-// What an operation returns that must be quick and cannot; not to be sent.
+// An operation that must be quick and cannot returns this, which is never sent.
 [[nodiscard]] Answer takes_long();
 // A path below the API's own, for links.
 [[nodiscard]] std::string grid_path(const NamedGrid& grid);

@@ -15,9 +15,9 @@ struct ApiOperation;
 class ApiDoor final : public Door {
   public:
     explicit ApiDoor(ApiSources sources) : state_(std::move(sources)) {}
-    // Packed grids that are kept, while their grid is open.
+    // Answers with packed grids that are kept, while their grid is open.
     std::optional<Answer> answer_at_once(const Request& request) override;
-    // What need not be computed for long.
+    // Answers unless that takes a long computation.
     std::optional<Answer> answer_soon(const Request& request) override;
     Answer answer(const Request& request) override;
 

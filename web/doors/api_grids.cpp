@@ -1,4 +1,4 @@
-// Which grids there are, and what one of them is.
+// Operations that list domains and grids, and describe one grid.
 #include <algorithm>
 #include <cmath>
 

@@ -32,7 +32,7 @@ struct ApiOperation {
 };
 
 [[nodiscard]] std::span<const ApiOperation> api_operations();
-// What stands for a name in braces.
+// Describes the segment that stands for a name in braces; empty if the name is unknown.
 [[nodiscard]] std::string_view api_path_parameter(std::string_view name);
 // OpenAPI 3.1.
 [[nodiscard]] ApiJson openapi_document(std::string_view base);

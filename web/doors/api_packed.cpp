@@ -22,7 +22,7 @@ struct BrickWindow {
     std::size_t first_x = 0, last_x = 0, first_y = 0, last_y = 0;
 };
 
-// What of a grid is asked for.
+// The part and form of a grid that a request asks for.
 struct PackedRequest {
     PackedPart part = PackedPart::whole;
     std::size_t first = 0, end = 0;     // of `bricks`
@@ -208,7 +208,8 @@ Result<Kept> make_packed(ApiState& state, const OpenGrid& grid, const PackedRequ
         source.view = window->view();
     }
     const auto bytes = pack(source, wanted);
-    // Codes that were cut meanwhile read as zeros, which are not seen.
+    // If the file was truncated while we read it, missing codes read as 0 (not seen), so check that
+    // the file is still whole.
     if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
     return compress_packed(bytes, wanted.coding, fmt::format("\"{}-{}\"", grid.id, wanted.text()));
 }
@@ -237,13 +238,13 @@ Answer other_id(const OpenGrid& grid) {
     return json_error(410, "the grid was made again; its id is now " + grid.id);
 }
 
-// What was made on request and has no file.
+// Packs a frame that was made on request and has no file.
 Result<Kept> pack_frame(const pipeline::MosaicFrame& frame, Coding coding, PackedSource source) {
     source.description = &frame.description;
     source.view = frame.mosaic.cells.view();
     auto bytes = pack_whole(source);
     if (!bytes) return pass_on(bytes);
-    // The id is of the bytes, since there is no file.
+    // Make the id of the bytes, since there is no file.
     const std::uint64_t id = xxh3_64(std::as_bytes(std::span(*bytes)));
     std::memcpy(bytes->data() + offsetof(PackedHeader, id), &id, sizeof id);
     return compress_packed(bytes, coding, fmt::format("\"{:016x}-{}\"", id, coding_name(coding)));

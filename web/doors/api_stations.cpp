@@ -21,7 +21,7 @@ ApiJson age_json(UtcTime time, UtcTime now) {
     return std::floor(seconds_between(time, now));
 }
 
-// What the newest of something is, and how old.
+// Returns the time of the newest volume or grid, and its age; null if there is none.
 ApiJson newest_json(std::optional<UtcTime> time, UtcTime now) {
     if (!time) return nullptr;
     return {{"time", format_utc(*time)}, {"age_s", age_json(*time, now)}};

@@ -94,7 +94,8 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-// What `stormcellar frame --product ppi` draws of each moment: one sweep of each elevation.
+// Chooses the sweeps that `stormcellar frame --product ppi` draws of each moment: one of each
+// elevation.
 std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Volume& volume,
                                                                std::string_view station) {
     std::set<std::pair<level2::Moment, std::size_t>> chosen;

@@ -80,7 +80,7 @@ Result<EventFilter> filter_of(const Request& request) {
     return filter;
 }
 
-// What a HEAD request gets: the server reads nothing of it.
+// Stands for the stream in the answer to a HEAD request. The server reads nothing of it.
 class NoEvents final : public Stream {
   public:
     std::optional<std::string> read(std::size_t /*most*/) override { return std::nullopt; }

@@ -32,8 +32,8 @@ class FramesDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    // What a request asks for, and the grids of which it is drawn: those of these moments at this
-    // instant. Of a sweep there is one, whose raw volume is drawn.
+    // The picture that a request asks for, and the grids that it shows: those of these moments at
+    // this instant. A picture of a sweep has one grid, whose raw volume is drawn.
     struct Asked {
         std::string domain;
         FrameStyle style;

@@ -9,7 +9,7 @@
 
 namespace stormcellar::web {
 
-// What the examples name.
+// Names that are filled into the examples.
 struct ClientPlaces {
     std::string base;     // "http://127.0.0.1:8090"
     std::string bucket;   // "unidata-nexrad-level2"
@@ -26,7 +26,8 @@ struct ClientHelp {
     std::string code;       // to copy
 };
 
-// Those programs whose door is among the prefixes, those that people ask for most first.
+// Returns help for the programs whose door is among the prefixes, unless another door serves them
+// better. The programs that people ask for most come first.
 [[nodiscard]] std::vector<ClientHelp> client_help(const ClientPlaces& places,
                                                   const std::vector<std::string>& doors);
 

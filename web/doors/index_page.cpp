@@ -49,7 +49,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-// What comes late, as in a replay of an archive, is not live.
+// Data that come late, as in a replay of an archive, do not make a station live.
 std::string_view state_of(const IndexStation& station, UtcTime now) {
     if (station.is_silent) return "silent";
     const auto is_live = [&](std::optional<UtcTime> newest) {

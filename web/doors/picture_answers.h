@@ -19,7 +19,7 @@ namespace stormcellar::web {
 // The status that fits the error, and its sentence; 503 with Retry-After.
 [[nodiscard]] Answer picture_error(const Error& error);
 
-// What an answer or its refusal is.
+// The value that a request asks for, or the answer that refuses it.
 template <class Value>
 using Found = tl::expected<Value, Answer>;
 
@@ -39,9 +39,9 @@ using Found = tl::expected<Value, Answer>;
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
 
-// How long an answer that follows from a grid may be used without asking again.
+// Clients may use an answer that follows from a grid for this long without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};
-// None for a grid that was asked for as "latest" or that may change: ask each time.
+// Returns none (ask each time) for a grid that was asked for as "latest" or that may change.
 [[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,
                                                              const OpenGrid& grid);
 

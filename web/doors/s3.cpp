@@ -65,7 +65,7 @@ std::optional<Answer> refused_resource(const Request& request) {
     return std::nullopt;
 }
 
-// What stands behind /s3/: a bucket, and a key if there is a slash behind that.
+// The path behind /s3/: a bucket, and a key if there is a slash behind the bucket.
 struct S3Path {
     std::string_view bucket, key;
 };
@@ -99,7 +99,7 @@ std::optional<Answer> S3Door::answer_at_once(const Request& request) {
     const auto key = parse_s3_key(path.key);
     if (!key) return std::nullopt;
     auto answer = volume_answer_at_once(request, *files_, key->station, key->name);
-    // What is refused is refused in the words of S3: see object_answer().
+    // Leave refusals to object_answer(), which words them as S3 does.
     return answer && answer->status < 400 ? std::move(answer) : std::nullopt;
 }
 

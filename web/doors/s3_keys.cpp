@@ -121,7 +121,7 @@ Result<std::optional<sys_days>> S3Keys::next_day(sys_days day) const {
 Result<std::vector<S3Object>> S3Keys::between(std::string_view from, std::string_view end,
                                               std::size_t most) {
     if (Status found = find_stations(); !found) return pass_on(found);
-    // What stands behind the day in one of the bounds, if the bound is within the day.
+    // Returns the rest of a bound behind the day if the bound is within the day, else empty.
     const auto within = [](std::string_view bound, sys_days day) {
         const bool is_within = bound.substr(0, day_size) == day_text(day);
         return is_within ? bound.substr(day_size) : std::string_view{};

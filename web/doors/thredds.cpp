@@ -16,7 +16,7 @@ Answer xml_answer(const Request& request, std::string text) {
     return text_answer_to(request, "application/xml", std::move(text));
 }
 
-// What went wrong in a query. A catalog that cannot be read is no mistake of the client.
+// Answers a query that failed. If the catalog cannot be read, the client made no mistake.
 Answer query_error(const Error& error) {
     if (error.code == ErrorCode::bad_argument)
         return sentence(200, error.message).with("Cache-Control", "no-cache");

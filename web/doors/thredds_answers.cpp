@@ -59,7 +59,8 @@ Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
     return {start < -180 ? start + 360 : start, size};
 }
 
-// What the radars see: their places, and 460 km around them, in whole degrees.
+// Writes the area that the radars see. They reach 460 km; the box has a margin of 5 degrees around
+// their places, in whole degrees.
 void write_coverage(XmlWriter& xml, const std::vector<ThreddsStation>& stations) {
     constexpr double margin_deg = 5, top_km = 20;
     double north = -90, south = 90;

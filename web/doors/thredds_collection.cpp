@@ -25,7 +25,7 @@ void set_state(ThreddsStation& station, std::string_view state) {
     if (!state.empty()) station.country = is_state ? "US" : std::string{state};
 }
 
-// Of a ConfiguredPlace or a RawStation.
+// Copies the place of a ConfiguredPlace or a RawStation.
 template <class Place>
 void set_place(ThreddsStation& station, const Place& place) {
     station.name = place.name;

@@ -52,7 +52,7 @@ class ThreddsCollection {
     [[nodiscard]] virtual std::vector<ThreddsVariable> variables() const = 0;
     // A query must name a variable, because each has files of its own.
     [[nodiscard]] virtual bool needs_variable() const = 0;
-    // Those of the configuration, or all that have files; in their order.
+    // Returns the configured stations, or all that have files, in their order.
     [[nodiscard]] Result<std::vector<ThreddsStation>> stations();
     // The start of the oldest file; none if there is none. It may be a minute old.
     [[nodiscard]] virtual Result<std::optional<UtcTime>> oldest() = 0;

@@ -77,7 +77,7 @@ Status read_places(const Request& request, ThreddsQuery& query) {
         if (query.box->north_deg < query.box->south_deg)
             return fail(ErrorCode::bad_argument, "north must not be less than south.");
     }
-    // As the THREDDS server does, names count before a box, and a box before a point.
+    // Names count before a box, and a box before a point, as in the THREDDS server.
     if (!query.stations.empty() || query.all_stations) query.box.reset();
     if (!query.stations.empty() || query.all_stations || query.box) query.near.reset();
     if (!query.stations.empty() || query.all_stations || query.box || query.near) return {};

@@ -93,7 +93,7 @@ std::string_view word_of(grid::CellStatus status) {
     return "";
 }
 
-// What one layer shows at the place that was asked about.
+// The value of one layer at the place that was asked about.
 struct LayerValue {
     std::string layer, title, unit;
     UtcTime time;

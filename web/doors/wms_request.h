@@ -27,7 +27,7 @@ namespace stormcellar::web {
 inline constexpr int most_wms_side = 4096;          // pixels
 inline constexpr std::size_t most_wms_layers = 16;  // of one picture
 inline constexpr std::array<std::string_view, 3> wms_systems{"EPSG:3857", "EPSG:4326", "CRS:84"};
-// What EPSG:3857 was called before it had a number; older clients know no other name.
+// Name of EPSG:3857 from before it had a number; older clients know no other.
 inline constexpr std::string_view older_web_mercator = "EPSG:900913";
 
 struct WmsFault {

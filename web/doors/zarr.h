@@ -26,7 +26,7 @@ namespace stormcellar::web {
 
 enum class ZarrVersion { two = 2, three = 3 };
 
-// What the doors of both versions share.
+// Sources that the doors of both versions share.
 struct ZarrSources {
     std::shared_ptr<Grids> grids;
     std::shared_ptr<KeptAnswers> kept;

@@ -59,7 +59,8 @@ struct Answer {
     Fields headers;  // without Content-Length, Date and Connection, which the server writes
     std::variant<Pieces, std::shared_ptr<Stream>> body = Pieces{};
     bool closes = false;  // the connection ends with this answer
-    // What went wrong, for the log: the client is not told paths of the server.
+    // Cause of a failure, for the log. The client must not see it, because it may name paths of the
+    // server.
     std::string trouble = {};
 
     Answer& with(std::string name, std::string value) {
@@ -80,21 +81,21 @@ struct Answer {
 [[nodiscard]] unsigned status_of(const Error& error);
 // Returns the message with "a file" for each path of the server.
 [[nodiscard]] std::string without_paths(std::string_view message);
-// Notes for the log what a client is not told: an error that is the server's.
+// Adds an error of the server for the log, which the client is not told.
 [[nodiscard]] Answer with_trouble(Answer answer, const Error& error);
 // A redirection to another path of this server.
 [[nodiscard]] Answer moved_to(const Request& request, std::string_view path);
 // 503 with Retry-After.
 [[nodiscard]] Answer come_back(std::chrono::seconds after, std::string_view text);
 
-// What an address holds, whole. answer_with() makes of it what the client asked for.
+// All that an address holds. answer_with() makes of it the answer that the client asked for.
 struct Entity {
     Pieces bytes;
     std::string content_type;
     std::string etag;  // with its quotes; empty: none
     std::optional<UtcTime> modified;
     std::string coding;  // Content-Encoding; empty: none
-    // How long a client may use it without asking: none: it must ask each time ("no-cache").
+    // Time for which a client may use it without asking; none: it must always ask ("no-cache").
     std::optional<std::chrono::seconds> max_age;
     bool never_changes = false;  // adds "immutable"
     bool varies = false;         // by Accept-Encoding

@@ -29,7 +29,7 @@ class AnswerBudget {
     [[nodiscard]] static bool is_counted(const Pieces& pieces);
     // Returns false if the budget, or the client's share of it, has no room; then nothing is taken.
     [[nodiscard]] bool take(const std::string& client, const Pieces& pieces);
-    // To be called once for each take() that succeeded, with the same pieces.
+    // Call once for each take() that succeeded, with the same pieces.
     void give_back(const std::string& client, const Pieces& pieces);
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -41,7 +41,7 @@ class AnswerBudget {
   private:
     using Objects = std::vector<HeldObject>;
     static Objects objects_of(const Pieces& pieces);
-    // What somebody holds: how many answers use each object.
+    // Objects that one client or all together hold, with the number of answers that use each.
     struct Holder {
         std::map<const void*, std::uint64_t> uses;
         std::uint64_t bytes = 0;

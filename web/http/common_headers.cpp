@@ -7,7 +7,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Whether a browser shows it as data: no page and no script. Anything unknown is none.
+// Returns true if a browser takes the answer as data, not as a page or a script. Unknown types are
+// not data.
 bool is_data(const Answer& answer) {
     const auto type = std::ranges::find(answer.headers, "Content-Type", &Fields::value_type::first);
     if (type == answer.headers.end()) return false;
@@ -19,7 +20,7 @@ bool is_data(const Answer& answer) {
                                [&](std::string_view one) { return type->second.starts_with(one); });
 }
 
-// What no page of ours needs, a browser must not do with it.
+// Returns headers that forbid a browser all that no page of ours needs.
 const Fields& headers_of_pages() {
     static const Fields headers = {
         {"Content-Security-Policy",

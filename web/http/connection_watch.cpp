@@ -216,8 +216,8 @@ ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
     return is_new ? nullptr : oldest;
 }
 
-// Those of all clients that take hardly anything go first, then those of the client that has most
-// connections. A proxy stands for many clients, so the number of its connections says nothing.
+// Bodies that hardly move go first, whoever their client is, then those of the client that has most
+// connections. A proxy stands for many clients, so it counts as if it had one.
 ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
     const auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
     Open* slowest = nullptr;

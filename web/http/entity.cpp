@@ -61,7 +61,7 @@ bool fails_its_condition(const Request& request, const Entity& entity) {
     return time && entity.modified && *seconds_of(entity.modified) > *time;
 }
 
-// Whether a range may be sent of this version.
+// Returns true if the client may get a range of this version (If-Range).
 bool is_same_version(const Request& request, const Entity& entity) {
     const auto known = request.header("If-Range");
     if (!known) return true;

@@ -65,7 +65,7 @@ std::string last_of(std::string_view list) {
     return std::string(list);
 }
 
-// What a trusted proxy says of the client and of the address that the client used.
+// Statements of a trusted proxy about the client and the address that the client used.
 struct ForwardedFacts {
     std::string client, scheme, host;
 };
@@ -190,7 +190,7 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
         return reading;
     }
     const bool is_proxied = identity.proxies.contains(raw.client);
-    // What is no address, such as "unknown", names nobody.
+    // If a proxy names no address but, say, "unknown", the proxy itself stays the client.
     if (is_proxied) {
         if (auto client = read_address(forwarded_facts(request).client))
             request.client = *std::move(client);

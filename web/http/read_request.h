@@ -14,7 +14,7 @@
 
 namespace stormcellar::web {
 
-// What came from the network.
+// A request as it came from the network.
 struct RawRequest {
     std::string method, target;  // as sent: the path with its query
     bool is_http_1_0 = false;
@@ -27,7 +27,7 @@ struct Refusal {
     std::string reason;
 };
 
-// Which names and proxies are ours.
+// Names and addresses that are ours, and the proxies that we trust.
 struct Identity {
     std::set<std::string> names;    // lower case, without ports; "*": any
     std::set<std::string> proxies;  // addresses

@@ -417,9 +417,9 @@ void Server::Impl::stop() {
         for (const auto& feed : feeds)
             feed->end();
     }
-    // Who has asked, or is about to, is answered, and what is on its way gets a moment to arrive.
+    // Wait until requests that have come, or are about to, are answered and the answers have left.
     wait_until_idle(std::chrono::seconds{2});
-    // What still waits is told to come back.
+    // Tell the clients of requests that still wait to come back.
     queue.stop();
     for (const auto& workers : doors->workers())
         workers->stop();

@@ -22,7 +22,7 @@
 
 namespace stormcellar::web {
 
-// What the server holds at the moment.
+// Connections, requests and memory that the server holds at the moment.
 struct ServerFacts {
     std::size_t connections = 0, streams = 0, waiting = 0, working = 0;
     std::uint64_t answer_bytes = 0;  // of answers on their way, in memory

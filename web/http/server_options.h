@@ -24,7 +24,7 @@ struct ListenAddress {
 struct ServerLimits {
     unsigned most_connections = 1024;  // but for those that carry a stream
     unsigned most_streams = 2048;      // that doors make: the server has room for them
-    // Of one client: an IPv4 address or an IPv6 network of 64 bits. Trusted proxies may have all.
+    // Limit of one client: an IPv4 address or an IPv6 /64 network. Trusted proxies may have all.
     unsigned most_connections_of_address = 256;
     std::size_t header_bytes = 32 * 1024;  // request line and headers together
     // From the opening of a connection, or the end of the previous answer, to the end of a
@@ -34,10 +34,10 @@ struct ServerLimits {
     // 0: never.
     std::uint64_t least_bytes_per_s = 1000;
     std::chrono::seconds rate_time{30};
-    // So is one that has not taken a whole body after this time and what the body takes at twenty
-    // times that rate.
+    // A client is also cut off if it has not taken a whole body after this time and the time that
+    // the body takes at twenty times that rate.
     std::chrono::seconds answer_time{60};
-    // Of answers on their way, in memory (web/http/answer_budget.h); beyond: 503.
+    // Limit of the memory of answers on their way (web/http/answer_budget.h); beyond: 503.
     std::uint64_t answer_bytes = 256'000'000;
     unsigned workers = 4;           // threads that make answers
     std::size_t most_waiting = 64;  // requests that wait for a worker; beyond: 503

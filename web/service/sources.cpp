@@ -64,7 +64,7 @@ void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAn
 // radars, and a list of all stations asks each of them.
 constexpr std::size_t most_databases = 256;
 
-// What events, metrics and the index need to know of the daemon's work.
+// Follows the daemon's work for events, metrics and the index.
 struct Watched {
     std::shared_ptr<EventHub> hub = EventHub::make();
     std::shared_ptr<const EventFeed> feed;

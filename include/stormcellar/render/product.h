@@ -31,7 +31,7 @@ enum class Product {
     highest_seen
 };
 
-// What a picture is a picture of.
+// The kind of picture that a product makes.
 enum class View {
     volume,   // the grid in three dimensions, by a camera
     map,      // one value for each column of the grid, seen from above
@@ -65,13 +65,13 @@ struct ProductFacts {
 [[nodiscard]] View view_of(Product product);
 [[nodiscard]] bool is_map(Product product);
 
-// "Composite reflectivity (column maximum)".
+// Returns a title such as "Composite reflectivity (column maximum)".
 [[nodiscard]] std::string product_title(const Scene& scene);
-// The scene's table, or else the product's, or else the moment's.
+// Returns the scene's table, or else the product's, or else the moment's.
 [[nodiscard]] const ColourTable& colours_of(const Scene& scene);
-// Of the values of the product: "dBZ", "km"; empty for a number without one.
+// Returns the unit of the product's values: "dBZ", "km"; empty for a number without one.
 [[nodiscard]] std::string unit_shown(const Scene& scene);
-// The unit in which the picture writes these values.
+// Returns the unit in which the picture writes these values.
 [[nodiscard]] ShownUnit written_unit(const Scene& scene);
 
 }  // namespace stormcellar::render

@@ -63,8 +63,8 @@ struct Camera {
     double zoom = 1;           // 1: the whole grid fits into the image
     double field_of_view_deg = 0;           // across the image at zoom 1; 0: orthographic
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
-    // What is in the middle of the picture. A camera with a place of its own turns to it, whatever
-    // its azimuth and tilt are; one that looks from outside keeps these two.
+    // The point in the middle of the picture. A camera with a place of its own turns to it,
+    // whatever its azimuth and tilt are; one that looks from outside keeps these two.
     std::optional<Eye> look_at = std::nullopt;
 };
 
@@ -80,8 +80,8 @@ struct Scene {
     double cappi_height_m = 3000;                       // above sea level
     std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
     double echo_top_dbz = 18.5;
-    // Of a ppi: which sweep of a volume is meant, for those who find it. The picture shows that of
-    // its view, whose angle scene_shown() puts here.
+    // For a ppi: the elevation and number by which the sweep is looked up in a volume. The picture
+    // shows the sweep of its view, whose angle scene_shown() puts here.
     static constexpr double lowest_sweep = -90;
     static constexpr int no_number = -1;
     double elevation_deg = lowest_sweep;
@@ -91,7 +91,7 @@ struct Scene {
     int slices = 256;                  // parallel to the image plane
     double vertical_exaggeration = 5;  // stated in the picture
     bool curved_earth = false;         // volumes: the ground falls away from the grid's middle
-    // How exactly a volume is drawn (render/volume/slicer.h).
+    // The accuracy of a drawn volume (render/volume/slicer.h).
     Integration integration = Integration::second_order;
     double pixel_tolerance = 0;  // 0..0.1
     Light light;                 // off unless asked for

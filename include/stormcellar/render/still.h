@@ -31,7 +31,7 @@
 
 namespace stormcellar::render {
 
-// What a pixel of a GeoTIFF is.
+// The kinds of pixels that a GeoTIFF may hold.
 enum class TiffContent {
     values,   // float: what the product shows, in its unit; NaN where a column has no value
     states,   // byte: 0 not seen, 1 no echo, 2 range folded, 3 value, 4 value or more (tops)

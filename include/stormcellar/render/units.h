@@ -35,16 +35,16 @@ struct Units {
     Unit height = Unit::km;
 };
 
-// Reads "knots,miles,kft", in any order and case. What no name is of stays as it is by default; km
-// is of distances and heights, and of those alone that no other name is of. Errors: bad_argument
-// for a name that is not known, with the nearest that is, and for two units of one thing.
+// Reads "knots,miles,kft", in any order and case. A quantity without a name keeps its default unit.
+// km applies to distances and heights, if no other name does. Errors: bad_argument for a name that
+// is not known, with the nearest that is, and for two units of one quantity.
 [[nodiscard]] Result<Units> units_from_names(std::string_view names);
 // "m/s,km" or "knots,miles,kft", as units_from_names() reads them.
 [[nodiscard]] std::string unit_names(const Units& units);
 // "m/s, knots, mph or km/h for speeds; km, ... for distances; km, kft or ft for heights".
 [[nodiscard]] std::string units_for_help();
 
-// What stands for a value that is stored in another unit.
+// The unit in which a stored value is shown, and the factor to it.
 struct ShownUnit {
     std::string symbol;     // "kt"; empty for a number without a unit
     double per_stored = 1;  // shown = stored * per_stored

@@ -9,7 +9,7 @@ import { BrickKind, PackedGrid, firstValueCode } from '../wire/packed_grid';
 
 export const paddedEdge = 18;
 
-// A word of the indirection. `greatest`: shown code of the cells that a sample in the brick can use.
+// Packs a word of the indirection. `greatest` is the greatest shown code that a sample in the brick can use.
 export function pageEntry(slot: number, greatest: number, halvings: number): number {
     return ((greatest << 24) | (halvings << 21) | (slot + 1)) >>> 0;
 }
@@ -17,13 +17,13 @@ export function pageEntry(slot: number, greatest: number, halvings: number): num
 const slotBits = 0x1fffff;
 const mostReach = 7;
 
-// The slot of a word of the indirection; -1 of a brick that shows nothing.
+// Returns the slot of a word of the indirection; -1 if the brick shows nothing.
 export function slotOf(entry: number): number {
     return (entry & slotBits) - 1;
 }
 
-// Tells each brick of columns above which there is nothing how many columns away the next one is that
-// has a brick: 1 for the next but none, and at most 7. Rays leave so much at once.
+// Writes into the words of columns without a brick how many columns away the nearest one with a brick is: 1
+// for a neighbor, and at most 7. A ray leaves at once all columns that are nearer.
 export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [number, number, number]): void {
     const reach = new Uint8Array(bx * by).fill(mostReach);
     for (let i = 0; i < indirection.length; ++i) if (slotOf(indirection[i]!) >= 0) reach[i % (bx * by)] = 0;
@@ -33,7 +33,7 @@ export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [num
             if (nx >= 0 && ny >= 0 && nx < bx && ny < by) reach[y * bx + x] = Math.min(reach[y * bx + x]!, reach[ny * bx + nx]! + 1);
         }
     };
-    // What is nearest lies before or behind, in the order of rows.
+    // The first pass looks at the neighbors before each column in the order of rows, the second at those behind.
     const before = [[-1, 0], [-1, -1], [0, -1], [1, -1]] as [number, number][];
     const behind = before.map(([dx, dy]) => [-dx, -dy] as [number, number]);
     for (let y = 0; y < by; ++y) for (let x = 0; x < bx; ++x) take(x, y, before);
@@ -56,9 +56,9 @@ export interface Atlas {
     slots: [number, number, number]; // bricks along each axis
     brickCount: number; // in the atlas
     texels: Uint8Array; // RG, x fastest
-    // Of each brick of the grid, x fastest, in the low 21 bits: 0 for none, else 1 + its slot. In the bits
-    // 21 to 23 how often the grid was halved of which the slot has a brick; without one, 0 or what
-    // putReaches() says. In the highest byte the greatest shown code of the cells that a sample in it can use.
+    // One word for each brick of the grid, x fastest. The low 21 bits hold 0 for none, else 1 + its slot. The bits
+    // 21 to 23 hold how often the grid was halved whose brick the slot has; without a slot, 0 or what putReaches()
+    // writes. The highest byte holds the greatest shown code of the cells that a sample in the brick can use.
     indirection: Uint32Array;
     bricks: [number, number, number];
     // code = codeOffset + codeScale * shown code
@@ -66,10 +66,10 @@ export interface Atlas {
     codeOffset: number;
     least: number; // codes of values; least > greatest: there is none
     greatest: number;
-    // How many values have each shown code.
+    // Number of values of each shown code.
     histogram: Uint32Array;
-    // Of each slot the greatest shown code of the cells that a sample in each of its blocks can use, x fastest. Empty of a
-    // grid in parts.
+    // Greatest shown code of the cells that a sample in each block of each slot can use, x fastest. Empty for
+    // a grid in parts.
     blocks: Uint8Array;
 }
 
@@ -77,8 +77,9 @@ export const blockEdge = 4; // cells
 export const blocksAlong = 4; // of a brick
 export const blocksABrick = blocksAlong ** 3;
 
-// Along an axis a texel belongs to the block of its cell, and the first texel of a block to the one before, too: a sample uses
-// the cell before it and the next one. The border before the slot's own cells is not used.
+// Along an axis a texel belongs to the block of its cell. The first texel of a block belongs to the block
+// before it, too, because a sample uses the cell before it and the next one. No sample uses the border before
+// the slot's own cells.
 const firstBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.max(0, (texel - 2) >> 2));
 const lastBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.min(blocksAlong - 1, (texel - 1) >> 2));
 
@@ -107,8 +108,8 @@ export function brickIndex(grid: PackedGrid, x: number, y: number, z: number): n
     return (x * grid.bricks[1] + y) * grid.bricks[2] + z;
 }
 
-// The greatest code of a value in a brick and in those that lie above it along any axis, whose first
-// cells a sample in the brick uses; 0 without values.
+// Returns the greatest code of a value in a brick and in those that lie above it along any axis, because a
+// sample in the brick uses their first cells; 0 without values.
 function greatestAbout(grid: PackedGrid, x: number, y: number, z: number): number {
     let greatest = 0;
     for (let dx = 0; dx < 2; ++dx) {
@@ -239,7 +240,7 @@ export function shownCodes(grid: PackedGrid, least: number, greatest: number): S
     return { table, scale, offset };
 }
 
-// How many values have each shown code.
+// Counts the values of each shown code.
 export function histogramOf(grid: PackedGrid, shownOf: Uint8Array): Uint32Array {
     const histogram = new Uint32Array(256);
     const cells = grid.brickEdge ** 3;
@@ -328,7 +329,7 @@ function lowerByBrick(grid: PackedGrid, bx: number, by: number, bz: number, lowe
     }
 }
 
-// What was seen of each column, x fastest.
+// Returns the coverage of each column, x fastest.
 export function coverageOf(grid: PackedGrid): Uint8Array {
     const never = 65535;
     const lowest = new Uint16Array(grid.nx * grid.ny).fill(never);

@@ -1,8 +1,8 @@
-// What the table of a grid tells of the grids that are made by halving its columns and rows: which of
-// their bricks can hold values, and how large.
+// Derives from the table of a grid which bricks can hold values, and how large, in the grids that are made by
+// halving its columns and rows.
 //
-// Numbers: a level is how often the grid was halved. A column of bricks has all bricks above one place;
-// its number is x * (bricks along y) + y, as in the packed form.
+// A level is the number of halvings. A column of bricks has all bricks above one place; its number is
+// x * (bricks along y) + y, as in the packed form.
 
 import { BrickKind, PackedGrid } from '../wire/packed_grid';
 
@@ -10,11 +10,11 @@ export const mostHalvings = 6;
 
 export interface Level {
     columns: [number, number]; // of bricks, along x and y
-    // Of each brick, z fastest, then y, then x: the greatest code of a value, at most; 0 without values.
+    // Upper bound of the codes of values in each brick, z fastest, then y, then x; 0 without values.
     greatest: Uint16Array;
-    // The same of the brick and all that touch it.
+    // The same bound over each brick and all that touch it.
     about: Uint16Array;
-    // Of each column: how many of its bricks can show anything.
+    // Number of bricks in each column that can show anything.
     shown: Uint8Array;
 }
 
@@ -41,7 +41,7 @@ function halved(from: Level, layers: number): Level {
     return withNeighbors(columns, greatest, layers);
 }
 
-// The greatest of three that follow each other along an axis, of which there are `count`, `stride` apart.
+// Maps each number to the greatest of it and its neighbors along an axis of `count` numbers, `stride` apart.
 function widened(from: Uint16Array, count: number, stride: number): Uint16Array {
     return from.map((code, i) => {
         const place = Math.floor(i / stride) % count;
@@ -70,7 +70,7 @@ export function bricksShown(level: Level): number {
     return level.shown.reduce((sum, count) => sum + count, 0);
 }
 
-// The finest level of which all bricks that can show anything are at most so many; the coarsest if none is.
+// Finds the finest level with at most `mostBricks` bricks that can show anything; the coarsest if there is none.
 export function levelWithin(pyramid: Pyramid, mostBricks: number): number {
     const found = pyramid.levels.findIndex(level => bricksShown(level) <= mostBricks);
     return found < 0 ? mostHalvings : found;

@@ -1,5 +1,5 @@
-// Which column of bricks has which slots of the atlas. When there is no room, the columns that were used
-// longest ago give way; those that are pinned never do.
+// Keeps which column of bricks has which slots of the atlas. If there is no room, the columns that were used
+// longest ago give way; pinned ones never do.
 
 import { ResidentColumn } from './page_table';
 
@@ -33,7 +33,7 @@ export class SlotPool {
         this.pinned.add(key);
     }
 
-    // Gives a slot to each brick of which `hasValues` says so. Columns of `wanted` do not give way either.
+    // Gives a slot to each brick whose `hasValues` is true. Columns of `wanted` do not give way either.
     // Returns null if there is no room.
     take(level: number, x: number, y: number, hasValues: readonly boolean[], wanted: ReadonlySet<string>): ResidentColumn | null {
         const key = columnKey(level, x, y);

@@ -1,5 +1,5 @@
-// Which columns of bricks a view needs, and of which level: what is in the picture, no finer than the
-// picture shows it, and no more than there is room for.
+// Chooses the columns of bricks that a view needs, and their levels: all in the picture, no finer than the
+// picture shows them, and no more than there is room for.
 
 import { ViewGeometry, Vec3 } from '../camera/geometry';
 import { Pyramid } from './pyramid';
@@ -20,7 +20,7 @@ export interface Placed {
     cellSizeM: [number, number];
 }
 
-// How wide a cell may be in the picture, in pixels, before cells half as wide are wanted.
+// Width of a cell in the picture, in pixels, beyond which the view wants cells half as wide.
 export const finestPixels = 1.5;
 
 interface Extent {
@@ -73,8 +73,9 @@ function collect(placed: Placed, pyramid: Pyramid, [finest, coarsest]: [number, 
     return found;
 }
 
-// What the view needs of the levels from the finest to the coarsest, from the middle of the picture
-// outward. `room`: how many bricks it may be. Coarser cells are taken until it is no more.
+// Returns the columns that the view needs, of the levels from the finest to the coarsest, sorted from the
+// middle of the picture outward. At most `room` of their bricks are finer than the coarsest level: takes
+// coarser cells until they fit.
 export function wantedColumns(placed: Placed, pyramid: Pyramid, levels: [number, number], room: number): WantedColumn[] {
     const coarsest = levels[1];
     const hasShown = (level: number, x: number, y: number): boolean => {

@@ -1,5 +1,5 @@
-// Which window of a grid in parts is asked for (`window` of docs/web/packed-grid.md): all that a view, a line
-// or a ray meets, as fine as it is worth, and no more than there is room for.
+// Chooses which window of a grid in parts to ask for (`window` of docs/web/packed-grid.md): all that a view,
+// a line or a ray meets, as fine as it is worth, and no more than there is room for.
 
 import { Plane, cellSizeM } from '../scene/projection';
 import { PackedGrid } from '../wire/packed_grid';
@@ -11,7 +11,7 @@ export interface Bounds {
     x: [number, number];
     y: [number, number];
 }
-// Columns of bricks of the grid that was halved so often, both ends included.
+// Columns of bricks of the grid that was halved `level` times, both ends included.
 export interface BrickWindow extends Bounds {
     level: number;
 }
@@ -64,7 +64,7 @@ function fits({ level, x, y }: BrickWindow, pyramid: Pyramid, { brickEdge, codeB
     return bytes <= limits.bytes;
 }
 
-// `finest`: how often the finest grid that is worth it was halved. The coarsest is taken even if it does not fit.
+// `finest` is the level of the finest grid that is worth it. If no level fits, returns the coarsest all the same.
 export function windowAbout(bounds: Bounds, finest: number, more: number, pyramid: Pyramid, table: Table, limits: WindowLimits): BrickWindow {
     for (let level = finest; ; ++level) {
         const window = windowOf(bounds, level, more, pyramid, table);
@@ -72,7 +72,7 @@ export function windowAbout(bounds: Bounds, finest: number, more: number, pyrami
     }
 }
 
-// What a view shows of the grid, with echo or not; null if that is nothing.
+// Returns the window that a view shows of the grid, with echo or not; null if it shows nothing of it.
 export function windowSeen(placed: Placed, pyramid: Pyramid, table: Table, limits: WindowLimits): BrickWindow | null {
     const seen = seenColumns(placed, pyramid, finestPixels);
     if (seen.length === 0) return null;
@@ -90,13 +90,13 @@ export function windowSeen(placed: Placed, pyramid: Pyramid, table: Table, limit
     return windowAbout(bounds, finest, 0, pyramid, table, limits);
 }
 
-// What a window of the same level holds is not asked for again.
+// Returns true if a window covers another one of the same level, so that the page need not ask for that.
 export function holds(window: BrickWindow, other: BrickWindow): boolean {
     const covers = (one: [number, number], two: [number, number]) => one[0] <= two[0] && one[1] >= two[1];
     return window.level === other.level && covers(window.x, other.x) && covers(window.y, other.y);
 }
 
-// As the server is asked for it.
+// Returns the parameters by which the server is asked for a window.
 export function windowQuery({ level, x, y }: BrickWindow): Record<string, string> {
     const halved: Record<string, string> = level > 0 ? { half: String(level), by: 'maximum' } : {};
     return { ...halved, window: `${x.join('-')},${y.join('-')}` };

@@ -86,7 +86,7 @@ function answerTo(request: WorkerRequest): WorkerAnswer {
     }
 }
 
-// What the page gets without a copy. The same buffer may hold codes and states.
+// Returns the buffers that go to the page without a copy. Codes and states may share one.
 function buffersOf(answer: WorkerAnswer): ArrayBufferLike[] {
     const arrays: Uint8Array[] = (answer.columns ?? []).map(column => column.texels);
     if (answer.atlas) arrays.push(answer.atlas.texels);

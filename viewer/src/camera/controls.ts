@@ -1,4 +1,4 @@
-// What mouse, keys and fingers do to a camera: pure functions from a camera to the next one.
+// Applies mouse, keys and fingers to a camera: pure functions from a camera to the next one.
 
 import { Camera, Vec3, ViewGeometry, plus } from './geometry';
 
@@ -20,7 +20,7 @@ export function orbited(camera: Camera, dx: number, dy: number): Camera {
     };
 }
 
-// What the camera looks at; the middle of the box if it was not said.
+// Returns the point that the camera looks at; the middle of the box if none was set.
 export function lookAtOf(camera: Camera, geometry: ViewGeometry): Vec3 {
     return camera.lookAtM ?? [geometry.middle[0], geometry.middle[1], geometry.middle[2] / geometry.exaggeration];
 }
@@ -41,8 +41,8 @@ export function isMap(camera: Camera): boolean {
     return camera.tiltDeg === 0 && camera.fieldOfViewDeg === 0;
 }
 
-// What a plain drag does, and one that means the other (with Shift, or the right button): the first moves a map and
-// turns every other view.
+// Applies a plain drag, or one with Shift or the right button (`isOther`). A plain drag moves a map and turns
+// every other view; the other drag does the opposite.
 export function dragged(camera: Camera, geometry: ViewGeometry, dx: number, dy: number, ratio: number, isOther: boolean): Camera {
     return isMap(camera) !== isOther ? panned(camera, geometry, dx * ratio, dy * ratio) : orbited(camera, dx, dy);
 }
@@ -59,7 +59,7 @@ export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x
 }
 
 export type NamedView = 'top' | 'south' | 'east' | 'north' | 'west' | 'oblique';
-// From the top it is a map with north up; whoever leaves a map sees in perspective again.
+// The view from the top is a map with north up. A user who leaves a map sees in perspective again.
 export function namedView(camera: Camera, view: NamedView): Camera {
     const [azimuthDeg, tiltDeg] = {
         top: [180, 0],

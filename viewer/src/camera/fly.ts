@@ -1,5 +1,5 @@
-// Flying: the eye moves, and turns where it is. The camera has no eye of its own, so that what it looks at is
-// moved until the eye is where it shall be.
+// Flying: the eye moves, and turns where it is. The camera has no eye of its own, so we move the point that
+// it looks at until the eye is in its place.
 
 import { Box, Camera, Vec3, ViewGeometry, minus, plus } from './geometry';
 
@@ -13,7 +13,7 @@ export interface Window {
 const geometryOf = (camera: Camera, { box, exaggeration, width, height }: Window): ViewGeometry =>
     new ViewGeometry(box, camera, exaggeration, width, height);
 
-// The same direction, seen from an eye in drawn space.
+// Returns the camera that looks in the same direction from an eye in drawn space.
 export function withEye(camera: Camera, window: Window, eye: Vec3): Camera {
     const usual = geometryOf({ ...camera, lookAtM: null }, window);
     const drawn = plus(minus(eye, usual.eye), 1, usual.middle);
@@ -27,13 +27,13 @@ export function takenOff(camera: Camera, window: Window): Camera {
     const now = geometryOf(camera, window);
     const lookAt = camera.lookAtM;
     const target: Vec3 = lookAt ? [lookAt[0], lookAt[1], lookAt[2] * window.exaggeration] : now.middle;
-    // As many meters are seen across the target as before.
+    // The picture shows as many meters across the target as before.
     const across = now.metersPerPixel * window.width;
     const back = across / 2 / Math.tan((flownFieldDeg * Math.PI) / 360);
     return withEye({ ...camera, fieldOfViewDeg: flownFieldDeg, zoom: 1 }, window, plus(target, -back, now.forward));
 }
 
-// Turned where it is, by degrees.
+// Turns the camera about its eye, by degrees.
 export function turned(camera: Camera, window: Window, rightDeg: number, upDeg: number): Camera {
     const { eye } = geometryOf(camera, window);
     const azimuth = camera.azimuthDeg + rightDeg;
@@ -41,7 +41,7 @@ export function turned(camera: Camera, window: Window, rightDeg: number, upDeg: 
     return withEye(next, window, eye);
 }
 
-// Moved by drawn meters ahead, to the right and upward; never below the ground.
+// Moves the eye by drawn meters ahead, to the right and upward, but leaves it at least 200 of them above the ground.
 export function flown(camera: Camera, window: Window, aheadM: number, rightM: number, upM: number): Camera {
     const now = geometryOf(camera, window);
     const eye = plus(plus(now.eye, aheadM, now.forward), rightM, now.right);
@@ -49,7 +49,7 @@ export function flown(camera: Camera, window: Window, aheadM: number, rightM: nu
     return withEye(camera, window, [eye[0], eye[1], Math.max(ground + 200, eye[2] + upM)]);
 }
 
-// How fast a flight is, in drawn meters a second: slower near the ground.
+// Returns the speed of a flight in drawn meters a second: slower near the ground.
 export function speedOf(camera: Camera, window: Window): number {
     const { eye, groundM } = geometryOf(camera, window);
     return Math.min(200_000, Math.max(4_000, 0.6 * (eye[2] - groundM * window.exaggeration)));

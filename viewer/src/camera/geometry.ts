@@ -163,7 +163,7 @@ export class ViewGeometry {
         return near < far ? [near, far] : [this.nearM, this.farM];
     }
 
-    // How far a point of drawn space is ahead of the camera.
+    // Returns how far ahead of the camera a point of drawn space is.
     depthOf(drawn: Vec3): number {
         return dot(minus(drawn, this.eye), this.forward);
     }
@@ -180,7 +180,7 @@ export class ViewGeometry {
         return [0.5 * this.width + dot(p, this.right) * scale, 0.5 * this.height - dot(p, this.up) * scale];
     }
 
-    // How far a ray moves for each meter of depth.
+    // Returns the way of a pixel's ray for each meter of depth.
     along(x: number, y: number): Vec3 {
         if (!this.isPerspective) return this.forward;
         const a = (x - 0.5 * this.width) / this.focalPixels;

@@ -1,5 +1,5 @@
-// How much of the air was not seen, and how much is range folded, in coarse cells of 4 x 4 columns and
-// 2 levels, as render/volume/haze.h has it.
+// Measures how much of the air was not seen, and how much is range folded, in coarse cells of 4 x 4 columns
+// and 2 levels, as render/volume/haze.h does.
 
 import { CellState, PackedGrid } from '../wire/packed_grid';
 import { levelCodes } from './level_codes';
@@ -9,7 +9,7 @@ export const airCellsUp = 2;
 
 export interface Air {
     size: [number, number, number]; // along x, y, z
-    // Of each coarse cell, x fastest: the shares of not seen and of range folded, 0 to 255.
+    // Two bytes for each coarse cell, x fastest: the shares of not seen and of range folded, 0 to 255.
     shares: Uint8Array;
     hasFolded: boolean; // some of it is range folded
 }

@@ -1,4 +1,4 @@
-// Which beam saw a point of a grid, when, and what the grid's own audit says of values there.
+// Finds the beam that saw a point of a grid, when it did, and what the grid's own audit says of values there.
 
 import { Place, geodesic } from '../scene/projection';
 import { GridFacts, SweepTime } from '../wire/api';
@@ -41,7 +41,7 @@ export function nearestTo(sites: Site[], place: Place): { site: Site; way: { dis
     return sites.map(site => ({ site, way: geodesic(site, place) })).sort((a, b) => a.way.distanceM - b.way.distanceM)[0] ?? null;
 }
 
-// Of the site that is nearest to the point; null without sites. `facts` may still be on their way.
+// Reads the beam of the site that is nearest to the point; null without sites. `facts` may still be on their way.
 export function beamReading(sites: Site[], facts: GridFacts | null, place: Place, heightM: number): BeamReading | null {
     const first = nearestTo(sites, place);
     if (!first) return null;

@@ -1,6 +1,6 @@
-// Whether a grid of reflectivity shows clear air: there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less
-// than 60 km2, by the greatest values of columns (render/view/echo_outline.h). Of a halved grid, whose cells are the
-// greatest of those that they stand for, areas are estimates: of the 4^n columns of a cell 2^n count.
+// A grid of reflectivity shows clear air if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less
+// than 60 km2, by the greatest values of columns (render/view/echo_outline.h). The cells of a halved grid are
+// the greatest of those that they stand for, so areas are estimates: of the 4^n columns of a cell 2^n count.
 
 import { cellSizeM } from '../scene/projection';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -10,7 +10,7 @@ const limits = [
     { dbz: 30, km2: 60 },
 ];
 
-// Storms are known after a few bricks.
+// Returns as soon as an area reaches its limit, which takes a few bricks in a storm.
 export function isClearAir(grid: PackedGrid): boolean {
     const [width, height] = cellSizeM(grid);
     const cellKm2 = (width * height) / 1e6 / 2 ** grid.halvings;

@@ -1,5 +1,5 @@
-// In which direction and how steeply the values fall in each part of a volume, for its light. This is the
-// field of render/volume/shade_field.h before the sun and the view enter, so that it is made once for a
+// Finds in which direction and how steeply the values fall in each part of a volume, for its light. This is
+// the field of render/volume/shade_field.h before the sun and the view enter, so that it is made once for a
 // grid: 2 x 2 columns and single levels, averaged, smoothed along each axis by 1-4-6-4-1.
 //
 // Values are those of reflectivity from 0 to 60 dBZ (or from the lowest color of the table, if that is
@@ -9,14 +9,14 @@
 import { BrickKind, CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
 export const fallCellsAcross = 2;
-// A byte of 128 is no fall; others stand for a fall between the neighbors on both sides whose root they
-// are: c |c| steepest, with c from -1 to 1.
+// A byte of 128 is no fall. Another byte stands for a root c from -1 to 1, and so for a fall of c |c| times
+// the steepest one between the neighbors on both sides.
 export const steepestFall = 64;
 
 export interface Falls {
     size: [number, number, number]; // along x, y, z
-    // Of each coarse cell, z fastest, then y, then x: the falls to the east, to the north and upward,
-    // and 255 where there is any echo within reach.
+    // Four bytes for each coarse cell, z fastest, then y, then x: the falls to the east, to the north and
+    // upward, and 255 where there is any echo within reach, else 0.
     bytes: Uint8Array;
 }
 

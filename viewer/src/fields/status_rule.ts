@@ -1,9 +1,9 @@
-// What lies between cells of a grid: the status rule of the pictures (render/products/cell_mixer.h).
+// Decides what lies between cells of a grid, by the status rule of the pictures (render/products/cell_mixer.h).
 //
-// The cells give a place the weights of values, no echo, range folded and not seen. If more than half
-// was not seen, the place was not seen; else range folded where that is the largest part; else no echo
-// where it outweighs the values; else it is the mean of the values alone. The phase is averaged on its
-// circle; of velocities, whose circle a grid does not tell, the value that weighs most stands.
+// The cells give a place the weights of values, no echo, range folded and not seen. If more than half was not
+// seen, the place was not seen; else range folded where that is the largest part; else no echo where it
+// outweighs the values; else it is the mean of the values alone. The phase is averaged on its circle. For
+// velocities the value that weighs most counts, because a grid does not tell their circle.
 
 import { CellState } from '../wire/packed_grid';
 

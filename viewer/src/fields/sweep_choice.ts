@@ -1,4 +1,4 @@
-// Which sweep of which site is meant.
+// Finds the sweep that is meant, and its site.
 
 import { GridPlane, Plane } from '../scene/projection';
 import { SweepRow } from '../wire/api';
@@ -21,11 +21,11 @@ export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
     return groups.flatMap(group => group.sort((a, b) => a.sweep - b.sweep));
 }
 
-// Whether `stormcellar frame --product ppi` takes this cut of its elevation.
+// Returns true if `stormcellar frame --product ppi` takes this cut of its elevation.
 export const isChosen = (row: SweepRow, moment: string): boolean => row.moments.some(one => one.moment === moment && one.chosen === true);
 
-// The cut that is shown: of those that pictures take the nearest to the elevation; or the one of a number, if this
-// volume has it at that elevation. Null if none has the moment.
+// Returns the cut to show: the one with the number, if this volume has it at that elevation; else the nearest
+// to the elevation of those that pictures take, or of all if they take none. Null if none has the moment.
 export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, number: number | null): SweepRow | null {
     const having = rows.filter(row => has(row, moment));
     const named = having.find(row => row.sweep === number && isSameElevation(row.elevation_deg, elevationDeg));
@@ -35,7 +35,7 @@ export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, nu
     return (chosen.length > 0 ? chosen : having).reduce<SweepRow | null>((best, row) => (best === null || off(row) < off(best) ? row : best), null);
 }
 
-// What a half of a split cut is for; empty for a cut that is whole.
+// Returns the purpose of a half of a split cut; empty for a whole cut.
 export function kindOf(row: SweepRow, rows: SweepRow[]): 'surveillance' | 'doppler' | '' {
     const isDoppler = has(row, 'VEL');
     const isSplit = rows.some(other => isSameElevation(other.elevation_deg, row.elevation_deg) && has(other, 'VEL') !== isDoppler);

@@ -17,7 +17,7 @@ function beamSphereM(latitudeDeg: number): number {
     return (4 / 3) * gaussian;
 }
 
-// Where a beam has a slant range: along the earth at sea level, and above it.
+// Returns the place of a slant range on a beam: the arc along the earth at sea level, and the height above it.
 export function beamAt(site: { latitudeDeg: number; altitudeM: number }, elevationDeg: number, rangeM: number): { arcM: number; heightM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const antenna = radius + site.altitudeM;
@@ -27,7 +27,7 @@ export function beamAt(site: { latitudeDeg: number; altitudeM: number }, elevati
     return { arcM: radius * Math.atan2(along, antenna + up), heightM: site.altitudeM + q / (Math.sqrt(antenna * antenna + q) + antenna) };
 }
 
-// Which beam meets a point: the inverse of beamAt().
+// Finds the beam that meets a point: the inverse of beamAt().
 export function beamTo(site: { latitudeDeg: number; altitudeM: number }, arcM: number, heightM: number): { elevationDeg: number; rangeM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const along = (radius + heightM) * Math.sin(arcM / radius);
@@ -38,8 +38,8 @@ export function beamTo(site: { latitudeDeg: number; altitudeM: number }, arcM: n
 export const azimuthSteps = 7200; // of a turn
 export const noRadial = 65535;
 
-// Of each step of azimuth the nearest radial. Where neighbors are more than one and a half spacings apart,
-// each reaches half a spacing, and nothing was seen in between.
+// Finds the nearest radial for each step of azimuth; noRadial in gaps. Where neighbors are more than one and
+// a half spacings apart, each reaches half a spacing, and nothing was seen in between.
 export function radialsByAzimuth({ azimuthsDeg, gateCounts }: PackedSweep): Uint16Array {
     const order = [...azimuthsDeg.keys()].filter(i => gateCounts[i]! > 0 && Number.isFinite(azimuthsDeg[i]!)).sort((a, b) => azimuthsDeg[a]! - azimuthsDeg[b]!);
     const found = new Uint16Array(azimuthSteps).fill(noRadial);
@@ -61,8 +61,8 @@ export function radialsByAzimuth({ azimuthsDeg, gateCounts }: PackedSweep): Uint
 }
 
 export interface Cone {
-    // Of each corner: x and y in meters from the middle of the grid, height above sea level, azimuth in
-    // degrees and slant range.
+    // Five numbers for each corner: x and y in meters from the middle of the grid, height above sea level in
+    // meters, azimuth in degrees and slant range in meters.
     corners: Float32Array;
     triangles: Uint32Array;
 }

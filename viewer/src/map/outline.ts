@@ -48,7 +48,7 @@ export function outlineOf(facts: GridFacts): Place[] {
     });
 }
 
-// What a radar's own grid holds all around it.
+// Returns the largest circle about the middle that a radar's own grid holds.
 export function circleOf(facts: GridFacts): Place[] {
     const center: Place = { latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] };
     const radiusM = Math.min(...halvesM(facts));

@@ -1,4 +1,4 @@
-// What the start map shows, and which of it a pointer, a key or a word means.
+// Lists the places of the start map, and finds the one that a pointer, a key or a word means.
 
 import { City, Station } from '../wire/api';
 import { Place, geodesic } from '../scene/projection';

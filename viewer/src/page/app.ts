@@ -1,4 +1,4 @@
-// What the page knows and does: the view, the grids that are loaded, and which one is shown. Panels and
+// Holds the state of the page and acts on it: the view, the loaded grids, and which one is shown. Panels and
 // pointers change it through its methods, and hear what happened.
 
 import { Camera } from '../camera/geometry';
@@ -22,13 +22,14 @@ import { texts } from './texts';
 
 const soonTimes = 500; // of a domain, before all others
 const mostTimes = 10000; // that the server tells at once
-// From the time of a grid to the instants of regions that it is in: it takes some minutes, and they are at most 15 away.
+// Greatest time from a grid to the instants of regions that it is in: a volume takes some minutes, and the
+// instants are at most 15 minutes away.
 const farthestMadeMs = 30 * 60 * 1000;
 
-// 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from
-// where; 'units': in which it writes; 'time': the times, or which of them is wanted; 'restored': the graphics processor forgot all;
-// 'map': the map of all stations is opened or left; 'cells': more of a grid in parts, or of the layers, is there; 'notice': what a user must know
-// of the server, the radars, or what was asked for.
+// 'choices': the domain or its moments; 'shown': another grid; 'view': how it is shown; 'camera': from where;
+// 'units': the units of texts; 'time': the times, or which of them is wanted; 'restored': the graphics
+// processor forgot all; 'map': the map of all stations is opened or left; 'cells': more of a grid in parts, or
+// of the layers, is there; 'notice': what a user must know of the server, the radars, or what was asked for.
 export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells' | 'notice';
 
 export interface Shown {
@@ -47,7 +48,7 @@ export class App {
     shown: Shown | null = null;
     isOnMap = false; // of all stations, where a domain is chosen
     framesASecond = 4; // of playback
-    // What else a picture needs that shows this: until it has come, the one before stays. Null: it is there.
+    // Fetches what else a picture of `next` needs. Until it has come, the one before stays. Null: it is there.
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
     isShownWhole: () => boolean = () => true; // the picture has all of what is shown
     isGraphicsLost = false; // nothing can be drawn
@@ -93,7 +94,7 @@ export class App {
         document.documentElement.dataset['state'] = text;
     }
     fail(error: unknown): void {
-        // Of fetch(): there was no answer at all.
+        // fetch() throws a TypeError if there was no answer at all.
         if (error instanceof TypeError) {
             this.server.isBehind = true;
             return this.say(texts.notice.noServer);
@@ -101,7 +102,7 @@ export class App {
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
         this.say(isGone ? texts.notFound : texts.failed(error instanceof Error ? error.message : String(error)));
     }
-    // A failure of what is not wanted any more says only that the server does not answer.
+    // If what failed is not wanted any more, the page says only that the server does not answer.
     private failed(error: unknown, isWanted: boolean): void {
         if (isWanted || error instanceof TypeError) this.fail(error);
     }
@@ -111,7 +112,7 @@ export class App {
     get table(): ColorTable | undefined {
         return this.book?.of(this.state, this.state.moment);
     }
-    // The one of what is drawn: while another moment comes, the old one keeps its colors.
+    // Color table of what is drawn: while another moment comes, the old one keeps its colors.
     get shownTable(): ColorTable | undefined {
         return this.shown ? this.book?.of(this.state, this.shown.moment) : undefined;
     }
@@ -140,7 +141,7 @@ export class App {
         this.addressBar.writeSoon();
         this.tell('camera');
     }
-    // Who gets the link sees what is shown now, also where the newest is followed here.
+    // Whoever gets the link sees what is shown now, even if this page follows the newest.
     get link(): string {
         this.addressBar.write();
         const { shown, state } = this;
@@ -199,7 +200,7 @@ export class App {
         this.loader.forgetAll(() => true);
         if (this.isOnMap) return;
         if (!shown) return this.choose(state.domain, this.askedMoment);
-        // What was asked for while there was no answer.
+        // Ask again for what the user chose while there was no answer.
         if (shown.domain !== state.domain || shown.moment !== state.moment) return this.choose(state.domain, this.askedMoment);
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
@@ -252,8 +253,8 @@ export class App {
         await this.choose(domain, this.state.moment);
     }
 
-    // Shows a domain and a moment of it. Of a domain that is not there the map of all is opened; if there is only
-    // one domain, or no such moment, the first is shown, and the page says so.
+    // Shows a domain and a moment of it. If the domain is not there, opens the map of all. If there is only
+    // one domain, or no such moment, shows the first one, and the page says so.
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
         [this.askedDomain, this.askedMoment] = [domain, moment];
@@ -295,6 +296,10 @@ export class App {
             this.unreadTime === '' ? '' : texts.notice.noTime(this.unreadTime),
         ];
         this.miss(missed.filter(Boolean).join(' '));
+        return this.showChosen();
+    }
+    // Asks for the times of the domain and moment that were chosen, and shows the wanted one of them.
+    private async showChosen(): Promise<void> {
         this.tell('choices');
         this.say(texts.loading);
         this.stayWhoPaused();
@@ -315,12 +320,12 @@ export class App {
             if (choice === this.choices) this.fail(error);
         }
     }
-    // The threshold of another moment is in another unit.
+    // Returns to the domain and moment that are shown. The threshold of another moment is in another unit, so it goes.
     private backToShown(): void {
         const { shown, state } = this;
         if (shown) this.state = { ...state, domain: shown.domain, moment: shown.moment, least: shown.moment === state.moment ? state.least : null };
     }
-    // Who does not follow any more, and was shown no other time yet, stays where the player is.
+    // If the user does not follow any more, but was shown no other time yet, keeps the time of the player.
     private stayWhoPaused(): void {
         if (this.player.follows || this.state.time !== 'latest') return;
         const now = this.timeline.now;
@@ -328,8 +333,8 @@ export class App {
         else this.state.time = now;
     }
 
-    // A user who looks at a time that was evicted is moved to the nearest, and the page says so; who waits for a time that
-    // was missed, to what is nearer now.
+    // If the time that a user looks at was evicted, moves to the nearest, and the page says so. If the user
+    // waits for a time that was missed, moves to the time that is nearest to it now.
     private takeNewTimes(stored: string[]): void {
         const [now, missedTime] = [this.timeline.now, this.missedTime];
         this.timeline.take(stored);
@@ -366,8 +371,8 @@ export class App {
         const { domain, moment } = this.state;
         return () => domain !== this.state.domain || moment !== this.state.moment;
     }
-    // Shows the time of the timeline. If it is not there, a step goes on `by` one, and else the nearest to the wanted one
-    // is shown.
+    // Shows the time of the timeline. If its grid is not there, a step goes on to the next time in the
+    // direction of `by`; else shows the time nearest to the wanted one.
     private async showTime(wanted = this.timeline.now, by = 0): Promise<void> {
         const time = this.timeline.now;
         this.tell('time');
@@ -402,7 +407,7 @@ export class App {
     load(time: string): Promise<LoadedGrid> {
         return this.loader.load(this.state.domain, this.state.moment, time, this.timeline.isBetween(time));
     }
-    // Returns false if the time stays, and so the failure is to be told.
+    // Leaves out a time whose grid is gone. Returns false if the time stays, so that the caller tells the failure.
     leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
         // The server also answers 410 for a grid in parts that was made again meanwhile.
         const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
@@ -413,7 +418,7 @@ export class App {
 
     private take(shown: Shown): void {
         const { book } = this;
-        // The colors stay while a loop plays. Of a grid in parts the halved one says what it is.
+        // The colors stay while a loop plays. The halved grid of a grid in parts tells whether it shows clear air.
         const isOther = this.shown?.domain !== shown.domain || !this.player.isPlaying;
         if (book && isOther) book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
         this.shown = shown;
@@ -471,7 +476,7 @@ export class App {
         window.clearTimeout(this.ticking);
         this.ticking = window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
     }
-    // Playback stays in a part of the times: one of its ends is now; none: in all.
+    // Keeps playback in a part of the times, one end of which is now; null plays all times.
     setLoop(end: 'from' | 'to' | null): void {
         this.player = end ? looped(this.player, end) : { ...this.player, loop: null };
         this.tell('time');
@@ -481,7 +486,8 @@ export class App {
         const own = this.domains.find(one => one.domain === this.state.domain) as Region | undefined;
         return domain === this.state.domain || (isRegion(this.state.domain) && (own?.moments.some(one => one.sites.includes(domain ?? '')) ?? false));
     }
-    // Of a region, any instant near the volume may have become another one; near none: any at all.
+    // Takes a new volume of a site of the shown region: any instant near it may have become another one. If
+    // `volume` is undefined, any instant at all may have.
     private async takeNewsOfSite(volume: string | undefined): Promise<void> {
         const { domain, moment } = this.state;
         const isLeft = this.whetherLeft();
@@ -526,7 +532,7 @@ export class App {
         this.takeNewTimes([...this.timeline.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
         const now = this.timeline.now;
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
-        // After a failure another time than that of the picture may be waited for.
+        // After a failure the page may wait for another time than that of the picture.
         if (now !== before || now !== this.shown?.time || isOfNow || now === changedTime) await this.showTime();
         else this.tell('time');
     }

@@ -18,7 +18,7 @@ export class ColorBar {
 
     constructor(private canvas: HTMLCanvasElement) {}
 
-    // What is there already is not drawn again.
+    // Draws nothing if the same bar is there already.
     show(table: ColorTable, unit: ShownUnit, least: number | null): void {
         const { clientWidth, clientHeight } = this.canvas;
         const wanted = [table, unit.symbol, unit.perStored, least, clientWidth, clientHeight, window.devicePixelRatio, textScale()];

@@ -4,8 +4,8 @@ export function element<T extends HTMLElement>(id: string): T {
     return document.getElementById(id) as T;
 }
 
-// How much larger than usual texts are: on large screens, and where the user wants them so. The style sheet
-// sets it as the size of the root's font, which is usually 10 pixels.
+// Returns how much larger than usual texts are: on large screens, and where the user wants them so. The style
+// sheet sets it as the size of the root's font, which is usually 10 pixels.
 export function textScale(): number {
     return parseFloat(getComputedStyle(document.documentElement).fontSize) / 10;
 }

@@ -128,7 +128,7 @@ export class Drawing {
         requestAnimationFrame(() => this.drawNow());
     }
 
-    // What was played fast is drawn fine when it stops.
+    // Draws a fine picture when playback stops, which draws fast ones.
     private drawAtRest(): void {
         const { isPlaying } = this.app!.player;
         if (this.wasPlaying && !isPlaying) this.draw();
@@ -174,7 +174,7 @@ export class Drawing {
         this.draw();
     }
 
-    // All of what the view asks for is in the picture, but for the detail of a grid in parts.
+    // Returns true if the picture has all that the view asks for, but for the detail of a grid in parts.
     private get isComplete(): boolean {
         const { shown, state } = this.app!;
         return !this.layers!.isWaiting && !this.ground!.isWaiting && shown?.moment === state.moment && shown.domain === state.domain && !this.renderer.isLost;
@@ -238,7 +238,7 @@ export class Drawing {
         act();
     }
 
-    // What tools mark has changed, the scene has not.
+    // Draws the marks of the tools again, which have changed; the scene has not.
     drawMarks(): void {
         const geometry = this.geometry();
         if (geometry && !this.isDrawing) this.drawOver(geometry);
@@ -271,7 +271,7 @@ export class Drawing {
         }
     }
 
-    // For programs that drive the page.
+    // Publishes figures for programs that drive the page.
     private tell(figures: Record<string, string | number | null>): void {
         for (const [name, figure] of Object.entries(figures)) document.documentElement.dataset[name] = String(figure);
     }

@@ -1,5 +1,5 @@
-// The server's facts of the grid that is shown, asked for until it has answered once. A grid that was made again is another
-// one.
+// Asks the server for its facts of the grid that is shown, until it has answered once. A grid that was made
+// again is another one.
 
 import { LoadedGrid } from '../renderer/renderer';
 import { GridFacts, RegionSites, gridFacts, isRegion, regionSites } from '../wire/api';
@@ -15,12 +15,12 @@ export class FactsOfShown {
 
     constructor(private app: App) {}
 
-    // What is known already; null otherwise.
+    // Returns the facts if the server has told them already; null otherwise.
     get known(): GridFacts | null {
         return this.of !== null && this.of === this.app.shown?.loaded ? this.facts : null;
     }
 
-    // The sites of the region that is shown; null for what is no region, and until they are known.
+    // Returns the sites of the region that is shown; null until they are known, and if it is no region.
     get sites(): RegionSites | null {
         return this.sitesOf !== null && this.sitesOf === this.app.shown?.loaded ? this.regionSites : null;
     }

@@ -1,4 +1,4 @@
-// Things of the server that are shown, or will be soon: fetched one after the other, and kept.
+// Fetches things that are shown, or will be soon, from the server one after the other, and keeps them.
 //
 // The server decodes a volume for the list of its sweeps, and keeps it for the gates that are asked for next. So sweeps
 // come fastest one at a time, and the server never has to say that it is busy.
@@ -23,16 +23,16 @@ export class FetchedInTurn<T> {
         private now: () => number = () => performance.now(),
     ) {}
 
-    // What has come; null while it comes, and if it failed.
+    // Returns what has come; null while it comes, and if it failed.
     find(key: string): T | null {
         return this.known(key)?.value ?? null;
     }
-    // It came, or it failed.
+    // Returns true if it came or failed.
     isSettled(key: string): boolean {
         const wanted = this.known(key);
         return wanted !== undefined && (wanted.value !== null || wanted.error !== undefined);
     }
-    // To be taken before it is shown: it has not come, or failed long ago.
+    // Returns true if it must be taken before it is shown: it has not come, or failed long ago.
     isNeeded(key: string): boolean {
         return !this.isSettled(key) || this.isToRetry(key);
     }

@@ -58,7 +58,7 @@ class Kept {
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
     a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
 
-// The section, on the plane of the grid that is shown.
+// Moves a section onto the plane of the grid that is shown.
 function movedBy(section: Section, [x, y]: Plane): Section {
     return { ...section, ends: section.ends.map(([east, north]): Plane => [east + x, north + y]) };
 }
@@ -91,13 +91,13 @@ export class LayerMaker {
         const waitsForSweep = state.layers.sweepDeg !== null && !this.isSweepSettled(this.sweepKey(shown));
         return waitsForSweep || this.comingOthers.has(this.otherOf(shown)?.key ?? '') || this.windows.isWaiting;
     }
-    // The one that is drawn stays, also where there is no room to keep it beside those that come.
+    // The sweep that is drawn stays, even if there is no room to keep it beside those that come.
     private isSweepSettled(key: string): boolean {
         return this.lastSweep?.key === key || this.sweeps.isSettled(key);
     }
 
-    // What else must come before this is shown: a sweep, or the grid of another moment; null if all is there.
-    // `geometry` is that of the next picture.
+    // Fetches what else must come before `next` is shown: a sweep, the grid of another moment, or windows;
+    // null if all is there. `geometry` is that of the next picture.
     alongside(next: Shown, isAhead: boolean, geometry: ViewGeometry): Promise<void> | null {
         const { sweepDeg } = this.app.state.layers;
         const waits: Promise<unknown>[] = [];
@@ -109,7 +109,7 @@ export class LayerMaker {
         if (windows) waits.push(windows);
         return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
     }
-    // The cells of which layers are made; what no layer needs is given back.
+    // Finds the cells that layers are made of, and gives back those that no layer needs.
     private cellsOf(loaded: LoadedGrid, geometry: ViewGeometry, isMoving: boolean): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
         const { layers } = this.app.state;
         const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || veilsFolded(layers, this.app.shown?.moment ?? '');
@@ -120,8 +120,8 @@ export class LayerMaker {
         };
     }
 
-    // Null if nothing is to be drawn but the volume as it always was. While the view moves, no other part of a
-    // grid is asked for.
+    // Returns null if nothing is to be drawn but the volume as it always was. While the view moves, asks for
+    // no other part of a grid.
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
         const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
@@ -185,7 +185,7 @@ export class LayerMaker {
         const moment = surface.moment || shown.moment;
         const drawn = { value: surface.value, isBelow: isBelow(moment, surface.value) };
         if (moment === shown.moment) return { ...drawn, of: null };
-        // It would need the bricks of two grids at once.
+        // A grid in parts would need the bricks of two grids at once.
         const other = shown.loaded.stream ? null : this.otherOf(shown);
         if (!other) return null;
         const of = this.app.loader.find(other.key);
@@ -200,7 +200,7 @@ export class LayerMaker {
         }
         return null;
     }
-    // The grid of another moment that the surface encloses; null: it is that of the shown one.
+    // Names the grid of another moment whose values the surface encloses; null if the surface is of the shown moment.
     private otherOf({ domain, moment, time }: Shown): { key: string; moment: string } | null {
         const other = this.app.state.layers.surface?.moment || moment;
         return other === moment ? null : { key: Loader.key(domain, other, time), moment: other };
@@ -231,7 +231,7 @@ export class LayerMaker {
         return isAbsent(this.missingOthers.get(other.key)?.error) ? texts.layers.noOther(other.moment) : texts.layers.otherFailed(other.moment);
     }
 
-    // The sweeps of the volume of which one is drawn, and which; null until they are known.
+    // Lists the sweeps of the volume of which shownCut() is drawn; null until they are known.
     sweepRows(): SweepRow[] | null {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.rows ?? null);
@@ -240,7 +240,7 @@ export class LayerMaker {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
-    // A volume of which nothing is visible says so.
+    // Says so if nothing of the volume is visible, and from which value on it would be.
     private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
         const { state, shownTable: table } = this.app;
         const unit = this.app.domain?.moments.find(one => one.moment === moment)?.units ?? '';
@@ -283,7 +283,7 @@ export class LayerMaker {
         if (error === undefined) return texts.layers.sweepComes(station);
         return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
     }
-    // Of several sites the one that is nearest to what is looked at.
+    // Returns the station whose sweep is drawn: the nearest to the point that the view looks at; empty without sites.
     private stationOf({ loaded: { grid } }: Shown): string {
         const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
         return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
@@ -295,7 +295,7 @@ export class LayerMaker {
         if (!asked) {
             asked = (async () => {
                 const volume = (await rawBefore(station, time))?.time ?? null;
-                // The sweep of an older one is not what was there at this time.
+                // A sweep of an older volume does not show what was there at this time.
                 if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs) throw new ApiError(404, texts.layers.noVolume(station));
                 return { time: volume, rows: await sweeps(station, volume) };
             })();
@@ -305,7 +305,8 @@ export class LayerMaker {
         return asked;
     }
 
-    // A grid that was made again may have another volume's sweeps and another grid beside it, so that the time is not enough.
+    // Numbers a loaded grid for keys. Its time is not enough, because a grid that was made again may have
+    // another volume's sweeps and another grid beside it.
     private numberOf(loaded: LoadedGrid): number {
         if (!this.numbers.has(loaded)) this.numbers.set(loaded, ++this.mostNumber);
         return this.numbers.get(loaded)!;
@@ -338,7 +339,8 @@ export class LayerMaker {
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
         if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
         if (found || isAbsent(this.sweeps.errorOf(key)) || !this.sweeps.isNeeded(key)) {
-            // No other event tells of a sweep that has come or failed before. The listener may be the caller, so it is told later.
+            // No other event tells of a sweep that has come or failed before. The listener may be the caller,
+            // so it is told later.
             if (this.toldSweep !== key) queueMicrotask(() => this.layerCame());
             this.toldSweep = key;
             return found;

@@ -1,4 +1,4 @@
-// What is drawn on the ground by dragging: a section, and the sides of a box.
+// Tools for drawing on the ground by dragging: a section, and the sides of a box.
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';

@@ -1,4 +1,4 @@
-// What the server tells of new and changed grids, and whether it still tells anything.
+// Hears from the server of new and changed grids, and notices if it tells nothing any more.
 
 import { ApiError, askEvents, silences, timeOf } from '../wire/api';
 import { EventText, ServerEvent } from '../wire/events';
@@ -29,7 +29,7 @@ export class Live {
     private isCatchingUp = false; // without a stream
     private readonly places = new StreamPlaces();
 
-    // News are taken once the page has `begun`; what comes before waits.
+    // Takes news once the page has `begun`; what comes before waits.
     constructor(
         private app: App,
         private begun: Promise<void>,
@@ -39,7 +39,7 @@ export class Live {
         for (;;) await pause((await this.listen()) ? againAfterMs : refusedAgainAfterMs);
     }
 
-    // Returns when the stream has ended: false if the server answers, but gives none.
+    // Returns when the stream has ended: false if the server answers, but gives no stream.
     private async listen(): Promise<boolean> {
         const abort = new AbortController();
         let timer = 0;
@@ -87,18 +87,18 @@ export class Live {
     }
 
     private connected(wasCutOff: boolean): void {
-        // What was asked for meanwhile got no answer. Lists that came before the stream may lack what came between.
+        // Requests got no answer while the server was cut off. Lists older than the stream may lack what came between.
         this.isBehind = this.isBehind || wasCutOff || (this.last === '' && this.app.hasLists);
         void this.begun.then(() => this.askSilences()).catch(() => undefined);
     }
-    // Of who fell silent before, there are no news.
+    // Asks which stations are silent, because no news tell of those that fell silent before.
     private async askSilences(): Promise<void> {
         const { silent, serverMs } = await silences();
         this.app.server.take(true, serverMs);
         this.app.server.takeSilences(silent);
     }
-    // There is no place for another stream, or the server has none: the lists tell as much, if later. Pictures may take
-    // long; a server that does not tell who is silent does not answer.
+    // Does without a stream, because there is no place for another one, or the server has none: the lists tell
+    // as much, if later. Pictures may take long, but a server that does not tell who is silent does not answer.
     private async doWithout(): Promise<void> {
         await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);
         if (this.isCatchingUp) return;
@@ -116,7 +116,7 @@ export class Live {
         }
     }
 
-    // The server answers.
+    // Tells an error of a server that answers.
     private refused(error: ApiError): void {
         this.app.server.take(true);
         this.app.fail(error);

@@ -12,9 +12,9 @@ import { LoadedGrid } from '../renderer/renderer';
 import { GridPlace, PackedGrid, readPlace } from '../wire/packed_grid';
 import { isRegion, packed, packedBetween } from '../wire/api';
 
-// How a budget of bytes is divided.
+// Divides a budget of bytes.
 export class Budget {
-    // A grid that has more, before it is compressed, is fetched in parts.
+    // Most bytes of a grid before it is compressed; a larger one is fetched in parts.
     readonly mostWhole: number;
     // Slots along each side of the texture for grids that are fetched in parts.
     readonly poolSide: number;
@@ -105,7 +105,7 @@ export class Loader {
     forget(key: string): void {
         const old = this.kept.get(key);
         this.kept.delete(key);
-        // What is on its way may be the old one.
+        // A load on its way may bring the old grid.
         this.loading.delete(key);
         if (old?.stream) void this.decoder.ask({ kind: 'forget', key });
     }
@@ -144,7 +144,7 @@ export class Loader {
         return atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : this.fetchFirst(domain, moment, time, answer);
     }
 
-    // The halved grid that is shown until there is more.
+    // Fetches the halved grid that is shown until there is more.
     private async fetchFirst(domain: string, moment: string, time: string, table: WorkerAnswer): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
         const [grid, pyramid] = [table.grid!, table.pyramid!];

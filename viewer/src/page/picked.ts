@@ -1,4 +1,4 @@
-// What is under a pixel of the picture: what of all that is drawn there is seen most.
+// Finds what is under a pixel of the picture: what is seen most of all that is drawn there.
 
 import { boundsAbout } from '../atlas/window_choice';
 import { ViewGeometry } from '../camera/geometry';
@@ -36,7 +36,7 @@ interface Met {
     isSolid: boolean; // hides what is behind
 }
 
-// What is solid along the ray, the nearest first.
+// Returns the hits of layers along the ray, the nearest first; those that are solid hide what is behind.
 function solidsAt(app: App, drawing: Drawing, geometry: ViewGeometry, cells: Cells | null, whole: Crop, x: number, y: number): Met[] {
     const { drawn } = drawing;
     if (!drawn) return [];
@@ -64,7 +64,7 @@ function solidsAt(app: App, drawing: Drawing, geometry: ViewGeometry, cells: Cel
 
 const depthOf = (geometry: ViewGeometry, [x, y]: Plane, heightM: number): number => geometry.depthOf([x, y, heightM * geometry.exaggeration]);
 
-// What the cell at a place and on a level holds; null beyond the grid.
+// Reads the cell at a place, on the lowest level that is not below the height; null beyond the grid.
 function cellAt({ grid, middle }: Cells, [x, y]: Plane, heightM: number): { state: CellState; value: number } | null {
     const column = columnAt(grid, x - middle[0], y - middle[1]);
     const level = grid.levelsM.findIndex(one => one >= heightM);
@@ -85,7 +85,8 @@ function heightOfMaximum({ grid, middle }: Cells, [x, y]: Plane): number | null 
     return code >= firstValueCode ? grid.levelsM[best]! : null;
 }
 
-// Of a grid in parts the cells along the ray are asked for if `asks`; until they have come it is the ground. Null: sky.
+// Returns what a pixel shows; null if that is the sky. Asks for the cells of a grid in parts along the ray if
+// `asks`; until they have come, leaves out the volume and the surface.
 export function pick(app: App, drawing: Drawing, left: number, top: number, asks: boolean): Picked | null {
     const [x, y] = [left + 0.5, top + 0.5]; // the middle of the pixel, as it is drawn
     const geometry = drawing.geometry();

@@ -4,8 +4,8 @@ import { dragged, panned, zoomed } from '../camera/controls';
 import { App } from './app';
 import { Drawing } from './drawing';
 
-// What takes what is dragged or clicked, in pixels of the picture. A tool that does not take a press
-// (false) leaves the drag to the camera; a click is a press that did not travel.
+// Takes drags and clicks, in pixels of the picture. A tool that does not take a press (false) leaves the drag
+// to the camera; a click is a press that did not travel.
 export interface Tool {
     press?(x: number, y: number): boolean;
     drag?(x: number, y: number): void;
@@ -34,7 +34,7 @@ export class Pointers {
     get current(): Tool {
         return this.tool;
     }
-    // Another tool takes what follows; none: the usual one.
+    // Gives what follows to another tool; null gives it to the usual one.
     use(tool: Tool | null): void {
         this.tool.end?.();
         this.tool = tool ?? this.usual;

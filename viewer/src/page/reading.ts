@@ -1,4 +1,4 @@
-// What the column at a place holds, from the exact codes.
+// Reads what the column at a place holds, from the exact codes.
 
 import { cellSizeM } from '../scene/projection';
 import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';

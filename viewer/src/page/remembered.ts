@@ -1,4 +1,4 @@
-// What the browser keeps from one visit to the next. Where it keeps nothing, the page works all the same.
+// Keeps the user's units in the browser from one visit to the next. If it keeps nothing, the page works all the same.
 
 import { Units, namesOf, unitsOf } from '../tables/units';
 

@@ -8,7 +8,7 @@ const told = ['title', 'sites-told', 'layers-told'];
 const lineHeight = 20;
 const swatch = 10;
 
-// Without how old the data are, which is so only now.
+// Returns the lines without how old the data are, which is so only now.
 function shownLines(): string[] {
     const lines = told.map(id => element(id)).filter(one => one && !one.hidden);
     return lines.map(one => [...one.childNodes].filter(node => !(node instanceof HTMLSpanElement)).map(node => node.textContent).join('')).filter(Boolean);
@@ -51,8 +51,8 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
     });
 }
 
-// As large as the page shows it: a picture that was drawn coarser is enlarged below the labels, as on the page.
-// `moment` is named because the title does not name it.
+// Draws the picture as large as the page shows it: one that was drawn coarser is enlarged below the labels,
+// as on the page. `moment` is named because the title does not name it.
 export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement, moment: string): HTMLCanvasElement {
     const all = document.createElement('canvas');
     all.width = labels.width;

@@ -1,12 +1,12 @@
-// Shares the connections of a browser among its pages. A stream of events keeps one, a browser has six for a server, and
-// pictures need some. So three pages at most hear events, and the others ask for lists now and then.
+// Shares the connections of a browser among its pages. A stream of events keeps one, a browser has six for a
+// server, and pictures need some. So three pages at most hear events, and the others ask for lists now and then.
 
 const mostPages = 3;
 const othersTellWithinMs = 1000; // a page that draws answers late
 
 type Message = { asks: string } | { told: string; by: string };
 
-// None where the browser keeps pages apart: each listens then.
+// Returns null if the browser keeps pages apart: each listens then.
 function channel(): BroadcastChannel | null {
     try {
         return new BroadcastChannel('stormcellar events');

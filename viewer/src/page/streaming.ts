@@ -13,16 +13,16 @@ import { Decoder } from '../atlas/decoder';
 
 // A browser has six connections to a server, of which one hears of events.
 const mostFlights = 5;
-// Of a request, before it is compressed.
+// Most bytes of a request, before it is compressed.
 const mostRequestBytes = 1024 * 1024;
-// Of all that is looked at for the next requests: a range has the columns of one row of the picture's middle.
+// Most bytes of columns that the next requests are chosen from. A range has those of one row of the picture's middle.
 const mostPlannedBytes = 4 * mostRequestBytes;
-// What a range may hold in a row that is not needed.
+// Most bytes in a row that a range may hold without need.
 const mostSkippedBytes = 64 * 1024;
 const retryMs = 1000;
 const mostFailures = 5; // that are not told
 
-// How much of what the view needs is there.
+// Tells how much of what the view needs is there.
 export interface Detail {
     missing: number; // columns of bricks
     coarsest: number; // how often the grid was halved, of what is shown in the picture
@@ -88,7 +88,7 @@ class Stream {
         return level === this.parts.level || this.pool.has(key);
     }
 
-    // Another view: what it needs is fetched, and what it does not need no longer is.
+    // Takes another view: fetches what it needs, and no longer what it does not need.
     look(geometry: ViewGeometry, finest: number): void {
         const { grid } = this.loaded;
         const { pyramid, level } = this.parts;
@@ -106,7 +106,7 @@ class Stream {
 
     // -- what is needed
 
-    // The columns whose codes the texels of a column are made of.
+    // Returns the columns whose codes the texels of a column are made of.
     private neighbors({ level, x, y }: WantedColumn): { x: number; y: number; key: string }[] {
         const { columns } = this.parts.pyramid.levels[level]!;
         const found = [];
@@ -169,7 +169,7 @@ class Stream {
         return true;
     }
 
-    // While the table of a level comes, bricks of the others do.
+    // Asks for bricks of the other levels while the table of this one comes.
     private flyAnother(missing: WantedColumn[], needed: Map<WantedColumn, { x: number; y: number; key: string }[]>, level: number): boolean {
         const others = missing.filter(column => column.level !== level);
         return others.length > 0 && this.fly(others, needed);
@@ -256,7 +256,8 @@ class Stream {
             .catch(error => this.fail(error));
     }
 
-    // Too much is asked at once, or the network or the server fails: it is asked again later. A grid that is gone is told.
+    // Asks again later, because too much was asked at once, or the network or the server failed. Tells of a
+    // grid that is gone, and of many failures in a row.
     private stumble(error: unknown): void {
         if (this.hasEnded || (error instanceof DOMException && error.name === 'AbortError')) return;
         this.hasEnded = isAbsent(error);
@@ -267,7 +268,7 @@ class Stream {
     }
 }
 
-// What is shown now, in parts or not.
+// Streams the grid that is shown now, if it is in parts.
 export class Streaming {
     private stream: Stream | null = null;
 
@@ -279,13 +280,13 @@ export class Streaming {
         private fail: (error: unknown) => void,
     ) {}
 
-    // After the renderer was given the grid.
+    // Call after the renderer was given the grid.
     show(loaded: LoadedGrid): void {
         this.stream?.end();
         this.stream = loaded.stream ? new Stream(loaded, loaded.stream, this.renderer, this.decoder, this.mostCells, this.changed, this.fail) : null;
     }
 
-    // `finest`: how often the finest bricks that are wanted were halved.
+    // `finest` is the level of the finest bricks that are wanted.
     look(geometry: ViewGeometry, finest: number): void {
         this.stream?.look(geometry, finest);
     }

@@ -1,4 +1,4 @@
-// What the user does to the colors: presets, drafts, the threshold, files; with undo and redo.
+// Applies what the user does to the colors: presets, drafts, the threshold, files; with undo and redo.
 
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
@@ -30,7 +30,7 @@ export class TableEditing {
 
     constructor(private app: App) {}
 
-    // What is edited: the draft of the shown moment, or what its table would become.
+    // Returns the draft that is edited: that of the chosen moment, or what its table would become.
     get draft(): Draft | undefined {
         const { state, book } = this.app;
         const draft = state.drafts.find(one => one.moment === state.moment);

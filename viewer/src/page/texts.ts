@@ -10,7 +10,7 @@ function span(seconds: number): string {
 }
 const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `${span(seconds)} ago`);
 
-// How far from an instant volumes are of which a site is shown.
+// Tells how far from an instant the volumes are that show a site.
 function ofVolumes(middlesS: number[]): string {
     const away = (seconds: number) => `${Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`}`;
     const told = middlesS.map(seconds => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));

@@ -1,5 +1,5 @@
-// The cells of which layers and readings are made. A grid that is there as a whole has them all; of one in
-// parts the server is asked for a window, as fine as it is worth and as there is room for.
+// Finds the cells that layers and readings are made of. A grid that is there as a whole has them all; for one
+// in parts, asks the server for a window, as fine as it is worth and as there is room for.
 
 import { BrickWindow, WindowLimits, boundsAbout, holds, windowAbout, windowQuery, windowSeen } from '../atlas/window_choice';
 import { Decoder } from '../atlas/decoder';
@@ -10,7 +10,7 @@ import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } fro
 import { isAbsent, packed } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 
-// What a window is for. Of each there is one at a time.
+// Purpose of a window. There is one window at a time for each, and one of the grid that is shown next.
 export type Purpose = 'layers' | 'light' | 'section' | 'ray';
 
 // Shares of the page's memory.
@@ -60,7 +60,7 @@ export class Windows {
         return (loaded.stream ? this.cellsOf(loaded, purpose)?.grid : loaded.grid)?.halvings ?? 0;
     }
 
-    // What the view shows. While it moves, what was there before stays; null until something has come.
+    // Returns what the view shows, or while it moves, what was there before; null until something has come.
     seen(loaded: LoadedGrid, purpose: 'layers' | 'light', geometry: ViewGeometry, isMoving: boolean): Cells | null {
         const { grid, stream } = loaded;
         if (!stream) return this.whole(grid);
@@ -70,7 +70,7 @@ export class Windows {
         return window && this.take(loaded, stream, purpose, window);
     }
 
-    // What a line between two places crosses, with the cells beside it.
+    // Returns the cells that a line between two places crosses, with those beside it; null until they have come.
     along(loaded: LoadedGrid, [from, to]: readonly [Place, Place]): Cells | null {
         const { grid, stream } = loaded;
         if (!stream) return this.whole(grid);
@@ -82,7 +82,7 @@ export class Windows {
         return this.about(loaded, stream, 'section', points.filter((point): point is Plane => point !== null), finest);
     }
 
-    // What `ask` asks for of the grid that is shown next, before it is. Null if all of it is there.
+    // Asks ahead for what `ask` needs of the grid that is shown next. Null if all of it is there.
     next(loaded: LoadedGrid, ask: () => void): Promise<void> | null {
         if (!loaded.stream) return null;
         this.taken = this.ahead;
@@ -92,7 +92,7 @@ export class Windows {
         return waits.length > 0 ? Promise.all(waits.map(one => one.done)).then(() => undefined) : null;
     }
 
-    // What lies between points, exactly if there is room.
+    // Returns the cells between points, the grid's own if there is room; null until they have come.
     ray(loaded: LoadedGrid, points: readonly Plane[]): Cells | null {
         const { grid, stream } = loaded;
         return stream ? this.about(loaded, stream, 'ray', points, 0) : this.whole(grid);
@@ -126,7 +126,7 @@ export class Windows {
         return held?.of === loaded ? held.cells : null;
     }
 
-    // The window, or until it comes the one before it.
+    // Returns the window, or until it comes the one before it.
     private take(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, window: BrickWindow): Cells | null {
         let held = this.taken.get(purpose);
         if (held?.of !== loaded) {
@@ -168,7 +168,7 @@ export class Windows {
         this.came();
     }
 
-    // What no layer and no reading needs is given back.
+    // Gives back a window that no layer and no reading needs.
     release(purpose: Purpose): void {
         this.held.get(purpose)?.abort?.abort();
         this.held.delete(purpose);

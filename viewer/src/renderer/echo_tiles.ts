@@ -1,5 +1,5 @@
-// Where in the picture rays may meet echo that shows, and between which depths. The volume is drawn in these
-// squares of the picture alone: over most of a usual picture there is clear air.
+// Finds where in the picture rays may meet echo that shows, and between which depths. The volume is drawn in
+// these squares of the picture alone: over most of a usual picture there is clear air.
 
 import { Atlas, blockEdge, blocksABrick, blocksAlong, slotOf } from '../atlas/atlas';
 import { Vec3, ViewGeometry } from '../camera/geometry';
@@ -9,7 +9,7 @@ import { PackedGrid } from '../wire/packed_grid';
 // A picture, or a small one of the same view, whose sides need not be whole pixels.
 export type RayView = Pick<ViewGeometry, 'width' | 'height' | 'eye' | 'right' | 'up' | 'forward' | 'focalPixels' | 'metersPerPixel' | 'isPerspective'>;
 
-// Where blocks of cells begin along each axis, in drawn space, and the last one ends.
+// Places along each axis, in drawn space, where blocks of cells begin, and where the last one ends.
 export interface BlockEnds {
     x: number[];
     y: number[];
@@ -39,10 +39,10 @@ export interface Tiles {
 const sides = [16, 32, 64];
 const mostColumns = 64;
 
-// Whether rays stop in a brick: `leastShown` is the least shown code that is not clear.
+// Returns true if rays stop in a brick. `leastShown` is the least shown code that is not clear.
 const shows = (entry: number, leastShown: number): boolean => slotOf(entry) >= 0 && entry >>> 24 >= leastShown;
 
-// What a box of drawn space covers: pixels from the lower left, and depths.
+// Part of the picture that a box of drawn space covers: pixels from the lower left, and depths.
 interface Extent {
     left: number;
     right: number;
@@ -78,7 +78,7 @@ function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], z
 // Blocks of a brick, from the first to before the last along each axis.
 type Blocks = [number, number, number, number, number, number];
 
-// The blocks of a slot that show something: of a grid in parts all. Null: none.
+// Returns the blocks of a slot that show something (all of them for a grid in parts); null if none does.
 function shownBlocks(blocks: Uint8Array, slot: number, leastShown: number): Blocks | null {
     if (blocks.length === 0) return [0, 0, 0, blocksAlong, blocksAlong, blocksAlong];
     const found: Blocks = [blocksAlong, blocksAlong, blocksAlong, 0, 0, 0];
@@ -95,7 +95,7 @@ function shownBlocks(blocks: Uint8Array, slot: number, leastShown: number): Bloc
 
 type ShownAtlas = Pick<Atlas, 'bricks' | 'indirection' | 'blocks'>;
 
-// What of each brick shows something: x, y, z of the whole grid's blocks.
+// Visits the part of each brick that shows something. `from` and `to` are x, y, z of the whole grid's blocks.
 function eachShown({ bricks, indirection, blocks }: ShownAtlas, leastShown: number, visit: (from: Vec3, to: Vec3) => void): void {
     const [bx, by] = bricks;
     for (let i = 0; i < indirection.length; ++i) {
@@ -141,7 +141,7 @@ export class TilePass {
 
     constructor(private gl: WebGL2RenderingContext) {}
 
-    // After the context came back.
+    // Call after the context came back.
     forget(): void {
         this.array = this.buffer = null;
     }

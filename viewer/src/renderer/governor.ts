@@ -9,7 +9,7 @@ import { Rung } from './ladder';
 // A more exact rung is taken when it is expected to need this share of the time, so that the picture
 // does not go to and fro between two rungs.
 const margin = 0.8;
-// How much the newest frame counts.
+// Weight of the newest frame in the time of the first rung.
 const weight = 0.5;
 
 export class Governor {

@@ -1,8 +1,8 @@
-// What the passes of a picture use in common of WebGL: programs by name, textures, and the camera.
+// Holds what the passes of a picture share of WebGL: programs by name, textures, and the camera.
 
 import type { RayView } from './echo_tiles';
 
-// No program reads from it, so that an upload changes nothing that is bound.
+// No program reads from this unit, so that an upload changes nothing that is bound.
 const unitOfUploads = 15;
 
 export class Graphics {
@@ -14,7 +14,7 @@ export class Graphics {
     get mostTexels(): number {
         return this.gl.getParameter(this.gl.MAX_3D_TEXTURE_SIZE) as number;
     }
-    // Whether a processor draws: there is no graphics processor here.
+    // Returns true if a processor draws, because there is no graphics processor here.
     get isSoftware(): boolean {
         const { gl } = this;
         const names = gl.getExtension('WEBGL_debug_renderer_info');
@@ -24,7 +24,7 @@ export class Graphics {
         return [...this.programs.keys()];
     }
 
-    // After the context came back.
+    // Call after the context came back.
     forget(): void {
         this.programs.clear();
         this.begun.clear();
@@ -84,7 +84,7 @@ export class Graphics {
         return texture;
     }
 
-    // What follows is written to this texture.
+    // Binds a texture, so that the next upload goes to it.
     beginUpload(texture: WebGLTexture): void {
         const gl = this.gl;
         gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
@@ -119,8 +119,8 @@ export class Graphics {
     }
 }
 
-// Textures of what is drawn now. What is drawn again is not uploaded again; what the last picture did not
-// need is given back.
+// Keeps the textures of what is drawn now. What is drawn again is not uploaded again; what the last picture
+// did not need is given back.
 export class TextureShelf {
     private held = new Map<string, { of: object; texture: WebGLTexture }>();
     private used = new Set<string>(); // for the last picture

@@ -1,5 +1,5 @@
-// What each way of drawing costs and how far it is from the slicer. scripts/viewer-ladder measures and
-// writes the rows below; docs/viewer.md has the same table.
+// Costs of each way of drawing, and how far it is from the slicer. scripts/viewer-ladder measures and writes
+// the rows below; docs/viewer.md has the same table.
 //
 // dE is CIEDE2000 against the slicer with 2048 slices: the 99th percentile over the pixels that show
 // echo in either picture, of the scene where it is largest.
@@ -17,7 +17,7 @@ export interface Rung extends Quality {
     dE: number;
 }
 
-// The first is that of a picture that stands still.
+// A picture that stands still is drawn by the first rung.
 export const rungs: readonly Rung[] = [
     { name: '256 slices', slices: 256, grain: 1, isNearest: false, halvings: 0, cost: 1.00, dE: 8.6 },
     { name: '512 slices', slices: 512, grain: 1, isNearest: false, halvings: 0, cost: 1.61, dE: 3.2 },
@@ -30,5 +30,5 @@ export const rungs: readonly Rung[] = [
     { name: 'halved bricks', slices: 256, grain: 1, isNearest: false, halvings: 1, cost: 2.05, dE: 45.0 },
 ];
 
-// Those that any grid can be drawn by: bricks are halved of a grid in parts alone.
+// Rungs that can draw any grid: only a grid in parts has halved bricks.
 export const usualRungs = rungs.filter(({ halvings }) => halvings === 0);

@@ -36,7 +36,7 @@ export interface PlacedField {
     extent: Extent;
 }
 
-// What is drawn, made of the scene's layers and a grid.
+// Layers as they are drawn, made of the scene's layers and a grid.
 export interface DrawnLayers {
     plane: PlacedField & { heightM: number } | null;
     section: Section | null;

@@ -1,5 +1,4 @@
-// How a lit color comes about (render/volume/lit_layer.h): lighter or darker by a factor, in OKLab, where
-// the hue stays.
+// Makes lit colors as render/volume/lit_layer.h does: lighter or darker by a factor, in OKLab, where the hue stays.
 
 import { steepestFall } from '../fields/falls';
 
@@ -40,7 +39,7 @@ vec3 litColor(vec3 srgb, float factor) {
     lab.x = l;
     vec3 linear = fromLab(lab);
     if (any(lessThan(linear, vec3(-1e-4))) || any(greaterThan(linear, vec3(1.0001)))) {
-        // As much of its chroma as can be shown.
+        // Keeps as much of the chroma as can be shown.
         float low = 0.0, high = 1.0;
         for (int i = 0; i < 7; ++i) {
             float middle = 0.5 * (low + high);
@@ -53,8 +52,8 @@ vec3 litColor(vec3 srgb, float factor) {
     return toSrgb(linear);
 }`;
 
-// How much lighter a side is that faces the sun, of a surface that falls with a slope, and how much an
-// edge that is seen along its surface.
+// Makes sides of a surface lighter that face the sun, and edges that are seen along the surface. `slope` is
+// how it falls, and `share` how much all this counts.
 export const facingText = `
 uniform vec3 sun; // its direction
 float facing(vec3 slope, float share, vec3 looks) {

@@ -20,8 +20,8 @@ interface UploadedLines {
 // In pixels.
 const widths: Record<MapLines['kind'], number> = { county: 0.7, state: 1.3, lake: 1, country: 1.6, coast: 1.3, ring: 1, border: 1 };
 
-// Each corner of a segment's strip knows both ends. An instance for each segment would be smaller, but where a processor
-// draws, it takes as long to begin one as to draw hundreds of corners.
+// Each corner of a segment's strip knows both ends. An instance for each segment would be smaller, but where
+// a processor draws, it takes as long to begin one as to draw hundreds of corners.
 const cornersASegment = 4;
 const triangles = [0, 1, 2, 1, 3, 2];
 
@@ -42,7 +42,7 @@ export class LinePass {
     prepare(): void {
         this.graphics.begin('lines', lineVertex, lineFragment);
     }
-    // After the context came back.
+    // Call after the context came back.
     forget(): void {
         this.uploaded = [];
     }
@@ -70,7 +70,7 @@ export class LinePass {
         });
     }
 
-    // `grain`: the picture is shown so many times as wide and high.
+    // The picture is shown `grain` times as wide and high.
     draw(geometry: ViewGeometry, grain: number): void {
         const { gl } = this.graphics;
         if (this.uploaded.length === 0) return;

@@ -20,7 +20,7 @@ import { VolumeVariant, fullScreenVertex, groundFragment, tileVertex, variantNam
 import { shades } from './shades';
 import { WaterMask, WaterTexture } from './water_texture';
 
-// What a grid needs in the memory of the graphics processor.
+// Grid with what the graphics processor needs to draw it.
 export interface LoadedGrid {
     grid: PackedGrid;
     atlas: Atlas;
@@ -28,7 +28,7 @@ export interface LoadedGrid {
     stream: GridInParts | null;
 }
 
-// A grid of which the table is there, and a halved one; the rest is fetched as the view needs it. Its
+// Grid of which only the table and a halved grid are there; the rest is fetched as the view needs it. Its
 // atlas is empty at first.
 export interface GridInParts {
     key: string;
@@ -56,7 +56,7 @@ export interface Frame {
     keepsExposure?: boolean; // the light is that of the last picture
 }
 
-// What a transfer function is made of, beside the step.
+// Inputs of a transfer function, beside the step.
 type TransferKey = readonly [ColorTable, number, number, number, number];
 
 interface Uploaded {
@@ -115,7 +115,7 @@ export class Renderer {
         return this.graphics.compiledVariants;
     }
 
-    // After the context came back: everything is uploaded again by its owner.
+    // Call after the context came back: every owner uploads its data again.
     forget(): void {
         this.graphics.forget();
         this.lines.forget();
@@ -178,7 +178,7 @@ export class Renderer {
         }
     }
 
-    // After the atlas's indirection was changed.
+    // Call after the atlas's indirection was changed.
     putIndirection(): void {
         const gl = this.gl;
         if (!this.uploaded) return;
@@ -233,7 +233,7 @@ export class Renderer {
         this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
     }
 
-    // How many texels the volume asks for, as the mean over all pixels of the picture. It draws over the picture.
+    // Counts the texels that the volume asks for, as the mean over all pixels of the picture. Draws over the picture.
     fetchesAPixel(frame: Frame): number {
         const gl = this.gl;
         this.draw({ ...frame, hasGround: false, hasVolume: false, layers: null });
@@ -247,7 +247,7 @@ export class Renderer {
         return fetches / (width * height);
     }
 
-    // The exposure by which the lit echo is as light as without light, from every fifth pixel.
+    // Measures the exposure by which the lit echo is as light as without light, from every fifth pixel.
     private measureLight(frame: Frame): void {
         const { gl } = this;
         this.exposure.measure(frame.geometry, small => {
@@ -280,7 +280,7 @@ export class Renderer {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    // Returns the table, and by what its depths are multiplied.
+    // Returns the table, and the factor of its depths.
     private transferFor(frame: Frame, grid: PackedGrid, stepM: number): { made: Transfer; scale: number } {
         const gl = this.gl;
         const now = this.transfer;
@@ -366,7 +366,7 @@ export class Renderer {
         };
         const at = this.graphics.use(this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
         this.bindGrid(this.uploaded!, frame, at);
-        // How dense a veil is depends on the whole depth of the grid.
+        // The density of a veil depends on the whole depth of the grid.
         this.gl.uniform1f(at('near'), geometry.nearM);
         this.gl.uniform1f(at('stepM'), (geometry.farM - geometry.nearM) / frame.slices);
         this.passes.bindAir(4, air, layers, at);
@@ -427,12 +427,12 @@ export class Renderer {
     }
 }
 
-// Of a large grid the picture may show a small part, to which the slices then go.
+// Returns the depths to slice: of a large grid those that the picture shows, which may be a small part of it.
 function slicedDepths(loaded: LoadedGrid, geometry: ViewGeometry): [number, number] {
     return loaded.stream ? geometry.shownDepths : [geometry.nearM, geometry.farM];
 }
 
-// Between levels, in the mean.
+// Returns the mean distance between levels, at least 1 m.
 function levelSpacingM({ levelsM }: PackedGrid): number {
     const last = levelsM.length - 1;
     return Math.max(1, (levelsM[last]! - levelsM[0]!) / Math.max(1, last));

@@ -63,10 +63,10 @@ const halvedPlace = `
     place.xy += 0.5 * place.w - 0.5;
     brick.xy >>= halvings;`;
 
-// Where a ray meets the cells of a grid.
+// Head of the programs in which rays meet the cells of a grid.
 //
-// Programs that are run by a processor check each reading of a uniform, and go through all sides of a condition: what
-// loops need is read before them, and they have few conditions.
+// A processor that runs a program checks each reading of a uniform, and goes through all sides of a
+// condition. So the programs read what loops need before them, and have few conditions.
 export function volumeHead(variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels' | 'hasHalved' | 'countsFetches'>): string {
     const counted = variant.countsFetches ? ' ++fetches;' : '';
     const { hasUnevenLevels } = variant;
@@ -136,8 +136,8 @@ vec2 depthsInBox(vec3 start, vec3 along) {
     return vec2(max(max(lows.x, lows.y), max(lows.z, near)), min(min(highs.x, highs.y), min(highs.z, near + slices * stepM)));
 }
 bool isEmpty(uint entry) { return (entry & 0x1FFFFFu) == 0u; }
-// What leads from cells to texels in a brick: an offset, and by what columns and rows are multiplied. Of a
-// slot and a half, no quotient is so near to a whole number that rounding matters.
+// Returns the way from cells to texels in a brick: an offset, and the factor of columns and rows. With half a
+// slot added, no quotient is so near to a whole number that rounding matters.
 vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
     float slot = float(int(entry & 0x1FFFFFu)) - 1.0;
     float z = floor((slot + 0.5) / slots.z);
@@ -150,8 +150,8 @@ vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
 vec2 fetchAt(vec3 cell, vec4 place, vec3 perTexel) {${counted}
     return texture(atlas, (${variant.hasHalved ? 'vec3(cell.xy * place.w, cell.z)' : 'cell'} + place.xyz) * perTexel).rg;
 }
-// How far the ray has gone when it leaves a brick. From a brick above which there is nothing it leaves all
-// columns of bricks about it that are as empty.
+// Returns how far the ray has gone when it leaves a brick. From a column of bricks without anything to show
+// it leaves at once all columns about it that are as empty.
 float leaves(Ray ray, ivec3 brick, uint entry) {
     float reach = isEmpty(entry) ? float(int(entry)) * (1.0 / 2097152.0) : 0.0;
     float beside = max(reach - 1.0, 0.0);
@@ -176,7 +176,7 @@ ${litColorText}
 ${facingText}
 ${lightAtText}`;
 
-// The light of two steps is that between them, but a step that shows much has its own.
+// Two steps share the light between them, but a step that shows much has its own.
 const stepLit = `
         if (seen > 0.0) {
             bool isOwn = frontLight < 0.0 || seen > 0.02;
@@ -184,7 +184,7 @@ const stepLit = `
             lit += seen * frontLight;
         } else frontLight = -1.0;`;
 
-// What the ray has gathered, lit.
+// Lights what the ray has gathered.
 const putLit = `
     float alpha = 1.0 - through;
     if (alpha >= 1.0 / 512.0) light = alpha * litColor(min(light / alpha, 1.0), exposure * lit / alpha);

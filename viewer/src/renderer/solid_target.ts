@@ -1,4 +1,4 @@
-// What is solid in a picture: its color, and how far along the rays it is. The volume ends there.
+// Holds what is solid in a picture: its color, and how far along the rays it is. The volume ends there.
 
 export class SolidTarget {
     readonly color: WebGLTexture;
@@ -28,7 +28,7 @@ export class SolidTarget {
         return texture;
     }
 
-    // What is drawn until end() goes here; the nearest counts.
+    // Sends what is drawn until end() to this target, where the nearest counts.
     begin(): void {
         const { gl } = this;
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);

@@ -1,4 +1,4 @@
-// What a ray from the eye meets, and what of it is seen most, from the exact codes of the grid.
+// Finds what a ray from the eye meets, and what of it is seen most, from the exact codes of the grid.
 
 import { ViewGeometry } from '../camera/geometry';
 import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
@@ -22,7 +22,7 @@ function levelAt(grid: PackedGrid, heightM: number): number {
     return level;
 }
 
-// Where a ray is within a box: the first and the last depth; null where it passes by.
+// Returns the first and the last depth of a ray within a box; null where it passes by.
 export function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [number, number] | null {
     const start = geometry.point(x, y, 0);
     const way = geometry.along(x, y);
@@ -41,7 +41,7 @@ export function depthsWithin(geometry: ViewGeometry, box: Crop, x: number, y: nu
     return near < far ? [near, far] : null;
 }
 
-// Where the ray through a pixel enters and leaves a box, on the plane; null where it passes by.
+// Returns where the ray through a pixel enters and leaves a box, on the plane; null where it passes by.
 export function wayWithin(geometry: ViewGeometry, box: Crop, x: number, y: number): [Plane, Plane] | null {
     const depths = depthsWithin(geometry, box, x, y);
     const start = geometry.point(x, y, 0);
@@ -105,7 +105,7 @@ export interface Contribution {
 
 const opaque = 0.002; // what is behind so little light is not seen
 
-// `perM`: how opaque a value is (extinction per drawn meter); 0: not at all.
+// `perM` returns how opaque a value is (extinction per drawn meter), or 0 if it is not opaque at all.
 export function mostVisible(cells: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, untilDepth: number, perM: (value: number) => number): Contribution {
     const found: Contribution = { cell: null, share: 0, through: 1, foldedM: 0 };
     const ofCode = new Map<number, number>();

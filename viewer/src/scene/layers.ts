@@ -1,4 +1,4 @@
-// What is drawn beside the map: which layers, and how. One value, and its part of the address.
+// Layers that are drawn beside the map, and how: one value, and its part of the address.
 
 import { Place } from './projection';
 
@@ -31,13 +31,13 @@ export interface Layers {
     hasFolded: boolean | null; // range folded air; null: as the moment has it
 }
 
-// Of velocities a negative value encloses what is faster toward the radar.
+// Returns true if the value is a negative velocity, whose surface encloses what is faster toward the radar.
 export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
 
 // Air that is range folded is not clear: a volume of velocities or their widths shows it unless it is told not to.
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean => hasFolded ?? (hasVolume && (moment === 'VEL' || moment === 'SW'));
 
-// The other choice. What the moment has by itself is not said, so that an address stays short.
+// Returns the other choice; null if the moment has it by itself, so that an address stays short.
 export function toggledFolded(layers: Layers, moment: string): boolean | null {
     const wanted = !veilsFolded(layers, moment);
     return wanted === veilsFolded({ ...layers, hasFolded: null }, moment) ? null : wanted;
@@ -66,7 +66,7 @@ const mostSweeps = 1000; // of a volume
 export const sectionText = (section: readonly [Place, Place]): string =>
     section.flatMap(({ latitudeDeg, longitudeDeg }) => [rounded(latitudeDeg, 5), rounded(longitudeDeg, 5)]).join(',');
 
-// Names and texts in the address of what is not usual.
+// Returns names and texts for the address, of what is not usual.
 export function layersAddress(layers: Layers): [string, string][] {
     const parts: [string, string][] = [];
     if (!layers.hasVolume) parts.push(['volume', '0']);
@@ -112,7 +112,7 @@ function cropOf(text: string | null): Crop | null {
     return westM < eastM && southM < northM && bottomM < topM ? { westM, eastM, southM, northM, bottomM, topM } : null;
 }
 
-// What makes no sense in the address is left out.
+// Reads the layers from the address, without what makes no sense there.
 export function layersOf(query: URLSearchParams): Layers {
     const one = (name: string, least: number, most: number) => numbers(query.get(name), 1, least, most)?.[0] ?? null;
     const planeKm = one('height-km', -1, 100);
@@ -137,8 +137,8 @@ export function layersOf(query: URLSearchParams): Layers {
 export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sweepDeg }: Layers): number =>
     [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null].filter(Boolean).length;
 
-// What keeps `stormcellar frame` from drawing the layers as they are: it draws one, without surfaces and boxes, and a sweep of
-// one radar.
+// Returns what keeps `stormcellar frame` from drawing the layers as they are, or null: it draws one, without
+// surfaces and boxes, and a sweep of one radar.
 export function beyondCommand(layers: Layers, siteCount: number): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
     if (layers.surface) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
@@ -148,8 +148,8 @@ export function beyondCommand(layers: Layers, siteCount: number): 'surface' | 'b
     return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;
 }
 
-// The words with which `stormcellar frame` draws one of the layers; null if it draws the volume. Of several
-// the one that is named first here.
+// Returns the words with which `stormcellar frame` draws one of the layers, of several the one that is named
+// first here; null if it draws the volume.
 export function productOf(layers: Layers): string[] | null {
     if (layers.hasVolume) return null;
     if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];

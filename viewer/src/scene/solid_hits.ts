@@ -1,4 +1,5 @@
-// Where a ray from the eye meets what is solid, and what a plane, a section, a sweep or the column maximum shows there.
+// Finds where a ray from the eye meets what is solid, and what a plane, a section, a sweep or the column
+// maximum shows there.
 //
 // Heights are above sea level; depths are those of ViewGeometry. Null: the ray does not meet the layer.
 
@@ -32,7 +33,7 @@ export interface GateHit extends SolidHit {
 
 const radians = Math.PI / 180;
 
-// What a field shows at a place between its own, as the shader of layers has it.
+// Reads a field between its places, as the shader of layers does.
 export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean): { state: CellState; value: number } {
     const { width, height, states, values } = field;
     const index = (column: number, row: number) => Math.min(height - 1, Math.max(0, row)) * width + Math.min(width - 1, Math.max(0, column));
@@ -49,7 +50,7 @@ export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean):
     return { state: mixer.state, value: mixer.value };
 }
 
-// The level through a height, where a field lies on an extent of it.
+// Finds where a ray meets the level through a height, where a field lies on an extent of it.
 export function levelHit(geometry: ViewGeometry, { field, extent }: { field: FlatField; extent: Extent }, heightM: number, x: number, y: number, mixes: boolean): SolidHit | null {
     const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
     const depth = (heightM * geometry.exaggeration - start[2]) / way[2];
@@ -61,7 +62,7 @@ export function levelHit(geometry: ViewGeometry, { field, extent }: { field: Fla
     return { depth, at, heightM, ...fieldAt(field, across * field.width, up * field.height, mixes) };
 }
 
-// The nearest of the upright strips of a section.
+// Finds where a ray meets the nearest of the upright strips of a section.
 export function sectionHit(geometry: ViewGeometry, section: Section, x: number, y: number, mixes: boolean): SolidHit | null {
     const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
     const { field, ends } = section;
@@ -102,8 +103,8 @@ interface PlacedSweep {
     radials: Uint16Array;
 }
 
-// The gate under a pixel: where the ray crosses the beam of the sweep's elevation. A ray from the side crosses it twice, and
-// through a gate that is not shown the next one is seen. If none is shown, it is the first.
+// Finds the gate under a pixel, where the ray crosses the beam of the sweep's elevation. A ray from the side
+// crosses it twice, and through a gate that is not shown the next one is seen. If none is shown, returns the first.
 export function sweepHit(geometry: ViewGeometry, { station, gates, radials }: PlacedSweep, plane: GridPlane, x: number, y: number, isShown: (hit: SolidHit) => boolean): GateHit | null {
     const box = boxOfSweep(gates, plane);
     const depths = box && depthsWithin(geometry, box, x, y);

@@ -1,5 +1,4 @@
-// What a hand does to a draft: pure functions from a draft to the next one. What is not possible leaves the
-// draft as it is.
+// Edits a draft: pure functions from a draft to the next one. An edit that is not possible leaves the draft as it is.
 
 import { Rgba } from './color_table';
 import { Draft, OpacityPoint, colorAt, mostPoints, perKmAt, roundedPerKm, roundedValue } from './draft';
@@ -9,7 +8,7 @@ export function leastGap(draft: Draft): number {
     return Math.max(0.0005, Math.abs(draft.end - draft.colors[0]!.value) / 500);
 }
 
-// The value nearest to the wanted one that leaves the order of the points.
+// Returns the value nearest to the wanted one that keeps the order of the points.
 function between(points: { value: number }[], first: number, last: number, wanted: number, gap: number): number {
     const low = first > 0 ? points[first - 1]!.value + gap : -Infinity;
     const high = last + 1 < points.length ? points[last + 1]!.value - gap : Infinity;

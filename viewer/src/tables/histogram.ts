@@ -1,10 +1,10 @@
-// How often each value occurs in a grid, from its exact codes. Of a grid whose codes are not all here, it is how
-// often it occurs in what is shown of it from far away, through eight bits.
+// Counts how often each value occurs in a grid, from its exact codes. If these are not all here, counts how
+// often it occurs in what is shown of the grid from far away, through eight bits.
 
 import { Atlas } from '../atlas/atlas';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
-// Of each code of a value how many cells have it. Cells of a brick beyond the grid have no values.
+// Counts the cells of each code of a value. Cells of a brick beyond the grid have no values.
 export function countCodes(grid: PackedGrid, atlas: Pick<Atlas, 'histogram' | 'codeOffset' | 'codeScale'>): Uint32Array {
     const counts = new Uint32Array(grid.codeBytes === 1 ? 256 : 65536);
     if (grid.codes.length === 0) {

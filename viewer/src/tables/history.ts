@@ -15,7 +15,7 @@ export class History<T> {
         if (this.past.length > mostSteps) this.past.shift();
         this.future = [];
     }
-    // What follows is another doing.
+    // Ends a doing, so that the next change is another step.
     rest(): void {
         this.doing = null;
     }

@@ -15,7 +15,7 @@ interface Entry {
     isSolid: boolean;
 }
 
-// What the name of a product says about the values.
+// Moment and unit of the values, by the name of the product.
 const products: Record<string, { moment?: string; unit: string }> = {
     BR: { moment: 'REF', unit: 'dBZ' },
     CR: { moment: 'REF', unit: 'dBZ' },
@@ -27,7 +27,7 @@ const products: Record<string, { moment?: string; unit: string }> = {
     VIL: { unit: 'kg/m2' },
     DVL: { unit: 'kg/m2' },
 };
-// How many of the file's units make one of ours.
+// Number of the file's units that make one of ours, and our unit.
 const fileUnits: Record<string, [number, string]> = {
     KT: [1.943844, 'm/s'],
     KTS: [1.943844, 'm/s'],
@@ -196,7 +196,7 @@ class PalReader {
     }
 }
 
-// The name is that of the file; an empty moment: the table is for none.
+// Reads a table. Its name stays empty, and so does its moment if it is for none. `fileName` is for errors.
 export function readPal(text: string, fileName: string, usual: UsualOpacity): ColorTable {
     const reader = new PalReader(fileName);
     for (const line of text.split('\n')) reader.takeLine(line);
@@ -205,8 +205,8 @@ export function readPal(text: string, fileName: string, usual: UsualOpacity): Co
 
 const productOf: Record<string, string> = { REF: 'BR', VEL: 'BV', RHO: 'CC' };
 
-// A table whose opacity says, as alpha, what share of the usual one it has. Lines blend to the next one, or
-// to their second color where that is another.
+// Writes a table whose alpha is the share that its opacity has of the usual one. A line blends to the next
+// one, or to its second color where that is another.
 export function writePal(table: ColorTable): string {
     const lines = [`; ${table.name.replace(/[^\x20-\x7e]/g, '?')}, for stormcellar frame --colors FILE`];
     lines.push(`Product: ${productOf[table.moment] ?? table.moment}`);

@@ -36,7 +36,7 @@ export function okLabOf([r, g, b]: readonly number[]): [number, number, number] 
     ];
 }
 
-// How different two colors look; 0.02 can just be seen side by side.
+// Returns how different two colors look; 0.02 can just be seen side by side.
 export function colorDistance(one: readonly number[], other: readonly number[]): number {
     const [a, b] = [okLabOf(one), okLabOf(other)];
     return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);

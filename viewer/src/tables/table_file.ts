@@ -1,5 +1,5 @@
-// What a file of a color table says, and the table that it makes: render/colour/colour_file.h has the
-// same rules, so that `stormcellar frame --colors FILE` and the page draw the same.
+// Content of a file of a color table, and the table that it makes. render/colour/colour_file.h has the same
+// rules, so that `stormcellar frame --colors FILE` and the page draw the same.
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.
 
@@ -31,7 +31,7 @@ export interface TableFile {
     points: FilePoint[]; // values rise; at least two, or one of a stepped table
 }
 
-// Where the color bar of a table ends that does not say it: its last class is as long as the one before.
+// Returns the end of the color bar of a table that does not say it: its last class is as long as the one before.
 export function endOf(table: ColorTable): number {
     const [before, last] = table.stops.slice(-2).map(stop => stop.from);
     return last === undefined ? before! + 1 : last + (last - before!);

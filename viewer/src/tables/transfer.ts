@@ -1,5 +1,5 @@
-// A color table prepared for steps through a volume: what a step looks like from one of its ends to
-// the other, as render/volume/transfer_function.h has it (pre-integrated, second order).
+// Prepares a color table for steps through a volume: the look of a step from one of its ends to the other, as
+// render/volume/transfer_function.h has it (pre-integrated, second order).
 
 import { firstValueCode } from '../wire/packed_grid';
 import { ColorTable, colorOf, extinctionPerM } from './color_table';
@@ -12,8 +12,8 @@ export interface Transfer {
     binOffset: number;
     binSlope: number;
     leastVisibleCode: number; // infinite: nothing is visible
-    // Of each pair of bins (the nearer end is the row): red, green, blue (0 to 1) and optical depth of a
-    // step of the reference length.
+    // Four numbers for each pair of bins (the nearer end is the row): red, green, blue (0 to 1) and optical
+    // depth of a step of the reference length.
     entries: Float32Array;
 }
 

@@ -39,7 +39,7 @@ export const quantities = Object.keys(knownUnits) as Quantity[];
 
 export const usualUnits: Units = { speed: knownUnits.speed[0], distance: knownUnits.distance[0], height: knownUnits.height[0] };
 
-// Reads "knots,miles,kft", in any order; what no name is of stays usual, and so does what has no sense.
+// Reads "knots,miles,kft", in any order. A quantity without a name that makes sense has its usual unit.
 export function unitsOf(names: string): Units {
     const given = names.split(',');
     const chosen = (quantity: Quantity) => knownUnits[quantity].find(unit => given.includes(unit.name)) ?? usualUnits[quantity];
@@ -75,8 +75,8 @@ export interface ShownUnit {
     perStored: number; // shown = stored * perStored
 }
 
-// What stands for values that are stored in the unit of a moment: a speed is written in the chosen unit,
-// all others stay.
+// Returns the unit to write for values that are stored in the unit of a moment: the chosen unit for speeds,
+// else the stored one.
 export function shownUnit(stored: string, units: Units): ShownUnit {
     if (stored === usualUnits.speed.symbol) return { symbol: units.speed.symbol, perStored: 1 / units.speed.si };
     return { symbol: stored === '1' ? '' : stored, perStored: 1 };
@@ -89,7 +89,7 @@ export function valueText(value: number, stored: string, units: Units, digits = 
     return symbol === '' ? String(number) : `${number} ${symbol}`;
 }
 
-// How far apart rings of distance are so that about three fit into `halfM`.
+// Returns the distance between rings, so that about three fit into `halfM`.
 export function ringSpacingM(halfM: number, units: Units): number {
     const wanted = (halfM / 3) * 0.7;
     const steps = [10, 25, 50, 100, 200, 500, 1000].map(number => number * units.distance.si);

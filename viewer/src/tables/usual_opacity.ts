@@ -1,4 +1,4 @@
-// How opaque echo of a moment is where a table does not say it: default_extinction() of
+// Opacity of echo of a moment where a table does not say it: default_extinction() of
 // render/colour/built_in_tables.h, from the tables of the server.
 
 import { ColorTable, ExtinctionPoint, colorOf } from './color_table';
@@ -37,7 +37,7 @@ export function rising(lowest: number, end: number): ExtinctionPoint[] {
     ];
 }
 
-// What is transparent in the table is so in a volume too.
+// Multiplies by the table's alpha, so that what is transparent in the table is so in a volume, too.
 export function fadedByAlpha(points: ExtinctionPoint[], table: ColorTable): ExtinctionPoint[] {
     const lowest = table.stops[0]!.from;
     return points.map(({ value, per_km }) => ({

@@ -1,12 +1,12 @@
-// Which of the grids that the page keeps are old once one was made again.
+// Finds the grids that the page keeps and that are old once one was made again.
 //
 // Their keys are DOMAIN/MOMENT/TIME, and times are rising texts of ISO 8601.
 
 import { longestBridgeMs } from './between';
 
-// Old are the grid of `of` (DOMAIN/MOMENT) at the time, frames between it and its neighbors among `times` (without
-// times: as far as frames are made), and regions, which are merged of it. Of the region that is shown (`shown`) the page
-// knows which of its instants are new.
+// Returns a test that is true for old keys: the grid of `of` (DOMAIN/MOMENT) at the time, frames between it
+// and its neighbors among `times` (without times: as far as frames are made), and regions, which are merged of
+// it. The region that is shown (`shown`) is left out, because the page knows which of its instants are new.
 export function outdatedBy(of: string, time: string, times: string[], shown: string): (key: string) => boolean {
     const far = (ms: number) => (times.length > 0 ? time : new Date(Date.parse(time) + ms).toISOString());
     const before = times.filter(one => one < time).pop() ?? far(-longestBridgeMs);

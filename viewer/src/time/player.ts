@@ -1,4 +1,4 @@
-// Which time is shown next. Playback never shows a time that is not loaded: it waits, and says so.
+// Chooses the time that is shown next. Playback never shows a time that is not loaded: it waits, and says so.
 
 export interface PlayerState {
     times: string[]; // rising
@@ -16,7 +16,8 @@ export interface Loop {
 
 export const stopped: PlayerState = { times: [], at: -1, isPlaying: false, follows: true, loop: null };
 
-// Takes a new list, of which the time at `newest` is followed. The time that is shown stays, or gives way to the nearest.
+// Takes a new list, of which the time at `newest` is followed. The time that is shown stays, or gives way to
+// the nearest.
 export function withTimes(player: PlayerState, times: string[], newest = times.length - 1): PlayerState {
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
@@ -43,7 +44,7 @@ export function stepped(player: PlayerState, by: number): PlayerState {
     return { ...at(player, player.at + by), isPlaying: false };
 }
 
-// The next one that is played, from the end of the loop its beginning; none of fewer than two.
+// Returns the index that is played next, after the end of the loop its beginning; null for fewer than two times.
 export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null {
     const first = loop ? times.findIndex(time => time >= loop.from) : 0;
     const last = loop ? times.reduce((found, time, i) => (time <= loop.to ? i : found), -1) : times.length - 1;

@@ -54,7 +54,7 @@ export interface PackedGrid extends GridPlace {
     isProvisional: boolean;
     levelsM: Float64Array;
     sites: Site[];
-    // Of each brick, z fastest, then y, then x.
+    // One entry for each brick, z fastest, then y, then x.
     kind: Uint8Array;
     state: Uint8Array;
     valueCount: Uint16Array;
@@ -164,7 +164,7 @@ class Header {
             offsetCells: [this.f64(88), this.f64(96)],
         };
     }
-    // The section of the blocks of states or of codes; its offset stands at `offsetAt`.
+    // Returns the section of the blocks of states or of codes, whose offset is at `offsetAt`.
     section(offsetAt: number, size: number): Uint8Array {
         if (size === 0) return new Uint8Array(0);
         const from = this.big(offsetAt);
@@ -195,7 +195,7 @@ function readTable(header: Header, grid: PackedGrid): void {
     }
 }
 
-// What the header says, before the rest is read.
+// Reads the place of a grid from the header, before the rest is read.
 export function readPlace(bytes: Uint8Array): GridPlace {
     return new Header(bytes).place;
 }
@@ -251,8 +251,8 @@ export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole:
     return { grid, isWhole };
 }
 
-// Puts the codes of values alone into the cells that have them, whose states stand beside. Each code is
-// told by its difference from the one before it.
+// Puts the codes of values alone into the cells that have them, by the states of these. Each code is stored
+// as its difference from the one before it.
 function spreadValues(header: Header, grid: PackedGrid): void {
     const { cells } = header;
     const states = header.section(232, (header.u32(188) * cells) / 4);

@@ -1,4 +1,4 @@
-// Which ranges of bricks are asked for, so that few requests fetch many columns.
+// Chooses the ranges of bricks to ask for, so that few requests fetch many columns.
 
 export interface BrickRange {
     first: number;

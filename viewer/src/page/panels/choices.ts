@@ -21,7 +21,7 @@ function putChoices(app: App): void {
     putMoment(app);
 }
 
-// What is lit is what is drawn; another one is on its way until then.
+// Lights the button of the moment that is drawn; another moment that was chosen is busy until it comes.
 function putMoment({ state, shown, domain }: App): void {
     const drawn = shown?.domain === state.domain ? shown.moment : '';
     for (const { moment } of domain?.moments ?? []) {
@@ -48,7 +48,7 @@ function putTitle(app: App): void {
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
-// What is wrong with the server, the radars, or what was asked for. It stays until it is over.
+// Shows what is wrong with the server, the radars, or what was asked for, until it is over.
 function putNotice(app: App): void {
     const sites = app.shown?.loaded.grid.sites.map(site => site.icao) ?? [];
     const silent = sites.flatMap(site => {
@@ -66,7 +66,7 @@ function putNotice(app: App): void {
     element('follow').textContent = isLive ? texts.live : texts.latest;
 }
 
-// When each site of a region was seen, and why others are not in the picture.
+// Tells when each site of a region was seen, and why others are not in the picture.
 function putSites(app: App, { sites }: FactsOfShown): void {
     const box = element('sites-told');
     const { shown } = app;

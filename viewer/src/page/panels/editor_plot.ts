@@ -23,7 +23,7 @@ export interface PlotContent {
     unit: ShownUnit;
     selected: Selection;
 }
-// What hands do, in values of the axes.
+// Actions of the user on points, in values of the axes.
 export interface PlotActions {
     select(selection: Selection): void;
     move(selection: Selection, value: number, perKm: number | null, doing: string): void;

@@ -1,4 +1,4 @@
-// What is under the pointer, beside it: value, height, beam, age and stated error.
+// Shows beside the pointer what is under it: value, height, beam, time and stated error.
 
 import { beamReading, beamWidthM, nearestTo } from '../../fields/beam_reading';
 import { GateHit } from '../../scene/solid_hits';
@@ -28,7 +28,7 @@ export class Hover {
 
     begin(): void {
         for (const happening of ['choices', 'camera', 'map'] as const) this.app.on(happening, () => this.hide());
-        // What is read is what is drawn, not what will be.
+        // Each new picture is read again, because the box tells what is drawn, not what will be.
         this.drawing.pictureChanged.push(() => this.timer === 0 && this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
@@ -67,14 +67,14 @@ export class Hover {
         box.style.top = `${Math.max(4, y + 14 + height < window.innerHeight ? y + 14 : y - 14 - height)}px`;
     }
 
-    // The beam, the time and the error come once the server has told them.
+    // Calls `again` once the server has told the beam, the time and the error.
     whenTold(again: () => void): void {
         const isRegional = isRegion(this.app.shown?.domain ?? '');
         if (isRegional ? this.facts.sites : this.facts.known) return;
         (isRegional ? this.facts.askSites() : this.facts.ask()).then(again, () => undefined);
     }
 
-    // What is told of a place: its value, from which layer, which beam saw it and when, and the stated error.
+    // Returns what is told of a place: its value, from which layer, which beam saw it and when, and the stated error.
     lines(picked: Picked): string[] {
         const { app } = this;
         const { units } = app.state;
@@ -96,7 +96,7 @@ export class Hover {
         return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, from) : from)];
     }
 
-    // No age: what is read may stay on the page.
+    // Tells no age, because what is read may stay on the page.
     private when(timeMs: number): string {
         return texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
     }
@@ -107,7 +107,7 @@ export class Hover {
         return state === CellState.notSeen ? [beam] : [beam, this.when(timeMs)];
     }
 
-    // A grid that does not name its sweeps may be of a tilt that no beam had: only the way `from` the site is told.
+    // If the grid does not name its sweeps, maybe no beam had this elevation, so tells only the way `from` the site.
     private beamLines(picked: Picked, from: string[]): string[] {
         const { units } = this.app.state;
         const { grid } = this.app.shown!.loaded;

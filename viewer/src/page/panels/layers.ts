@@ -225,13 +225,13 @@ export class LayersPanel {
     private drawSection(): void {
         this.draw(SectionTool, words.dragSection);
     }
-    // What is to be done stands below the picture until it is done.
+    // Begins a tool, and shows its hint below the picture until it ends.
     private draw(Kind: typeof SectionTool | typeof CropTool, hint: string): void {
         const says = element('tool-says');
         this.pointers.use(new Kind(this.app, this.drawing, () => this.pointers.use(null), () => says.replaceChildren()));
         says.textContent = hint;
     }
-    // From the side on which A is at the left.
+    // Looks at the section from the side on which A is at the left.
     private lookAtSection(): void {
         const { section } = this.layers;
         const { shown, state } = this.app;
@@ -256,7 +256,7 @@ export class LayersPanel {
     private toggleSweep(): void {
         this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestSweepDeg : null, sweepNumber: null });
     }
-    // The one that pictures take of its elevation is so in every volume; another one is named by its number.
+    // Pictures take one cut of an elevation in every volume. Names a cut by its number only if it is another one.
     private chooseCut(number: number): void {
         const row = this.drawing.layers!.sweepRows()?.find(one => one.sweep === number);
         if (!row) return;
@@ -270,7 +270,7 @@ export class LayersPanel {
     private drawCrop(): void {
         this.draw(CropTool, words.dragCrop);
     }
-    // A side stays beside the one opposite.
+    // Moves a side of the box, but not past the one opposite.
     private slideCrop(side: keyof Crop, value: number): void {
         const crop = { ...this.layers.crop!, [side]: value };
         for (const [low, high] of [['westM', 'eastM'], ['southM', 'northM'], ['bottomM', 'topM']] as const) {

@@ -1,4 +1,4 @@
-// What the shades of the ground and of layers mean, and how much higher the picture is than the earth.
+// Explains the shades of the ground and of layers, and how much higher the picture is than the earth.
 
 import { veilsFolded } from '../../scene/layers';
 import { shades } from '../../renderer/shades';
@@ -14,7 +14,7 @@ interface Row {
     isHatched?: boolean;
 }
 
-// Of what is drawn: another moment may be on its way.
+// Lists the shades of what is drawn: another moment may be on its way.
 function rowsOf({ state, shown, shownTable: table }: App): Row[] {
     const { layers, hasGround, exaggeration } = state;
     const rows: Row[] = [];

@@ -1,4 +1,4 @@
-// How the volume is shown: colors, threshold, opacity, heights, and from where.
+// The settings of how the volume is shown: colors, threshold, opacity, heights, and from where.
 
 import { valueText } from '../../tables/units';
 import { usualRungs } from '../../renderer/ladder';
@@ -49,7 +49,7 @@ function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     slider('exaggeration', value => (app.state.exaggeration = value));
 }
 
-// Which way of drawing is taken: as time allows, or one of the ladder.
+// Adds the choice of a way of drawing: as time allows, or one of the ladder.
 function addQuality(app: App): void {
     const select = element<HTMLSelectElement>('quality');
     const option = (value: string, text: string) => {

@@ -29,7 +29,7 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
     const [from, to] = [Math.min(table.bar_begin, ...values), Math.max(table.end, ...values)];
     const x = (value: number) => left + ((value - from) / (to - from)) * (width - left - 8);
     const y = (heightM: number) => height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
-    // What no beam saw is hatched by its gray; the rest is where there may be no echo.
+    // A level is gray if no beam saw it, purple if range folded, else dark; a value is a bar in its color.
     for (let i = 0; i < levels.length; ++i) {
         const [below, above] = [levels[i - 1] ?? levels[i]!, levels[i + 1] ?? levels[i]!].map(one => y((one.heightM + levels[i]!.heightM) / 2));
         pen.fillStyle = levels[i]!.code === 0 ? 'rgba(78, 82, 92, 0.55)' : levels[i]!.code === 2 ? 'rgba(124, 74, 140, 0.6)' : 'rgba(40, 44, 50, 0.9)';

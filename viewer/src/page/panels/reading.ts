@@ -1,4 +1,4 @@
-// The numbers of the column under a click. After another volume came the same place is read again.
+// Shows the numbers of the column under a click. After another volume has come, reads the same place again.
 
 import { ViewGeometry } from '../../camera/geometry';
 import { shades } from '../../renderer/shades';
@@ -154,7 +154,7 @@ export class Reader implements Tool {
         const title = document.createElement('h2');
         title.textContent = texts.place(place.latitudeDeg, place.longitudeDeg);
         const body = document.createElement('div');
-        // What was clicked is of one time; the column is read again of another one.
+        // Tell what was clicked only in the picture of that click, but read the column again at each time.
         const { picked } = this;
         const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
         if (picked?.of === shown) this.pointed.whenTold(() => this.at === at && this.put());

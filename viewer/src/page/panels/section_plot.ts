@@ -15,7 +15,7 @@ const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pix
 const keyStep = 4;
 const hatchPeriod = 9;
 
-// Of a section without a value.
+// Says why a section has no value.
 function nothingIn({ field, inGrid }: Section): string {
     if (!inGrid.includes(1)) return texts.layers.beyond;
     if (field.states.includes(CellState.rangeFolded)) return texts.layers.nothingButFolded;
@@ -27,7 +27,7 @@ function tickStep(range: number, most: number): number {
     return [1, 2, 5, 10].map(step => step * power).find(step => range / step <= most) ?? 10 * power;
 }
 
-// The picture of a section, a pixel for each of its places, as `stormcellar frame --product section` colors it.
+// Colors a section as `stormcellar frame --product section` does, a pixel for each of its places.
 export function sectionPixels(section: Section, table: ColorTable, least: number | null): Uint8ClampedArray {
     const { field, inGrid } = section;
     const { width, height } = field;

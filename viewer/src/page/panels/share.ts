@@ -1,4 +1,4 @@
-// Taking along what is shown: the address, the command that draws the same, the picture, the grid.
+// Lets the user take along what is shown: the address, the command that draws the same, the picture, the grid.
 
 import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
@@ -22,7 +22,7 @@ function copy(app: App, text: string, said: string, ...notes: string[]): void {
     );
 }
 
-// A picture of what is on the screen, or none: with the time and the moment of what is drawn, not of what is coming.
+// Saves a picture of what is on the screen, or none: with the time and moment of what is drawn, not of what comes.
 function save(app: App, drawing: Drawing): void {
     app.say(texts.saving);
     drawing.whenFine(
@@ -39,8 +39,8 @@ function save(app: App, drawing: Drawing): void {
 
 const savedFiles = new Set<string>(); // of commands that were copied
 
-// The raw file of which the grid was made, if it is one: whoever has it needs no cache for the command. A
-// browser lets the page copy only at once, so that it is asked for before.
+// The raw file that the grid was made of, if it is one: whoever has it needs no cache for the command. A
+// browser lets the page copy only at once, so the page asks for the file before.
 class RawFile {
     private of: LoadedGrid | null = null;
     private name = '';
@@ -68,7 +68,7 @@ class RawFile {
     }
 }
 
-// Why no command draws what is shown; empty if one does.
+// Says why no command draws what is shown; empty if one does.
 function whyNoCommand(app: App, drawing: Drawing): string {
     const { shown, state } = app;
     const words = texts.noCommand;
@@ -86,8 +86,8 @@ function whyNoCommand(app: App, drawing: Drawing): string {
     return state.layers.sweepDeg !== null && !drawing.layers?.shownCut() ? words.noSweep : '';
 }
 
-// The command of what is shown: of its time also while the newest is followed, and as large as the page shows it.
-// Colors that no table of the program has are in a file that the command names.
+// Copies the command that draws what is shown: at its time even if the page follows the newest, and as large as
+// the page shows it. If no table of the program has the colors, saves them in a file that the command names.
 function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile: RawFile): void {
     const why = whyNoCommand(app, drawing);
     const size = drawing.geometry();
@@ -112,7 +112,7 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     const askRaw = () => void (element('settings').hidden || raw.ask().catch(() => undefined));
     element('open').addEventListener('click', askRaw);
     app.on('shown', askRaw);
-    // What cannot be said is not offered; a press says why.
+    // Marks the button as disabled if no command draws what is shown; a press says why.
     const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app, drawing) !== ''));
     for (const happening of ['view', 'shown', 'choices', 'cells'] as const) app.on(happening, mark);
     drawing.pictureChanged.push(mark);

@@ -87,8 +87,8 @@ export class ToolsPanel {
         press(id, true);
     }
 
-    // Of a region they are those of its sites; of a frame between volumes, the one before it.
-    // Returns null if the grid is gone, after saying so.
+    // Finds the raw files of the sites of a region, of the volume before a frame between volumes, or of a
+    // grid. Returns null if the server does not tell the facts of the grid, after saying so.
     private async rawFiles(): Promise<RawFile[] | null> {
         const { shown } = this.app;
         if (!shown) return [];
@@ -110,7 +110,7 @@ export class ToolsPanel {
         return named.filter((_, i) => isThere[i]);
     }
 
-    // The raw volumes of which the grid was made, each by its own link; one alone begins at once.
+    // Offers a link to each raw volume that the grid was made of; the download of a single one begins at once.
     private async download(): Promise<void> {
         const loaded = this.app.shown?.loaded ?? null;
         const files = await this.rawFiles().catch(error => (isAbsent(error) ? [] : (this.app.fail(error), null)));

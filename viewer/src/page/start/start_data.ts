@@ -1,4 +1,4 @@
-// What the start map knows of the server: stations, domains, what each sees now, and where it lies.
+// Keeps what the start map knows of the server: stations, domains, what each sees now, and where it lies.
 
 import { circleOf, outlineOf } from '../../map/outline';
 import { StationPlace, stationPlaces } from '../../map/places';
@@ -30,7 +30,7 @@ export class StartData {
 
     constructor(private changed: () => void) {}
 
-    // A grid that is made again keeps its time, so that all that is drawn or `chosen` is asked for anew.
+    // A grid that is made again keeps its time, so asks again for all that is drawn or `chosen`.
     async load(domains: Domain[], chosen: string | null): Promise<void> {
         this.stations = stationPlaces(await stations());
         const known = new Set(this.stations.map(one => one.icao));
@@ -63,18 +63,18 @@ export class StartData {
         return known && StartData.momentOf(known.domain)?.newest === StartData.momentOf(domain)?.newest ? known : undefined;
     }
 
-    // The same of a station, if it is known; else it is asked for.
+    // Returns what is known of a station, and asks for its newest grid if that is not known.
     find(domain: Domain): SeenDomain | null {
         const key = `${domain.domain} ${StartData.momentOf(domain)?.newest ?? ''}`;
         if (!this.known(domain) && !this.asked.has(key)) {
             this.asked.add(key);
             void this.see(domain, true).then(() => this.changed());
         }
-        // Until it is known what is new, what was before is drawn.
+        // Until the newest grid is known, the one before is drawn.
         return this.seen.get(domain.domain) ?? null;
     }
 
-    // The newest time of what can be pictured.
+    // Returns the newest time of what can be pictured; null if there is none.
     static pictureTime(domain: Domain): string | null {
         return domain.moments.find(one => one.moment === pictured)?.newest ?? null;
     }

@@ -15,7 +15,7 @@ interface Kept {
     tries: number;
 }
 
-// What is drawn as the ground: a domain at a time of its newest grid.
+// Composite that is drawn as the ground: of a domain at the time of its newest grid.
 export interface Picture {
     domain: string;
     time: string;
@@ -37,14 +37,14 @@ export class Tiles {
         return `tiles/${encodeURIComponent(domain)}/composite.REF/${encodeURIComponent(time)}/${zoom}/${column}/${row}.png#${id}`;
     }
 
-    // What waits to be loaded is forgotten: another view is drawn.
+    // Begins another view: forgets the tiles that wait to be loaded.
     begin(): void {
         for (const key of this.waiting) this.kept.delete(key);
         this.waiting = [];
         this.lacks = false;
     }
 
-    // Draws a tile, and asks for it. Until it is there, that of the grid before or the part of a coarser one is drawn.
+    // Draws a tile, and asks for it. Until it is there, draws that of the grid before, or the part of a coarser one.
     draw(pen: CanvasRenderingContext2D, picture: Picture, tile: Tile): void {
         const before = this.drawn.get(picture.domain) ?? [];
         if (before[0]?.id !== picture.id) this.drawn.set(picture.domain, [picture, ...before.slice(0, 1)]);
@@ -100,7 +100,7 @@ export class Tiles {
                 });
         }
     }
-    // The browser may keep a tile of a grid that was made again.
+    // Asks the server even if the browser keeps the tile, because its grid may have been made again.
     private async load(path: string, image: HTMLImageElement): Promise<void> {
         const answer = await fetch(address(path), { cache: 'no-cache' });
         if (!answer.ok) throw new Error(answer.statusText);
