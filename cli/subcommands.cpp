@@ -26,7 +26,8 @@ Run set_up_view(CLI::App& command);
 
 namespace {
 
-// stormcellar-first, with which scripts/demo draws its first picture, has frame and synth alone.
+// stormcellar-first, with which scripts/demo draws its first picture, has frame, replay and synth
+// alone.
 constexpr std::array registry{
 #ifndef STORMCELLAR_FIRST
     Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",
@@ -46,9 +47,11 @@ constexpr std::array registry{
                set_up_loop,
                "The command names each damaged grid file on standard error and leaves it out. The "
                "exit status is 0 if at least one frame was written.\n"},
+#endif
     Subcommand{"replay",
                "Replay files into a drop directory as LDM would, in the order of their times",
                set_up_replay},
+#ifndef STORMCELLAR_FIRST
     Subcommand{"serve", "Serve files, or a cache and a catalog, over HTTP until Ctrl-C",
                set_up_serve},
     Subcommand{"status", "Show the status of the running daemon", set_up_status},

@@ -27,8 +27,7 @@ set(STORMCELLAR_COMMON_HEADERS <algorithm> <array> <chrono> <filesystem> <fmt/fo
 set(STORMCELLAR_NO_SOURCE ${PROJECT_BINARY_DIR}/generated/nothing.cpp)
 file(WRITE ${STORMCELLAR_NO_SOURCE} "int main() {}\n")
 
-# Headers are of use only to what is compiled with their options: rooms that compute, rooms that move
-# files and rows, the command line, programs.
+# Headers are of use only to what is compiled with their options: rooms, the command line, programs.
 function(stormcellar_common_headers name)
   target_compile_options(${name} PRIVATE ${ARGN})
   target_link_libraries(${name} PRIVATE fmt::fmt)
@@ -36,10 +35,10 @@ function(stormcellar_common_headers name)
 endfunction()
 add_library(stormcellar_headers STATIC ${STORMCELLAR_NO_SOURCE})
 stormcellar_common_headers(stormcellar_headers)
-add_library(stormcellar_moving_headers STATIC ${STORMCELLAR_NO_SOURCE})
-stormcellar_common_headers(stormcellar_moving_headers ${STORMCELLAR_SHORT_BUILD})
 add_library(stormcellar_command_headers STATIC ${STORMCELLAR_NO_SOURCE})
 stormcellar_common_headers(stormcellar_command_headers ${STORMCELLAR_TEST_BUILD})
+target_link_libraries(stormcellar_command_headers PRIVATE CLI11::CLI11)
+target_precompile_headers(stormcellar_command_headers PRIVATE <CLI/CLI.hpp>)
 add_executable(stormcellar_program_headers ${STORMCELLAR_NO_SOURCE})
 stormcellar_common_headers(stormcellar_program_headers ${STORMCELLAR_TEST_BUILD})
 

@@ -6,17 +6,16 @@ function(stormcellar_batches target)
 endfunction()
 
 # stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]
-#                  [ALONE] [MOVES | BATCHES [SINGLY directory...]])
+#                  [ALONE] [BATCHES [SINGLY directory...]])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
 # Headers are included by their room, as in "stormcellar/level2/volume.h". The headers beside the sources are
 # installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
-# names no other and does not use fmt, so the common precompiled headers are not for it. A room that
-# MOVES files and rows computes little: where everything is built once, it is compiled in batches (see
-# stormcellar_test) and with less optimisation. BATCHES is for rooms that also compute, SINGLY for
-# their directories that do nothing else, which alone have all optimisation there.
+# names no other and does not use fmt, so the common precompiled headers are not for it. Where everything is
+# built once, a room with BATCHES is compiled sixteen files at a time and with less optimisation, but for the
+# directories named by SINGLY, in which it spends its time.
 function(stormcellar_room name)
-  cmake_parse_arguments(ARG "ALONE;BATCHES;MOVES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
+  cmake_parse_arguments(ARG "ALONE;BATCHES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE;SINGLY"
     ${ARGN})
   set(target stormcellar_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
@@ -31,17 +30,12 @@ function(stormcellar_room name)
     # For one release: includes as they were before, "level2/volume.h".
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(STORMCELLAR_PRECOMPILE AND ARG_MOVES)
-    target_compile_options(${target} PRIVATE ${STORMCELLAR_SHORT_BUILD})
-    target_precompile_headers(${target} REUSE_FROM stormcellar_moving_headers)
-  elseif(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
+  if(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
     target_precompile_headers(${target} REUSE_FROM stormcellar_headers)
   endif()
-  if(STORMCELLAR_PRECOMPILE AND (ARG_BATCHES OR ARG_MOVES))
+  if(STORMCELLAR_PRECOMPILE AND ARG_BATCHES)
     stormcellar_batches(${target})
-    if(ARG_BATCHES)
-      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
-    endif()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     foreach(directory IN LISTS ARG_SINGLY)
       set(singly ${ARG_SOURCES})
       list(FILTER singly INCLUDE REGEX "^${directory}/")
@@ -61,8 +55,7 @@ function(stormcellar_room name)
   endif()
 endfunction()
 
-# The rooms are tested as they are released; the tests themselves, and the command line, need not be
-# fast, but built soon.
+# The tests themselves, and the command line, need not be fast, but built soon.
 set(STORMCELLAR_SHORT_BUILD $<$<CONFIG:Release>:-O1>)
 # Under sanitizers what they test is checked for undefined behaviour, they themselves only for memory:
 # GoogleTest's and CLI11's templates take most of the time.

@@ -16,7 +16,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double ticks_per_second = 500;  // a delay has 16 bits, which is 131 s
+constexpr double apng_ticks_per_second = 500;  // a delay has 16 bits, which is 131 s
 constexpr std::uint8_t dispose_none = 0, blend_source = 0, blend_over = 1;
 
 using Bytes = std::vector<std::byte>;
@@ -169,7 +169,7 @@ class ApngEncoder final : public FrameEncoder {
     [[nodiscard]] Bytes frame_control(std::size_t index, std::uint32_t sequence) const {
         const Frame& frame = frames_[index];
         const auto delay =
-            frame_duration(options_, index, index + 1 == frames_.size(), ticks_per_second);
+            frame_duration(options_, index, index + 1 == frames_.size(), apng_ticks_per_second);
         Writer control;
         control.u32(sequence);
         control.u32(static_cast<std::uint32_t>(frame.part.width));
@@ -177,7 +177,7 @@ class ApngEncoder final : public FrameEncoder {
         control.u32(static_cast<std::uint32_t>(frame.part.x));
         control.u32(static_cast<std::uint32_t>(frame.part.y));
         control.u16(static_cast<std::uint32_t>(delay));
-        control.u16(static_cast<std::uint32_t>(ticks_per_second));
+        control.u16(static_cast<std::uint32_t>(apng_ticks_per_second));
         control.u8(dispose_none);
         control.u8(frame.blend);
         return control.take();

@@ -18,7 +18,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr std::size_t most_colours = 255;  // one entry is left for "unchanged"
-constexpr double ticks_per_second = 100;
+constexpr double gif_ticks_per_second = 100;
 // viewers take smaller numbers for "unset" and show the frame slowly
 constexpr std::int64_t shortest_ticks = 2;
 
@@ -153,7 +153,7 @@ class GifEncoder final : public FrameEncoder {
         const Rectangle part = first ? Rectangle{0, 0, width_, height_}
                                      : changed_rectangle(before, indices, width_, height_, 1);
         const auto delay =
-            frame_duration(options_, index, index + 1 == kept_.size(), ticks_per_second);
+            frame_duration(options_, index, index + 1 == kept_.size(), gif_ticks_per_second);
         const GraphicsControlBlock control{DISPOSE_DO_NOT, false,
                                            static_cast<int>(std::max(shortest_ticks, delay)),
                                            first ? NO_TRANSPARENT_COLOR : as_before};

@@ -62,9 +62,10 @@ PixelSize size_of(const grid::GridSpec& spec, const DegreeBox& box) {
 }
 
 // Where the corners of a mesh of pixels are on the grid.
-class Mesh {
+class DegreeMesh {
   public:
-    Mesh(const grid::GridProjection& projection, const DegreeBox& box, PixelSize size, int threads)
+    DegreeMesh(const grid::GridProjection& projection, const DegreeBox& box, PixelSize size,
+               int threads)
         : across_((size.width + mesh_step - 1) / mesh_step + 1),
           down_((size.height + mesh_step - 1) / mesh_step + 1),
           places_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_)) {
@@ -120,7 +121,7 @@ Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec, const FlatFiel
     DegreePicture drawn{box_of(spec, projection), {}};
     const DegreeBox box = drawn.box;
     const PixelSize size = size_of(spec, box);
-    const Mesh mesh(projection, box, size, threads);
+    const DegreeMesh mesh(projection, box, size, threads);
     drawn.image = Image(size.width, size.height, {0, 0, 0, 0});
     for_each_piece(size.height, threads, [&](int y) {
         for (int x = 0; x < size.width; ++x) {
