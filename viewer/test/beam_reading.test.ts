@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { beamReading, beamWidthM } from '../src/fields/beam_reading';
 import { beamAt, beamTo } from '../src/fields/sweep_cone';
-import { destination } from '../src/scene/projection';
+import { destination } from '../src/earth/projection';
 import { GridFacts } from '../src/wire/api';
 
 const site = { latitudeDeg: 35.33, longitudeDeg: -97.28, altitudeM: 389, icao: 'KTLX' };

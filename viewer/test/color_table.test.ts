@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { ColorTable, colorOf, extinctionPerM } from '../src/tables/color_table';
+import { colorOf, extinctionPerM } from '../src/tables/color_table';
+import { ColorTable } from '../src/wire/color_tables';
 
 const table: ColorTable = {
     name: 'a',

@@ -6,7 +6,7 @@ import { fallOf, fallsOf } from '../src/fields/falls';
 import { levelsAbout, maximumField, planeField } from '../src/fields/flat_field';
 import { cutSection, greatestOf } from '../src/fields/section';
 import { Mixer } from '../src/fields/status_rule';
-import { planeOf } from '../src/scene/projection';
+import { planeOf } from '../src/earth/projection';
 import { CellState, codeAt, readPackedGrid, valueOf } from '../src/wire/packed_grid';
 import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 

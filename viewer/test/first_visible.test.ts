@@ -4,7 +4,7 @@ import test from 'node:test';
 import { ViewGeometry, usualCamera } from '../src/camera/geometry';
 import { boxOf } from '../src/scene/grid_box';
 import { firstVisible, mostVisible } from '../src/scene/first_visible';
-import { cellSizeM } from '../src/scene/projection';
+import { cellSizeM } from '../src/earth/projection';
 import { codeAt, firstValueCode, readPackedGrid, valueOf } from '../src/wire/packed_grid';
 import { makeGrid } from './made_grid';
 

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { makeAtlas } from '../src/atlas/atlas';
-import { countCodes, histogramOf } from '../src/tables/histogram';
+import { countCodes, histogramOf } from '../src/atlas/histogram';
 import { codeAt, firstValueCode, readPackedGrid, valueOf } from '../src/wire/packed_grid';
 import { makeGrid } from './made_grid';
 

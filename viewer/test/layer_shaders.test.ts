@@ -5,7 +5,7 @@ import { exposureOf } from '../src/renderer/exposure';
 import { AirVariant, SurfaceVariant, airFragment, airName, drapeFragment, fieldFragment, surfaceFragment, surfaceName, sweepFragment } from '../src/renderer/layer_shaders';
 import { VolumeVariant, variantName, volumeFragment } from '../src/renderer/shaders';
 import { lookCount, lookOver, looksOf } from '../src/tables/looks';
-import { ColorTable } from '../src/tables/color_table';
+import { ColorTable } from '../src/wire/color_tables';
 
 const either = [false, true];
 const plain: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };

@@ -7,7 +7,7 @@ import { CropTool, SectionTool, acrossView } from '../src/page/layer_tools';
 import { TextureShelf } from '../src/renderer/graphics';
 import { boxOf } from '../src/scene/grid_box';
 import { usualLayers } from '../src/scene/layers';
-import { planeOf } from '../src/scene/projection';
+import { planeOf } from '../src/earth/projection';
 import { codeAt, readPackedGrid } from '../src/wire/packed_grid';
 import { evenLevels, packedGrid, scrambled } from './written_grid';
 

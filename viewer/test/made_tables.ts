@@ -1,6 +1,6 @@
 // A table of reflectivity and the moment's usual opacity, small enough to reason about.
 
-import { ColorTable, Rgba } from '../src/tables/color_table';
+import { ColorTable, Rgba } from '../src/wire/color_tables';
 import { usualOpacity } from '../src/tables/usual_opacity';
 
 const black: Rgba = [0, 0, 0, 255];

@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { areaM2, legOf } from '../src/scene/measure';
-import { destination } from '../src/scene/projection';
+import { areaM2, legOf } from '../src/earth/measure';
+import { destination } from '../src/earth/projection';
 
 const place = (latitudeDeg: number, longitudeDeg: number) => ({ latitudeDeg, longitudeDeg });
 

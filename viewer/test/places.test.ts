@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { circleOf, outlineOf } from '../src/map/outline';
 import { isInside, nearestPixel, pixelToward, search, stationPlaces } from '../src/map/places';
-import { geodesic } from '../src/scene/projection';
+import { geodesic } from '../src/earth/projection';
 import { City, GridFacts, Station } from '../src/wire/api';
 
 const made = (station: string, name: string, state: string, latitude_deg: number, longitude_deg: number, moments = ['REF']): Station => ({

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { ProjectionNumber, cellSizeM, destination, geodesic, planeOf } from '../src/scene/projection';
+import { ProjectionNumber, cellSizeM, destination, geodesic, planeOf } from '../src/earth/projection';
 
 const radians = Math.PI / 180;
 const grid = { projection: ProjectionNumber.azimuthalEquidistant as number, centerDeg: [35.3331, -97.2777] as [number, number], parallelsDeg: [30, 45] as [number, number], offsetCells: [0, 0] as [number, number], spacing: 1000, nx: 460, ny: 460 };

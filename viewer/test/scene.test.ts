@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { destination, geodesic, planeOf } from '../src/scene/projection';
+import { destination, geodesic, planeOf } from '../src/earth/projection';
 import { addressOf, commandOf, stateOf, usualState } from '../src/scene/view_state';
 
 // Flinders Peak to Buninyong, the usual example, on WGS84 instead of GRS80 (which changes micrometers).

@@ -6,7 +6,7 @@ import { emptyField } from '../src/fields/flat_field';
 import { cutSection } from '../src/fields/section';
 import { beamAt, radialsByAzimuth } from '../src/fields/sweep_cone';
 import { boxOf } from '../src/scene/grid_box';
-import { destination, planeOf } from '../src/scene/projection';
+import { destination, planeOf } from '../src/earth/projection';
 import { fieldAt, levelHit, sectionHit, sweepHit } from '../src/scene/solid_hits';
 import { CellState, readPackedGrid } from '../src/wire/packed_grid';
 import { PackedSweep } from '../src/wire/packed_sweep';

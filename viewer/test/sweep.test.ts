@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import { cutOf, cutsOf, kindOf, nearestSite } from '../src/fields/sweep_choice';
 import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from '../src/fields/sweep_cone';
-import { planeOf } from '../src/scene/projection';
+import { planeOf } from '../src/earth/projection';
 import { PackedError } from '../src/wire/packed_grid';
 import { readPackedSweep } from '../src/wire/packed_sweep';
 

@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { ColorTable, colorOf, extinctionPerM } from '../src/tables/color_table';
+import { colorOf, extinctionPerM } from '../src/tables/color_table';
+import { ColorTable } from '../src/wire/color_tables';
 import { readPal, writePal } from '../src/tables/pal_file';
 import { TableError, tableOfFile } from '../src/tables/table_file';
 import { readToml, writeToml } from '../src/tables/toml_file';

@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { ColorTable, colorOf, extinctionPerM } from '../src/tables/color_table';
+import { colorOf, extinctionPerM } from '../src/tables/color_table';
+import { ColorTable } from '../src/wire/color_tables';
 import { binCount, makeTransfer } from '../src/tables/transfer';
 import { advanced, at, followed, stopped, withTimes } from '../src/time/player';
 

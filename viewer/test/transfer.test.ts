@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { ColorTable, colorOf, extinctionPerM } from '../src/tables/color_table';
+import { colorOf, extinctionPerM } from '../src/tables/color_table';
+import { ColorTable } from '../src/wire/color_tables';
 import { binCount, chooseBins, makeTransfer } from '../src/tables/transfer';
 
 const stop = (from: number, r: number, g: number) => ({ from, color: [r, g, 0, 255] as [number, number, number, number], until: [r, g, 0, 255] as [number, number, number, number] });

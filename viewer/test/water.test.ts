@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { isCut, mapLines, projected, withoutCuts } from '../src/scene/ground_lines';
-import { planeOf } from '../src/scene/projection';
+import { planeOf } from '../src/earth/projection';
 import { ringsOf } from '../src/scene/water';
 import { MapLine } from '../src/wire/api';
 

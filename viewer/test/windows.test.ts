@@ -9,10 +9,10 @@ import { BrickWindow, boundsAbout, holds, windowAbout, windowQuery, windowSeen }
 import { ViewGeometry, usualCamera } from '../src/camera/geometry';
 import { maximumField, planeField } from '../src/fields/flat_field';
 import { cutSection } from '../src/fields/section';
-import type { LoadedGrid } from '../src/renderer/renderer';
+import type { LoadedGrid } from '../src/atlas/loaded_grid';
 import { firstVisible, wayWithin } from '../src/scene/first_visible';
 import { boxOf, extentOf, placingOf } from '../src/scene/grid_box';
-import { cellSizeM, middleOn, planeOf } from '../src/scene/projection';
+import { cellSizeM, middleOn, planeOf } from '../src/earth/projection';
 import { PackedGrid, readPackedGrid } from '../src/wire/packed_grid';
 import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 

@@ -1,7 +1,7 @@
 // Chooses which window of a grid in parts to ask for (`window` of docs/web/packed-grid.md): all that a view,
 // a line or a ray meets, as fine as it is worth, and no more than there is room for.
 
-import { Plane, cellSizeM } from '../scene/projection';
+import { Plane, cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
 import { Pyramid, mostHalvings } from './pyramid';
 import { Placed, finestPixels, seenColumns } from './view_choice';

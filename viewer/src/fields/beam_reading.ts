@@ -1,6 +1,6 @@
 // Finds the beam that saw a point of a grid, when it did, and what the grid's own audit says of values there.
 
-import { Place, geodesic } from '../scene/projection';
+import { Place, geodesic } from '../earth/projection';
 import { GridFacts, SweepTime } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 import { beamTo } from './sweep_cone';

@@ -2,7 +2,7 @@
 // than 60 km2, by the greatest values of columns (render/view/echo_outline.h). The cells of a halved grid are
 // the greatest of those that they stand for, so areas are estimates: of the 4^n columns of a cell 2^n count.
 
-import { cellSizeM } from '../scene/projection';
+import { cellSizeM } from '../earth/projection';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
 const limits = [

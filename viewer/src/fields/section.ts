@@ -2,7 +2,7 @@
 // bilinear between columns and straight between levels, by the status rule.
 
 import { heightRange } from '../camera/geometry';
-import { Place, Plane, cellSizeM, destination, geodesic, planeOf } from '../scene/projection';
+import { Place, Plane, cellSizeM, destination, geodesic, planeOf } from '../earth/projection';
 import { CellState, PackedGrid, codeAt, valueOf } from '../wire/packed_grid';
 import { FlatField, LevelPair, emptyField, levelsAbout, stateOfCode } from './flat_field';
 import { Mixer, mixingOf } from './status_rule';

@@ -1,6 +1,6 @@
 // Finds the sweep that is meant, and its site.
 
-import { GridPlane, Plane } from '../scene/projection';
+import { GridPlane, Plane } from '../earth/projection';
 import { SweepRow } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 

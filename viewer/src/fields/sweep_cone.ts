@@ -3,7 +3,7 @@
 // A gate is where the beam of the sweep's mean elevation has its slant range: a straight ray over a sphere
 // of 4/3 of the Gaussian earth radius (docs/geometry.md).
 
-import { Plane, GridPlane, Place, destination } from '../scene/projection';
+import { Plane, GridPlane, Place, destination } from '../earth/projection';
 import { PackedSweep } from '../wire/packed_sweep';
 
 const semiMajorM = 6378137;

@@ -3,7 +3,7 @@
 // A point of the map is [x, y] in the square of the earth: x from 0 at 180 degrees west to 1, y from 0 in
 // the north to 1. Longitudes repeat: x + 1 is the same place. Pixels: (0, 0) is the top left corner.
 
-import { Place } from '../scene/projection';
+import { Place } from '../earth/projection';
 
 export type MapPoint = [number, number];
 

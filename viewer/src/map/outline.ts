@@ -1,6 +1,6 @@
 // The border of a grid on the earth.
 
-import { Place, Plane, ProjectionNumber, cellSizeM, destination, planeOf } from '../scene/projection';
+import { Place, Plane, ProjectionNumber, cellSizeM, destination, planeOf } from '../earth/projection';
 import { GridFacts } from '../wire/api';
 
 const pointsOfASide = 16;

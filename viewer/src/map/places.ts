@@ -1,7 +1,7 @@
 // Lists the places of the start map, and finds the one that a pointer, a key or a word means.
 
 import { City, Station } from '../wire/api';
-import { Place, geodesic } from '../scene/projection';
+import { Place, geodesic } from '../earth/projection';
 
 export interface StationPlace extends Place {
     icao: string;

@@ -3,9 +3,9 @@
 
 import { Camera } from '../camera/geometry';
 import { isClearAir } from '../fields/clear_air';
-import { LoadedGrid } from '../renderer/renderer';
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewState, addressOf } from '../scene/view_state';
-import { ColorTable } from '../tables/color_table';
+import { ColorTable } from '../wire/color_tables';
 import { outdatedBy } from '../time/outdated';
 import { PlayerState, advanced, at, looped, stepped, stopped } from '../time/player';
 import { Timeline, toleratedFutureMs } from '../time/timeline';

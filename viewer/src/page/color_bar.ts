@@ -1,6 +1,7 @@
 // The colors with their values, beside the picture.
 
-import { ColorTable, colorOf } from '../tables/color_table';
+import { colorOf } from '../tables/color_table';
+import { ColorTable } from '../wire/color_tables';
 import { ShownUnit } from '../tables/units';
 import { shades } from '../renderer/shades';
 import { fontOf, textScale } from './dom';

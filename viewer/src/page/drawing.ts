@@ -1,10 +1,11 @@
 // Draws the picture: the scene, and over it the names and what a tool marks. Coarser while it moves.
 
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry } from '../camera/geometry';
 import { Governor } from '../renderer/governor';
 import { Rung, rungs, usualRungs } from '../renderer/ladder';
 import { DrawnLayers } from '../renderer/layers';
-import { Frame, LoadedGrid, Renderer } from '../renderer/renderer';
+import { Frame, Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
 import { App } from './app';

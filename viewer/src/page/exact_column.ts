@@ -1,6 +1,6 @@
 // The exact codes of one column, for readings.
 
-import { LoadedGrid } from '../renderer/renderer';
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { packed } from '../wire/api';
 import { PackedGrid, readPackedBricks, withBricks } from '../wire/packed_grid';
 

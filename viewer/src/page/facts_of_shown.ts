@@ -1,7 +1,7 @@
 // Asks the server for its facts of the grid that is shown, until it has answered once. A grid that was made
 // again is another one.
 
-import { LoadedGrid } from '../renderer/renderer';
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { GridFacts, RegionSites, gridFacts, isRegion, regionSites } from '../wire/api';
 import { App } from './app';
 

@@ -1,12 +1,11 @@
 // The map below a grid: lines for the renderer, names for the labels.
 
 import { boxAbout } from '../map/mercator';
-import { MapLines } from '../renderer/line_pass';
 import { Renderer } from '../renderer/renderer';
 import { WaterMask } from '../renderer/water_texture';
 import { boxOf } from '../scene/grid_box';
-import { Mark, cityMarks, mapLines, projected, ringLines } from '../scene/ground_lines';
-import { halfWidthsM, planeOf } from '../scene/projection';
+import { MapLines, Mark, cityMarks, mapLines, projected, ringLines } from '../scene/ground_lines';
+import { halfWidthsM, planeOf } from '../earth/projection';
 import { ringsOf } from '../scene/water';
 import { MapAnswer, map } from '../wire/api';
 import { GridPlace, PackedGrid } from '../wire/packed_grid';

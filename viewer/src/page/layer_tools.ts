@@ -4,7 +4,7 @@ import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
 import { boxOf } from '../scene/grid_box';
 import { Crop } from '../scene/layers';
-import { Place, Plane, planeOf } from '../scene/projection';
+import { Place, Plane, planeOf } from '../earth/projection';
 import { heightText } from '../tables/units';
 import { App } from './app';
 import { fontOf, textScale } from './dom';

@@ -8,7 +8,7 @@ import { brickTexelBytes } from '../atlas/brick_store';
 import { Decoder } from '../atlas/decoder';
 import { Pyramid, levelWithin } from '../atlas/pyramid';
 import { WorkerAnswer } from '../atlas/worker';
-import { LoadedGrid } from '../renderer/renderer';
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { GridPlace, PackedGrid, readPlace } from '../wire/packed_grid';
 import { isRegion, packed, packedBetween } from '../wire/api';
 

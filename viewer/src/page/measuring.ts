@@ -2,8 +2,8 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
-import { areaM2, legOf } from '../scene/measure';
-import { planeOf } from '../scene/projection';
+import { areaM2, legOf } from '../earth/measure';
+import { planeOf } from '../earth/projection';
 import { distanceText, heightText } from '../tables/units';
 import { App } from './app';
 import { fontOf, textScale } from './dom';

@@ -5,7 +5,7 @@ import { ViewGeometry } from '../camera/geometry';
 import { croppedBox, Crop } from '../scene/layers';
 import { firstVisible, mostVisible, wayWithin } from '../scene/first_visible';
 import { Cells, boxOf } from '../scene/grid_box';
-import { Place, Plane, planeOf } from '../scene/projection';
+import { Place, Plane, planeOf } from '../earth/projection';
 import { GateHit, SolidHit, levelHit, sectionHit, sweepHit } from '../scene/solid_hits';
 import { colorOf, extinctionPerM } from '../tables/color_table';
 import { CellState, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';

@@ -1,6 +1,6 @@
 // Reads what the column at a place holds, from the exact codes.
 
-import { cellSizeM } from '../scene/projection';
+import { cellSizeM } from '../earth/projection';
 import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 
 export interface LevelReading {

@@ -1,11 +1,12 @@
 // Fetches what the view needs of a grid that is too large to be loaded as a whole, from the middle of the
 // picture outward. Until then its first halved grid is shown; the finest bricks that are there always are.
 
-import { cellSizeM } from '../scene/projection';
+import { GridInParts, LoadedGrid } from '../atlas/loaded_grid';
+import { cellSizeM } from '../earth/projection';
 import { paintPages } from '../atlas/page_table';
 import { SlotPool, columnKey } from '../atlas/slot_pool';
 import { WantedColumn, wantedColumns } from '../atlas/view_choice';
-import { GridInParts, LoadedGrid, Renderer } from '../renderer/renderer';
+import { Renderer } from '../renderer/renderer';
 import { ViewGeometry } from '../camera/geometry';
 import { isAbsent, packed } from '../wire/api';
 import { BrickRange, rangesOf } from '../wire/ranges';

@@ -1,7 +1,7 @@
 // The color tables that the page knows: those of the server, and what the user made of them.
 
 import { ViewState } from '../scene/view_state';
-import { ColorTable } from '../tables/color_table';
+import { ColorTable } from '../wire/color_tables';
 import { Draft, draftOf, tableOf } from '../tables/draft';
 import { UsualOpacity, usualOpacity } from '../tables/usual_opacity';
 import { Tables } from '../wire/api';

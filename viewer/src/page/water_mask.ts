@@ -1,7 +1,7 @@
 // The share of water of each part of the ground, painted from the rings of coasts and lakes.
 
 import { WaterMask } from '../renderer/water_texture';
-import { Plane } from '../scene/projection';
+import { Plane } from '../earth/projection';
 
 const cellsAcross = 1024;
 const farthest = 1e5; // in cells: what lies farther away is drawn as if it lay there

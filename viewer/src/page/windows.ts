@@ -4,9 +4,9 @@
 import { BrickWindow, WindowLimits, boundsAbout, holds, windowAbout, windowQuery, windowSeen } from '../atlas/window_choice';
 import { Decoder } from '../atlas/decoder';
 import { ViewGeometry } from '../camera/geometry';
-import { GridInParts, LoadedGrid } from '../renderer/renderer';
+import { GridInParts, LoadedGrid } from '../atlas/loaded_grid';
 import { Cells } from '../scene/grid_box';
-import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } from '../scene/projection';
+import { Place, Plane, cellSizeM, destination, geodesic, middleOn, planeOf } from '../earth/projection';
 import { isAbsent, packed } from '../wire/api';
 import { PackedGrid } from '../wire/packed_grid';
 

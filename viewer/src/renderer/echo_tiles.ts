@@ -3,7 +3,7 @@
 
 import { Atlas, blockEdge, blocksABrick, blocksAlong, slotOf } from '../atlas/atlas';
 import { Vec3, ViewGeometry } from '../camera/geometry';
-import { cellSizeM } from '../scene/projection';
+import { cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
 
 // A picture, or a small one of the same view, whose sides need not be whole pixels.

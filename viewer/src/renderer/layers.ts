@@ -1,6 +1,7 @@
 // Draws what stands beside ground and volume: what is solid into a target with its depth, maxima over the
 // ground, veils of air. A layer that is off has no program, no texture and no pass.
 
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { Vec3, ViewGeometry } from '../camera/geometry';
 import { Air, airCellsAcross, airCellsUp } from '../fields/air';
 import { Falls, fallCellsAcross } from '../fields/falls';
@@ -16,7 +17,6 @@ import { drapeFragment, fieldFragment, showSolidsFragment, solidVertex, sweepFra
 import { fullScreenVertex } from './shaders';
 import { shades } from './shades';
 import { SolidTarget } from './solid_target';
-import type { LoadedGrid } from './renderer';
 
 export interface DrawnSweep {
     station: string;

@@ -1,14 +1,10 @@
 // Lines of the map, each segment a strip on the ground as wide as its kind.
 
+import { MapLines } from '../scene/ground_lines';
 import { ViewGeometry } from '../camera/geometry';
 import { Graphics } from './graphics';
 import { lineFragment, lineVertex } from './shaders';
 import { shades } from './shades';
-
-export interface MapLines {
-    kind: 'county' | 'state' | 'lake' | 'country' | 'coast' | 'ring' | 'border';
-    segments: Float32Array; // x, y, x, y in meters from the middle
-}
 
 interface UploadedLines {
     lines: MapLines;

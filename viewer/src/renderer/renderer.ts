@@ -2,12 +2,12 @@
 // lost and is restored.
 
 import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
-import { MadeColumn } from '../atlas/brick_store';
-import { Pyramid } from '../atlas/pyramid';
+import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry, heightRange } from '../camera/geometry';
+import { MapLines } from '../scene/ground_lines';
 import { croppedBox } from '../scene/layers';
-import { cellSizeM } from '../scene/projection';
-import { ColorTable } from '../tables/color_table';
+import { cellSizeM } from '../earth/projection';
+import { ColorTable } from '../wire/color_tables';
 import { Transfer, makeTransfer } from '../tables/transfer';
 import { PackedGrid } from '../wire/packed_grid';
 import { RayView, TilePass, blockEnds, tilesOf } from './echo_tiles';
@@ -15,32 +15,10 @@ import { Exposure } from './exposure';
 import { Graphics } from './graphics';
 import { AirVariant, SurfaceVariant, airFragment, airName, surfaceFragment, surfaceName } from './layer_shaders';
 import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layers';
-import { LinePass, MapLines } from './line_pass';
+import { LinePass } from './line_pass';
 import { VolumeVariant, fullScreenVertex, groundFragment, tileVertex, variantName, volumeFragment } from './shaders';
 import { shades } from './shades';
 import { WaterMask, WaterTexture } from './water_texture';
-
-// Grid with what the graphics processor needs to draw it.
-export interface LoadedGrid {
-    grid: PackedGrid;
-    atlas: Atlas;
-    coverage: Uint8Array; // of a grid in parts: of its first halved grid
-    stream: GridInParts | null;
-}
-
-// Grid of which only the table and a halved grid are there; the rest is fetched as the view needs it. Its
-// atlas is empty at first.
-export interface GridInParts {
-    key: string;
-    domain: string;
-    moment: string;
-    time: string;
-    pyramid: Pyramid;
-    shownOf: Uint8Array; // shown code of each code
-    level: number; // how often the first halved grid was halved
-    first: MadeColumn[]; // all columns of it that have values
-    isClear: boolean; // it shows clear air, if it is of reflectivity
-}
 
 export interface Frame {
     geometry: ViewGeometry;

@@ -4,7 +4,7 @@ import { ViewGeometry } from '../camera/geometry';
 import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
 import { Cells } from './grid_box';
 import { Crop } from './layers';
-import { Plane, cellSizeM } from './projection';
+import { Plane, cellSizeM } from '../earth/projection';
 
 export interface Seen {
     at: Plane; // meters from the middle of the grid

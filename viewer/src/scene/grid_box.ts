@@ -2,7 +2,7 @@
 
 import { Box, heightRange } from '../camera/geometry';
 import { PackedGrid } from '../wire/packed_grid';
-import { Plane, cellSizeM, halfWidthsM } from './projection';
+import { Plane, cellSizeM, halfWidthsM } from '../earth/projection';
 
 export function boxOf(grid: PackedGrid): Box {
     const [halfXM, halfYM] = halfWidthsM(grid);

@@ -1,10 +1,14 @@
 // Lines and cities of the map, on the plane of a grid: what lies within reach of the picture.
 
-import { MapLines } from '../renderer/line_pass';
 import { Units, ringSpacingM } from '../tables/units';
 import { City, MapAnswer, MapLine } from '../wire/api';
 import { Site } from '../wire/packed_grid';
-import { GridPlane, Plane } from './projection';
+import { GridPlane, Plane } from '../earth/projection';
+
+export interface MapLines {
+    kind: 'county' | 'state' | 'lake' | 'country' | 'coast' | 'ring' | 'border';
+    segments: Float32Array; // x, y, x, y in meters from the middle
+}
 
 export interface Mark {
     kind: 'city' | 'site' | 'ring';

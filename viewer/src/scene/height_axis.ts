@@ -2,7 +2,7 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { Unit } from '../tables/units';
-import { Plane } from './projection';
+import { Plane } from '../earth/projection';
 
 export interface HeightAxis {
     foot: [number, number]; // pixels of the picture

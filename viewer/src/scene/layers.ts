@@ -1,6 +1,6 @@
 // Layers that are drawn beside the map, and how: one value, and its part of the address.
 
-import { Place } from './projection';
+import { Place } from '../earth/projection';
 
 // Sides of a box in meters: from the middle of the grid, and above sea level.
 export interface Crop {

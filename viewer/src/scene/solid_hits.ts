@@ -13,7 +13,7 @@ import { PackedSweep } from '../wire/packed_sweep';
 import { depthsWithin } from './first_visible';
 import { Extent } from './grid_box';
 import { Crop } from './layers';
-import { GridPlane, Plane, geodesic } from './projection';
+import { GridPlane, Plane, geodesic } from '../earth/projection';
 
 export interface SolidHit {
     depth: number;

@@ -1,7 +1,7 @@
 // The view of the page as one value, and as the text behind # in its address.
 
 import { Camera, usualCamera } from '../camera/geometry';
-import { geodesic } from './projection';
+import { geodesic } from '../earth/projection';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { PackedGrid } from '../wire/packed_grid';

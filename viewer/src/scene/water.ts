@@ -5,7 +5,7 @@
 // between two tiles.
 
 import { ProjectedLine, isCut } from './ground_lines';
-import { GridPlane, Plane } from './projection';
+import { GridPlane, Plane } from '../earth/projection';
 
 const longestCutDeg = 0.25;
 

@@ -1,26 +1,6 @@
-// Color tables as the server gives them (/api/v1/tables), and what values look like.
+// Colors and opacities of values, by the server's tables.
 
-export type Rgba = [number, number, number, number];
-
-export interface ColorStop {
-    from: number;
-    color: Rgba;
-    until: Rgba;
-}
-export interface ExtinctionPoint {
-    value: number;
-    per_km: number;
-}
-export interface ColorTable {
-    name: string;
-    moment: string;
-    unit: string;
-    stops: ColorStop[];
-    end: number;
-    bar_begin: number;
-    range_folded: Rgba;
-    extinction: ExtinctionPoint[];
-}
+import { ColorTable, Rgba } from '../wire/color_tables';
 
 // The color of a value; null below the first stop.
 export function colorOf(table: ColorTable, value: number): Rgba | null {

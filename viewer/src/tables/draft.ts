@@ -3,7 +3,7 @@
 // Numbers are rounded to what files and addresses hold, so that a table is the same after it was saved.
 // The table that is drawn is the one that its file makes, so that `stormcellar frame` draws the same.
 
-import { ColorTable, ExtinctionPoint, Rgba } from './color_table';
+import { ColorTable, ExtinctionPoint, Rgba } from '../wire/color_tables';
 import { colorDistance, cornersToKeep, mixed } from './simplify';
 import { FilePoint, TableFile, greatestValue, tableOfFile, usualExtinctionOf } from './table_file';
 import { UsualOpacity } from './usual_opacity';

@@ -1,6 +1,6 @@
 // Edits a draft: pure functions from a draft to the next one. An edit that is not possible leaves the draft as it is.
 
-import { Rgba } from './color_table';
+import { Rgba } from '../wire/color_tables';
 import { Draft, OpacityPoint, colorAt, mostPoints, perKmAt, roundedPerKm, roundedValue } from './draft';
 
 // Points of a draft are at least this far apart.

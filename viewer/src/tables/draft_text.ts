@@ -1,7 +1,7 @@
 // A draft as one word of an address: fields between '!', points between '_', and of a point the value and
 // the color or the opacity between '~'.
 
-import { Rgba } from './color_table';
+import { Rgba } from '../wire/color_tables';
 import { ColorPoint, Draft, OpacityPoint, mostPoints, roundedPerKm, roundedValue } from './draft';
 import { colorOfHex, hexOf } from './table_file';
 import { knownMoments } from './toml_file';

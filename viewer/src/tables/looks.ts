@@ -1,6 +1,7 @@
 // A color table by value, for what is drawn flat.
 
-import { ColorTable, colorOf } from './color_table';
+import { colorOf } from './color_table';
+import { ColorTable } from '../wire/color_tables';
 
 // In rows of a texture.
 export const lookColumns = 2048;

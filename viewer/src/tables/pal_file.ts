@@ -3,7 +3,7 @@
 //
 // Errors: a TableError, "FILE:LINE: why".
 
-import { ColorStop, ColorTable, Rgba } from './color_table';
+import { ColorStop, ColorTable, Rgba } from '../wire/color_tables';
 import { TableError, endOf, greatestValue, mostStops, shownWord, usualExtinctionOf, usualFolded } from './table_file';
 import { knownMoments } from './toml_file';
 import { UsualOpacity } from './usual_opacity';

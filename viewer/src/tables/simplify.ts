@@ -1,6 +1,6 @@
 // Lines with fewer corners that are near enough to the given ones.
 
-import { Rgba } from './color_table';
+import { Rgba } from '../wire/color_tables';
 
 // The corners to keep of a line of `count` points, so that `errorAt(first, last, i)` of each point i
 // between two kept neighbors is at most `most` (Douglas and Peucker).

@@ -3,7 +3,7 @@
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.
 
-import { ColorTable, Rgba } from './color_table';
+import { ColorTable, Rgba } from '../wire/color_tables';
 import { UsualOpacity, fadedByAlpha, rising } from './usual_opacity';
 
 export class TableError extends Error {}

@@ -2,7 +2,7 @@
 //
 // Errors: see table_file.ts; of several complaints the one on the earliest line.
 
-import { Rgba } from './color_table';
+import { Rgba } from '../wire/color_tables';
 import { FilePoint, TableError, TableFile, colorOfHex, greatestValue, hexOf, mostStops, shownWord } from './table_file';
 import { TomlArray, TomlTable, TomlValue, readTomlValues } from './toml_values';
 

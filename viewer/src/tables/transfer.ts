@@ -2,7 +2,8 @@
 // render/volume/transfer_function.h has it (pre-integrated, second order).
 
 import { firstValueCode } from '../wire/packed_grid';
-import { ColorTable, colorOf, extinctionPerM } from './color_table';
+import { colorOf, extinctionPerM } from './color_table';
+import { ColorTable } from '../wire/color_tables';
 
 export const binCount = 256;
 const binSlack = 1 / 64;

@@ -1,7 +1,8 @@
 // Opacity of echo of a moment where a table does not say it: default_extinction() of
 // render/colour/built_in_tables.h, from the tables of the server.
 
-import { ColorTable, ExtinctionPoint, colorOf } from './color_table';
+import { colorOf } from './color_table';
+import { ColorTable, ExtinctionPoint } from '../wire/color_tables';
 
 export interface UsualOpacity {
     of(moment: string, lowest: number): ExtinctionPoint[];

@@ -2,7 +2,7 @@
 //
 // Errors: an ApiError with the status and the server's own sentence.
 
-import { ColorTable } from '../tables/color_table';
+import { ColorTable } from './color_tables';
 import { isRegion, sidesOf } from './region';
 
 export { isRegion, regionName } from './region';

@@ -3,7 +3,7 @@
 
 import { OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
 import { withColor, withColorAdded, withColorMoved, withColorRemoved, withOpacityAdded, withOpacityMoved, withOpacityRemoved } from '../../tables/draft_edits';
-import { countCodes, histogramOf } from '../../tables/histogram';
+import { countCodes, histogramOf } from '../../atlas/histogram';
 import { TableError, colorOfHex, hexOf, mostFileBytes } from '../../tables/table_file';
 import { shownUnit } from '../../tables/units';
 import { App, Shown } from '../app';

@@ -2,7 +2,8 @@
 // take hold of: the points of color and of opacity, and the threshold.
 
 import { shades } from '../../renderer/shades';
-import { ColorTable, colorOf, extinctionPerM } from '../../tables/color_table';
+import { colorOf, extinctionPerM } from '../../tables/color_table';
+import { ColorTable } from '../../wire/color_tables';
 import { Draft, OpacityPoint } from '../../tables/draft';
 import { ShownUnit } from '../../tables/units';
 import { stepOf } from '../color_bar';

@@ -2,7 +2,7 @@
 
 import { cutsOf, isChosen } from '../../fields/sweep_choice';
 import { Crop, Layers, isBelow, sectionOf, sectionText, toggledFolded, veilsFolded } from '../../scene/layers';
-import { planeOf } from '../../scene/projection';
+import { planeOf } from '../../earth/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
 import { button, element, leaveByEscape, putOptions } from '../dom';

@@ -2,7 +2,7 @@
 
 import { ViewGeometry } from '../../camera/geometry';
 import { shades } from '../../renderer/shades';
-import { Plane, planeOf } from '../../scene/projection';
+import { Plane, planeOf } from '../../earth/projection';
 import { Units, heightNumber, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App, Shown } from '../app';

@@ -3,7 +3,7 @@
 import { Section, cutSection, greatestOf } from '../../fields/section';
 import { shades } from '../../renderer/shades';
 import { lookOver, looksOf } from '../../tables/looks';
-import { ColorTable } from '../../tables/color_table';
+import { ColorTable } from '../../wire/color_tables';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';

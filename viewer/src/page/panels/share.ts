@@ -3,7 +3,7 @@
 import { beyondCommand } from '../../scene/layers';
 import { isPrintable } from '../../scene/shell';
 import { commandOf, isBeyondLimits, isUsualGrid } from '../../scene/view_state';
-import { LoadedGrid } from '../../renderer/renderer';
+import { LoadedGrid } from '../../atlas/loaded_grid';
 import { address, gridPath, isRegion, rawAt } from '../../wire/api';
 import { App } from '../app';
 import { button, element, saveFile } from '../dom';

@@ -1,6 +1,6 @@
 // Tools that the pointer has: distances, areas, a flight; and the raw volumes of what is shown.
 
-import { LoadedGrid } from '../../renderer/renderer';
+import { LoadedGrid } from '../../atlas/loaded_grid';
 import { domains, hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
 import { button, element, press } from '../dom';

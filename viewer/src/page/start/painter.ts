@@ -4,7 +4,7 @@ import { MapView, Tile, mapPoint, nearestCopy, pixelOf, tilesOf } from '../../ma
 import { Pixel, StationPlace } from '../../map/places';
 import { shades } from '../../renderer/shades';
 import { withoutCuts } from '../../scene/ground_lines';
-import { Place } from '../../scene/projection';
+import { Place } from '../../earth/projection';
 import { isAhead } from '../../time/timeline';
 import { City, MapAnswer } from '../../wire/api';
 import { fontOf, textScale } from '../dom';

@@ -2,7 +2,7 @@
 
 import { circleOf, outlineOf } from '../../map/outline';
 import { StationPlace, stationPlaces } from '../../map/places';
-import { geodesic } from '../../scene/projection';
+import { geodesic } from '../../earth/projection';
 import { isAhead } from '../../time/timeline';
 import { Domain, GridFacts, gridFacts, stations } from '../../wire/api';
 import { Outline } from './painter';

@@ -1,7 +1,7 @@
 // Counts how often each value occurs in a grid, from its exact codes. If these are not all here, counts how
 // often it occurs in what is shown of the grid from far away, through eight bits.
 
-import { Atlas } from '../atlas/atlas';
+import { Atlas } from './atlas';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
 // Counts the cells of each code of a value. Cells of a brick beyond the grid have no values.

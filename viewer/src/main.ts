@@ -1,29 +1,29 @@
 // Puts the page together.
 
-import { App } from './app';
-import { addCompass } from './compass';
-import { element } from './dom';
-import { Drawing } from './drawing';
-import { FactsOfShown } from './facts_of_shown';
-import { Keys } from './keys';
-import { Live } from './live';
-import { stateOf } from '../scene/view_state';
-import { Budget, Loader } from './loader';
-import { addChoices } from './panels/choices';
-import { addEditor } from './panels/edit_colors';
-import { Hover } from './panels/hover';
-import { LayersPanel } from './panels/layers';
-import { addLegend } from './panels/legend';
-import { addLook } from './panels/look';
-import { Reader } from './panels/reading';
-import { addShare } from './panels/share';
-import { addTimeline } from './panels/timeline';
-import { ToolsPanel } from './panels/tools';
-import { addUnits } from './panels/units';
-import { Pointers } from './pointers';
-import { StartMap } from './start/start_map';
-import { TableEditing } from './table_editing';
-import { texts } from './texts';
+import { App } from './page/app';
+import { addCompass } from './page/compass';
+import { element } from './page/dom';
+import { Drawing } from './page/drawing';
+import { FactsOfShown } from './page/facts_of_shown';
+import { Keys } from './page/keys';
+import { Live } from './page/live';
+import { stateOf } from './scene/view_state';
+import { Budget, Loader } from './page/loader';
+import { addChoices } from './page/panels/choices';
+import { addEditor } from './page/panels/edit_colors';
+import { Hover } from './page/panels/hover';
+import { LayersPanel } from './page/panels/layers';
+import { addLegend } from './page/panels/legend';
+import { addLook } from './page/panels/look';
+import { Reader } from './page/panels/reading';
+import { addShare } from './page/panels/share';
+import { addTimeline } from './page/panels/timeline';
+import { ToolsPanel } from './page/panels/tools';
+import { addUnits } from './page/panels/units';
+import { Pointers } from './page/pointers';
+import { StartMap } from './page/start/start_map';
+import { TableEditing } from './page/table_editing';
+import { texts } from './page/texts';
 
 async function begin(): Promise<void> {
     const drawing = new Drawing();
