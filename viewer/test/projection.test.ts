@@ -1,10 +1,11 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { ProjectionNumber, cellSizeM, destination, geodesic, planeOf } from '../src/earth/projection';
+import { cellSizeM, destination, geodesic, planeOf } from '../src/earth/projection';
+import { projections } from '../src/facts';
 
 const radians = Math.PI / 180;
-const grid = { projection: ProjectionNumber.azimuthalEquidistant as number, centerDeg: [35.3331, -97.2777] as [number, number], parallelsDeg: [30, 45] as [number, number], offsetCells: [0, 0] as [number, number], spacing: 1000, nx: 460, ny: 460 };
+const grid = { projection: projections.azimuthal_equidistant as number, centerDeg: [35.3331, -97.2777] as [number, number], parallelsDeg: [30, 45] as [number, number], offsetCells: [0, 0] as [number, number], spacing: 1000, nx: 460, ny: 460 };
 
 test('a geodesic has the length of the meridian and of the equator', () => {
     // WGS84: a quarter of a meridian is 10,001,965.729 m.
@@ -39,7 +40,7 @@ test('an offset moves the center out of the middle', () => {
 });
 
 test('a conic is true to scale along its parallels', () => {
-    const plane = planeOf({ ...grid, projection: ProjectionNumber.lambertConformal, centerDeg: [38, -97], parallelsDeg: [30, 45] });
+    const plane = planeOf({ ...grid, projection: projections.lambert_conformal, centerDeg: [38, -97], parallelsDeg: [30, 45] });
     for (const latitudeDeg of [30, 45]) {
         const [a, b] = [-97, -96.999].map(longitudeDeg => plane.toPlane({ latitudeDeg, longitudeDeg })!) as [[number, number], [number, number]];
         const along = geodesic({ latitudeDeg, longitudeDeg: -97 }, { latitudeDeg, longitudeDeg: -96.999 }).distanceM;
@@ -48,7 +49,7 @@ test('a conic is true to scale along its parallels', () => {
 });
 
 test('cells of degrees have the meters of the center', () => {
-    const [east, north] = cellSizeM({ ...grid, projection: ProjectionNumber.latitudeLongitude, centerDeg: [0, 0], spacing: 0.01 });
+    const [east, north] = cellSizeM({ ...grid, projection: projections.latitude_longitude, centerDeg: [0, 0], spacing: 0.01 });
     assert(Math.abs(east - 6378137 * 0.01 * radians) < 1e-6);
     assert(Math.abs(north - 6378137 * (1 - 0.00669437999014) * 0.01 * radians) < 1e-5);
 });

@@ -4,6 +4,7 @@
 // Lambert conformal conic of the ellipsoid (Snyder 1987, pp 107-109), and latitude and longitude with
 // the meters at the center, as the pictures have it.
 
+import { projections } from '../facts';
 import { GridPlace } from '../wire/packed_grid';
 
 const a = 6378137;
@@ -153,15 +154,9 @@ function lambert(center: Place, parallelsDeg: [number, number]): GridPlane {
     };
 }
 
-export const enum ProjectionNumber {
-    azimuthalEquidistant = 0,
-    latitudeLongitude = 1,
-    lambertConformal = 2,
-}
-
 // Widths of a cell to the east and to the north, in drawn meters.
 export function cellSizeM(grid: GridPlace): [number, number] {
-    if (grid.projection !== ProjectionNumber.latitudeLongitude) return [grid.spacing, grid.spacing];
+    if (grid.projection !== projections.latitude_longitude) return [grid.spacing, grid.spacing];
     const [east, north] = metersOfADegree(grid.centerDeg[0]);
     return [grid.spacing * east, grid.spacing * north];
 }
@@ -172,15 +167,23 @@ export function halfWidthsM(grid: GridPlace): [number, number] {
     return [0.5 * grid.nx * width, 0.5 * grid.ny * height];
 }
 
+function projected({ projection, parallelsDeg }: GridPlace, center: Place): GridPlane {
+    switch (projection) {
+        case projections.azimuthal_equidistant:
+            return azimuthalEquidistant(center);
+        case projections.latitude_longitude:
+            return latitudeLongitude(center);
+        case projections.lambert_conformal:
+            return lambert(center, parallelsDeg);
+        default:
+            throw new Error(`${projection}: no such projection`);
+    }
+}
+
 // The plane has its origin in the middle of the grid, which may lie off its center.
 export function planeOf(grid: GridPlace): GridPlane {
     const center: Place = { latitudeDeg: grid.centerDeg[0], longitudeDeg: grid.centerDeg[1] };
-    const own =
-        grid.projection === ProjectionNumber.latitudeLongitude
-            ? latitudeLongitude(center)
-            : grid.projection === ProjectionNumber.lambertConformal
-              ? lambert(center, grid.parallelsDeg)
-              : azimuthalEquidistant(center);
+    const own = projected(grid, center);
     const [width, height] = cellSizeM(grid);
     const [dx, dy] = [grid.offsetCells[0] * width, grid.offsetCells[1] * height];
     return {

@@ -5,13 +5,14 @@
 // outweighs the values; else it is the mean of the values alone. The phase is averaged on its circle. For
 // velocities the value that weighs most counts, because a grid does not tell their circle.
 
+import { moments } from '../facts';
 import { CellState } from '../wire/packed_grid';
 
 export type Mixing = 'mean' | 'heaviest' | 'circle';
 
 export function mixingOf(moment: string): Mixing {
-    if (moment === 'VEL') return 'heaviest';
-    return moment === 'PHI' ? 'circle' : 'mean';
+    if (!(moment in moments)) throw new Error(`${moment}: no such moment`);
+    return moments[moment as keyof typeof moments].mixing;
 }
 
 const circle = 360;

@@ -1,20 +1,20 @@
 // The border of a grid on the earth.
 
-import { Place, Plane, ProjectionNumber, cellSizeM, destination, planeOf } from '../earth/projection';
+import { projections } from '../facts';
+import { Place, Plane, cellSizeM, destination, planeOf } from '../earth/projection';
 import { GridFacts } from '../wire/api';
 
 const pointsOfASide = 16;
 const pointsOfACircle = 72;
 
-const projections: Record<string, ProjectionNumber> = {
-    azimuthal_equidistant: ProjectionNumber.azimuthalEquidistant,
-    latitude_longitude: ProjectionNumber.latitudeLongitude,
-    lambert_conformal: ProjectionNumber.lambertConformal,
-};
+function projectionNamed(name: string): number {
+    if (!(name in projections)) throw new Error(`${name}: no such projection`);
+    return projections[name as keyof typeof projections];
+}
 
 function geometryOf(facts: GridFacts): Parameters<typeof planeOf>[0] {
     return {
-        projection: projections[facts.projection] ?? ProjectionNumber.azimuthalEquidistant,
+        projection: projectionNamed(facts.projection),
         centerDeg: facts.center,
         parallelsDeg: facts.parallels_deg ?? [0, 0],
         offsetCells: facts.offset_cells,

@@ -2,11 +2,13 @@
 //
 // Errors: see table_file.ts; of several complaints the one on the earliest line.
 
+import { moments } from '../facts';
 import { Rgba } from '../wire/color_tables';
 import { FilePoint, TableError, TableFile, colorOfHex, greatestValue, hexOf, mostStops, shownWord } from './table_file';
 import { TomlArray, TomlTable, TomlValue, readTomlValues } from './toml_values';
 
-export const knownMoments: Record<string, string> = { REF: 'dBZ', VEL: 'm/s', SW: 'm/s', ZDR: 'dB', PHI: 'degree', RHO: '', CFP: 'dB' };
+// Moments by name, with the unit that a file of colors writes: none for a number.
+export const knownMoments: Record<string, string> = Object.fromEntries(Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]));
 
 class TomlColors {
     private complaints: { line: number; why: string }[] = [];

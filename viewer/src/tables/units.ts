@@ -1,40 +1,20 @@
-// The units in which the page writes speeds, distances and heights, as render/view/units.cpp has them
-// for pictures. They change texts and the distances of rings, never what is drawn or stored: that is in
-// meters and meters per second everywhere. Temperatures do not occur.
+// The units in which the page writes speeds, distances and heights (render/view/units.cpp has the same table).
+// They change texts and the distances of rings, never what is drawn or stored: that is in meters and meters per
+// second everywhere. Temperatures do not occur.
+
+import { units as facts } from '../facts';
 
 export interface Unit {
     name: string; // on the command line and in addresses
     symbol: string; // on the page
     si: number; // one of it in meters, or in meters per second
-    digits: number; // behind the point, of a height or a distance
 }
 
-const foot = 0.3048;
-const mile = 5280 * foot;
-const nauticalMile = 1852;
-
-export type Quantity = 'speed' | 'distance' | 'height';
+export type Quantity = keyof typeof facts;
 export type Units = Record<Quantity, Unit>;
 
 // The usual one comes first.
-export const knownUnits: Record<Quantity, readonly [Unit, ...Unit[]]> = {
-    speed: [
-        { name: 'm/s', symbol: 'm/s', si: 1, digits: 1 },
-        { name: 'knots', symbol: 'kt', si: nauticalMile / 3600, digits: 1 },
-        { name: 'mph', symbol: 'mph', si: mile / 3600, digits: 1 },
-        { name: 'km/h', symbol: 'km/h', si: 1 / 3.6, digits: 1 },
-    ],
-    distance: [
-        { name: 'km', symbol: 'km', si: 1000, digits: 1 },
-        { name: 'miles', symbol: 'mi', si: mile, digits: 1 },
-        { name: 'nautical-miles', symbol: 'nmi', si: nauticalMile, digits: 1 },
-    ],
-    height: [
-        { name: 'km', symbol: 'km', si: 1000, digits: 1 },
-        { name: 'kft', symbol: 'kft', si: 1000 * foot, digits: 1 },
-        { name: 'feet', symbol: 'ft', si: foot, digits: -2 },
-    ],
-};
+export const knownUnits: Record<Quantity, readonly [Unit, ...Unit[]]> = facts;
 export const quantities = Object.keys(knownUnits) as Quantity[];
 
 export const usualUnits: Units = { speed: knownUnits.speed[0], distance: knownUnits.distance[0], height: knownUnits.height[0] };
@@ -54,20 +34,20 @@ export function namesOf(units: Units): string {
         .join(',');
 }
 
-function rounded(value: number, digits: number): string {
-    const power = 10 ** digits;
-    return digits >= 0 ? value.toFixed(digits) : String(Math.round(value * power) / power);
+// Feet to a hundred of them, all other units to a tenth.
+function rounded(meters: number, { name, si }: Unit): string {
+    return name === 'feet' ? String(100 * Math.round(meters / si / 100)) : (meters / si).toFixed(1);
 }
 
 // A height as a number without its unit.
 export function heightNumber(meters: number, units: Units): string {
-    return rounded(meters / units.height.si, units.height.digits);
+    return rounded(meters, units.height);
 }
 export function heightText(meters: number, units: Units): string {
     return `${heightNumber(meters, units)} ${units.height.symbol}`;
 }
 export function distanceText(meters: number, units: Units): string {
-    return `${rounded(meters / units.distance.si, units.distance.digits)} ${units.distance.symbol}`;
+    return `${rounded(meters, units.distance)} ${units.distance.symbol}`;
 }
 
 export interface ShownUnit {
