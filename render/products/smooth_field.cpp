@@ -16,33 +16,13 @@ std::array<float, 4> cubic_weights(float t) {
             0.5F * (t3 - t2)};
 }
 
-bool has_smooth_values(Product product) {
-    switch (product) {
-        case Product::composite:
-        case Product::cappi:
-        case Product::echo_top:
-        case Product::vil:
-        case Product::vil_density:
-        case Product::maximum_height:
-            return true;
-        // Levels of the grid, gates as they are, and what is no map.
-        case Product::lowest_seen:
-        case Product::highest_seen:
-        case Product::ppi:
-        case Product::volume:
-        case Product::section:
-            break;
-    }
-    return false;
-}
-
 }  // namespace
 
 bool is_smoothed(const Scene& scene) {
     const grid::Blending blending = grid::blending_of(scene.moment);
     const bool wraps =
         blending == grid::Blending::nyquist_circle || blending == grid::Blending::phase_circle;
-    return scene.smooth && has_smooth_values(scene.product) && !wraps;
+    return scene.smooth && facts_of(scene.product).is_smooth && !wraps;
 }
 
 SmoothField::Place SmoothField::at(double x, double y) const {

@@ -52,6 +52,7 @@ struct ProductFacts {
     bool may_be_higher = false;  // of tops: the picture says where the true value may be larger
     // Columns that were seen may be without a value: no echo, or range folded.
     bool has_echo_states = true;
+    bool is_smooth = false;  // may be drawn smoothly: no levels of the grid, no gates as they are
     // Shows a sweep (BrickView::sweep) instead of a grid.
     bool is_of_sweep = false;
 };
