@@ -14,8 +14,8 @@ namespace stormcellar::accuracy {
 namespace {
 
 // The colors of Okabe and Ito (2008), without yellow, which is too pale on white.
-constexpr std::array<std::string_view, 7> colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                     "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array<std::string_view, 7> colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                    "#E69F00", "#56B4E9", "#000000"};
 constexpr int shape_count = 5;
 constexpr double front_width = 1.5;
 constexpr double main_front_width = 3;
@@ -56,15 +56,15 @@ std::string text_at(double x, double y, std::string_view style, std::string_view
                        escaped(text));
 }
 
-std::string_view colour_of(std::size_t series) {
-    return colours[series % colours.size()];
+std::string_view color_of(std::size_t series) {
+    return colors[series % colors.size()];
 }
 
 // Draws a circle, square, diamond, or triangle up or down. 7 colors and 5 shapes repeat after 35.
 std::string marker_shape(double x, double y, std::size_t series, bool filled) {
     const std::string style =
         fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"1.8\"",
-                    filled ? colour_of(series) : std::string_view("#ffffff"), colour_of(series));
+                    filled ? color_of(series) : std::string_view("#ffffff"), color_of(series));
     constexpr double r = marker_radius;
     switch (series % shape_count) {
         case 0:
@@ -153,7 +153,7 @@ std::string draw_fronts(const Plot& plot, const PlotLayout& layout) {
         svg.pop_back();
         const bool is_main = layout.series[series] == plot.main_series;
         svg += fmt::format("\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" opacity=\"0.6\"/>\n",
-                           colour_of(series), is_main ? main_front_width : front_width);
+                           color_of(series), is_main ? main_front_width : front_width);
     }
     return svg;
 }

@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "bench/volume_site.h"
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 #include "render/image/shades.h"
 #include "render/volume/reference_marcher.h"
 #include "stormcellar/base/file_system.h"
@@ -147,7 +147,7 @@ PictureError compare(const ReferencePixels& reference, const render::Image& pict
         }
         const int x = static_cast<int>(i % across) * ReferencePixels::stride;
         const int y = static_cast<int>(i / across) * ReferencePixels::stride;
-        const double difference = render::colour_difference(exact, picture.at(x, y));
+        const double difference = render::color_difference(exact, picture.at(x, y));
         all.push_back(difference);
         if (ray[3] > 1.0 / 255) echo.push_back(difference);
     }

@@ -32,9 +32,9 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 # Scenes of pictures, for stormcellar frame and loop.
 install(FILES scenes/picture-midwest.toml scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
-  scenes/fly-supercell.toml scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
+  scenes/fly-supercell.toml scenes/storm-colors.toml scenes/clear-air-colors.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
 # For one release: headers that moved within their room are found at their old place too.
-foreach(moved animation/animation colour/colour_table products/product volume/integration volume/light)
+foreach(moved animation/animation color/color_table products/product volume/integration volume/light)
   get_filename_component(name ${moved} NAME)
   file(WRITE ${PROJECT_BINARY_DIR}/old-headers/render/${moved}.h
     "// This header moved to stormcellar/render/${name}.h; this place goes with the next release.\n"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 #include "render/plan/volume_plan.h"
 #include "stormcellar/accuracy/quantity.h"
 #include "stormcellar/render/render.h"
@@ -20,7 +20,7 @@ struct TimedPicture {
     double least_s = std::numeric_limits<double>::infinity();
 };
 
-void draw(const grid::BrickView& view, const render::ColourTable& table, const render::Scene& scene,
+void draw(const grid::BrickView& view, const render::ColorTable& table, const render::Scene& scene,
           int threads, TimedPicture& made) {
     render::VolumeScene drawn(view, table, scene, scene.width, scene.height, threads);
     const render::VolumeChoice choice{
@@ -31,11 +31,11 @@ void draw(const grid::BrickView& view, const render::ColourTable& table, const r
     made.least_s = std::min(made.least_s, one.seconds);
 }
 
-std::string text_of_colours(const grid::BrickView& view, const render::Scene& scene, int threads) {
+std::string text_of_colors(const grid::BrickView& view, const render::Scene& scene, int threads) {
     render::Scene plain = scene;
-    plain.colours.reset();
-    const render::ColourTable& own = render::colours_of(scene);
-    const render::ColourTable& classes = render::colours_of(plain);
+    plain.colors.reset();
+    const render::ColorTable& own = render::colors_of(scene);
+    const render::ColorTable& classes = render::colors_of(plain);
     if (own == classes) return "Colors: the classes of the moment, as --colors nws has them.\n";
     TimedPicture with, without;
     for (int round = 0; round < rounds; ++round) {
@@ -53,12 +53,12 @@ std::string text_of_colours(const grid::BrickView& view, const render::Scene& sc
 
 std::string look_costs(const grid::BrickView& view, const render::Scene& scene, double fit_s,
                        int threads) {
-    const std::string colours = text_of_colours(view, scene, threads);
-    if (!(fit_s > 0)) return colours + "View:   as asked for; nothing was fitted.\n";
-    return colours + fmt::format(
-                         "View:   fitted to the echo in {}; it says what is in the picture "
-                         "and has no error.\n",
-                         accuracy::format_seconds(fit_s));
+    const std::string colors = text_of_colors(view, scene, threads);
+    if (!(fit_s > 0)) return colors + "View:   as asked for; nothing was fitted.\n";
+    return colors + fmt::format(
+                        "View:   fitted to the echo in {}; it says what is in the picture "
+                        "and has no error.\n",
+                        accuracy::format_seconds(fit_s));
 }
 
 }  // namespace stormcellar::cli

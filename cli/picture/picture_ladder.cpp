@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/plan/volume_plan.h"
 #include "render/view/fitted_camera.h"
 #include "stormcellar/grid/brick_grid.h"
@@ -32,10 +32,10 @@ Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
     render::Scene scene;
     scene.moment = request.moment;
     const render::EchoOutline outline(view, request.moment);
-    scene.colours = render::is_clear_air(outline) ? render::clear_air_colours()
-                                                  : render::smooth_colour_table(request.moment);
+    scene.colors = render::is_clear_air(outline) ? render::clear_air_colors()
+                                                 : render::smooth_color_table(request.moment);
     render::apply(render::fit_view(outline, scene, scene.width, scene.height), scene);
-    render::VolumeScene drawn(view, render::colours_of(scene), scene, scene.width, scene.height,
+    render::VolumeScene drawn(view, render::colors_of(scene), scene, scene.width, scene.height,
                               request.threads);
     auto rows = render::run_ladder(drawn, render::volume_chain());
     if (!rows) return pass_on(rows);

@@ -145,7 +145,7 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
     if (auto valid = render::check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto layout = render::layout_of(view, facts, scene);
     if (!layout) return pass_on(layout);
-    render::VolumeScene drawn(view, render::colours_of(scene), scene, layout->width, layout->height,
+    render::VolumeScene drawn(view, render::colors_of(scene), scene, layout->width, layout->height,
                               threads);
     const auto planned = render::plan_volume(
         drawn, request->chain, request->budget, by_default(request->chain, scene),

@@ -6,7 +6,7 @@
 #include "grid/mosaic/time_interpolation.h"
 #include "grid/plan/grid_effects.h"
 #include "pipeline/mosaic/mosaic_effects.h"
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/plan/volume_effects.h"
 #include "stormcellar/grid/cell_details.h"
 #include "stormcellar/grid/grid_spec.h"

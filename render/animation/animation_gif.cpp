@@ -17,7 +17,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr std::size_t most_colours = 255;  // one entry is left for "unchanged"
+constexpr std::size_t most_colors = 255;  // one entry is left for "unchanged"
 constexpr double gif_ticks_per_second = 100;
 // viewers take smaller numbers for "unset" and show the frame slowly
 constexpr std::int64_t shortest_ticks = 2;
@@ -90,7 +90,7 @@ class GifFile {
     bool ok_ = false;
 };
 
-struct FreeColourMap {
+struct FreeColorMap {
     void operator()(ColorMapObject* map) const { GifFreeMapObject(map); }
 };
 
@@ -111,7 +111,7 @@ class GifEncoder final : public FrameEncoder {
     }
 
     Result<Bytes> finish() override {
-        PaletteMap map(histogram_.palette(most_colours));
+        PaletteMap map(histogram_.palette(most_colors));
         // The entry after the colors stands for "unchanged".
         const int as_before = static_cast<int>(map.palette().size());
         GifFile file;
@@ -131,7 +131,7 @@ class GifEncoder final : public FrameEncoder {
     void write_head(GifFile& file, const std::vector<Rgb8>& palette) const {
         // The size of a table is a power of two, and there must be room for "unchanged".
         const int bits = std::max(2, static_cast<int>(std::bit_width(palette.size())));
-        const std::unique_ptr<ColorMapObject, FreeColourMap> table(
+        const std::unique_ptr<ColorMapObject, FreeColorMap> table(
             GifMakeMapObject(1 << bits, nullptr));
         if (table == nullptr) return;
         for (std::size_t i = 0; i < palette.size(); ++i)
@@ -177,7 +177,7 @@ class GifEncoder final : public FrameEncoder {
 
     AnimationOptions options_;
     int width_ = 0, height_ = 0;
-    ColourHistogram histogram_;
+    ColorHistogram histogram_;
     std::vector<std::vector<std::uint8_t>> kept_;
 };
 

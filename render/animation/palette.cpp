@@ -20,34 +20,34 @@ using Point = std::array<double, 3>;
 struct Sample {
     Point point{};
     double count = 0;
-    Rgb8 colour{};
+    Rgb8 color{};
     bool exact = false;  // at least half of the pixels have exactly this color
 };
 
-std::uint32_t packed(Rgb8 colour) {
-    return (static_cast<std::uint32_t>(colour[0]) << 16) |
-           (static_cast<std::uint32_t>(colour[1]) << 8) | colour[2];
+std::uint32_t packed(Rgb8 color) {
+    return (static_cast<std::uint32_t>(color[0]) << 16) |
+           (static_cast<std::uint32_t>(color[1]) << 8) | color[2];
 }
 
-Rgb8 unpacked(std::uint32_t colour) {
-    return {static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8),
-            static_cast<std::uint8_t>(colour)};
+Rgb8 unpacked(std::uint32_t color) {
+    return {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
+            static_cast<std::uint8_t>(color)};
 }
 
-Point point_of(Rgb8 colour) {
+Point point_of(Rgb8 color) {
     Point point{};
     for (std::size_t c = 0; c < 3; ++c)
-        point[c] = colour[c] * channel_weight[c];
+        point[c] = color[c] * channel_weight[c];
     return point;
 }
 
-Rgb8 colour_of(const Point& point) {
-    Rgb8 colour{};
+Rgb8 color_of(const Point& point) {
+    Rgb8 color{};
     for (std::size_t c = 0; c < 3; ++c) {
-        colour[c] =
+        color[c] =
             static_cast<std::uint8_t>(std::clamp(point[c] / channel_weight[c] + 0.5, 0.0, 255.0));
     }
-    return colour;
+    return color;
 }
 
 double distance_squared(const Point& a, const Point& b) {
@@ -100,7 +100,7 @@ struct Split {
 void sort_by_channel(std::span<Sample> samples, std::size_t channel) {
     std::ranges::sort(samples, [channel](const Sample& a, const Sample& b) {
         if (a.point[channel] != b.point[channel]) return a.point[channel] < b.point[channel];
-        return packed(a.colour) < packed(b.colour);  // a unique order, whatever the order before
+        return packed(a.color) < packed(b.color);  // a unique order, whatever the order before
     });
 }
 
@@ -180,7 +180,7 @@ std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> 
         const Sample* leader = largest[i];
         const bool rules =
             leader != nullptr && leader->exact && leader->count * 2 >= groups[i].count;
-        palette.push_back(rules ? leader->colour : colour_of(points[i]));
+        palette.push_back(rules ? leader->color : color_of(points[i]));
     }
     return palette;
 }
@@ -191,54 +191,54 @@ void for_each_run(const Image& frame, Visit visit) {
     const auto& rgba = frame.rgba;
     std::size_t i = 0;
     while (i < rgba.size()) {
-        const Rgb8 colour{rgba[i], rgba[i + 1], rgba[i + 2]};
+        const Rgb8 color{rgba[i], rgba[i + 1], rgba[i + 2]};
         std::size_t end = i + 4;
-        while (end < rgba.size() && rgba[end] == colour[0] && rgba[end + 1] == colour[1] &&
-               rgba[end + 2] == colour[2]) {
+        while (end < rgba.size() && rgba[end] == color[0] && rgba[end + 1] == color[1] &&
+               rgba[end + 2] == color[2]) {
             end += 4;
         }
-        visit(colour, (end - i) / 4);
+        visit(color, (end - i) / 4);
         i = end;
     }
 }
 
 }  // namespace
 
-ColourHistogram::ColourHistogram() : cells_(std::size_t{64} * 64 * 64) {}
+ColorHistogram::ColorHistogram() : cells_(std::size_t{64} * 64 * 64) {}
 
-void ColourHistogram::add(const Image& frame) {
-    for_each_run(frame, [this](Rgb8 colour, std::size_t length) { add_run(colour, length); });
+void ColorHistogram::add(const Image& frame) {
+    for_each_run(frame, [this](Rgb8 color, std::size_t length) { add_run(color, length); });
 }
 
-void ColourHistogram::add_run(Rgb8 colour, std::uint64_t length) {
+void ColorHistogram::add_run(Rgb8 color, std::uint64_t length) {
     if (!too_many_) {
-        exact_.insert(packed(colour));
+        exact_.insert(packed(color));
         if (exact_.size() > most_exact) {
             too_many_ = true;
             exact_.clear();
         }
     }
-    Cell& cell = cells_[(static_cast<std::size_t>(colour[0] >> 2) << 12) |
-                        (static_cast<std::size_t>(colour[1] >> 2) << 6) | (colour[2] >> 2)];
+    Cell& cell = cells_[(static_cast<std::size_t>(color[0] >> 2) << 12) |
+                        (static_cast<std::size_t>(color[1] >> 2) << 6) | (color[2] >> 2)];
     cell.count += length;
     for (std::size_t c = 0; c < 3; ++c)
-        cell.sum[c] += length * colour[c];
-    if (cell.leader == colour) {
+        cell.sum[c] += length * color[c];
+    if (cell.leader == color) {
         cell.lead += length;
     } else if (cell.lead >= length) {
         cell.lead -= length;
     } else {
-        cell.leader = colour;
+        cell.leader = color;
         cell.lead = length - cell.lead;
     }
 }
 
-std::vector<Rgb8> ColourHistogram::palette(std::size_t size) const {
+std::vector<Rgb8> ColorHistogram::palette(std::size_t size) const {
     if (!too_many_ && exact_.size() <= size) {
-        std::vector<std::uint32_t> colours(exact_.begin(), exact_.end());
-        std::ranges::sort(colours);
-        std::vector<Rgb8> palette(colours.size());
-        std::ranges::transform(colours, palette.begin(), unpacked);
+        std::vector<std::uint32_t> colors(exact_.begin(), exact_.end());
+        std::ranges::sort(colors);
+        std::vector<Rgb8> palette(colors.size());
+        std::ranges::transform(colors, palette.begin(), unpacked);
         return palette;
     }
     std::vector<Sample> samples;
@@ -248,14 +248,14 @@ std::vector<Rgb8> ColourHistogram::palette(std::size_t size) const {
         sample.count = static_cast<double>(cell.count);
         // A leader this far ahead has at least half of the pixels.
         sample.exact = cell.lead * 2 >= cell.count;
-        sample.colour = cell.leader;
+        sample.color = cell.leader;
         if (!sample.exact) {
             for (std::size_t c = 0; c < 3; ++c) {
-                sample.colour[c] =
+                sample.color[c] =
                     static_cast<std::uint8_t>((cell.sum[c] + cell.count / 2) / cell.count);
             }
         }
-        sample.point = point_of(sample.colour);
+        sample.point = point_of(sample.color);
         samples.push_back(sample);
     }
     auto points = split_into(samples, size);
@@ -265,17 +265,17 @@ std::vector<Rgb8> ColourHistogram::palette(std::size_t size) const {
 PaletteMap::PaletteMap(std::vector<Rgb8> palette)
     : palette_(std::move(palette)), known_(1U << 16) {}
 
-std::uint8_t PaletteMap::nearest(Rgb8 colour) {
-    const std::uint32_t key = packed(colour);
+std::uint8_t PaletteMap::nearest(Rgb8 color) {
+    const std::uint32_t key = packed(color);
     Known& known = known_[(key * 2654435761U) >> 16];
-    if (known.colour == key) return known.index;
+    if (known.color == key) return known.index;
     int best = 0;
     int best_distance = std::numeric_limits<int>::max();
     for (std::size_t i = 0; i < palette_.size(); ++i) {
         int distance = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const int difference =
-                (palette_[i][c] - colour[c]) * static_cast<int>(channel_weight[c]);
+                (palette_[i][c] - color[c]) * static_cast<int>(channel_weight[c]);
             distance += difference * difference;
         }
         if (distance < best_distance) {
@@ -290,8 +290,8 @@ std::uint8_t PaletteMap::nearest(Rgb8 colour) {
 std::vector<std::uint8_t> PaletteMap::indices(const Image& frame) {
     std::vector<std::uint8_t> indices;
     indices.reserve(frame.rgba.size() / 4);
-    for_each_run(frame, [&](Rgb8 colour, std::size_t length) {
-        indices.insert(indices.end(), length, nearest(colour));
+    for_each_run(frame, [&](Rgb8 color, std::size_t length) {
+        indices.insert(indices.end(), length, nearest(color));
     });
     return indices;
 }

@@ -23,9 +23,9 @@ namespace stormcellar::render {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-class ColourHistogram {
+class ColorHistogram {
   public:
-    ColourHistogram();
+    ColorHistogram();
     void add(const Image& frame);
 
     // Returns at most `size` (2 to 256) colors. Each pixel that was added lies near one of them.
@@ -41,7 +41,7 @@ class ColourHistogram {
         Rgb8 leader{};
         std::uint64_t lead = 0;
     };
-    void add_run(Rgb8 colour, std::uint64_t length);
+    void add_run(Rgb8 color, std::uint64_t length);
 
     std::vector<Cell> cells_;                  // 64^3
     std::unordered_set<std::uint32_t> exact_;  // while there are at most 256
@@ -53,14 +53,14 @@ class PaletteMap {
     explicit PaletteMap(std::vector<Rgb8> palette);  // 1 to 256 colors
 
     // Returns the nearest entry; the first of equals.
-    [[nodiscard]] std::uint8_t nearest(Rgb8 colour);
+    [[nodiscard]] std::uint8_t nearest(Rgb8 color);
     // Returns one index for each pixel.
     [[nodiscard]] std::vector<std::uint8_t> indices(const Image& frame);
     [[nodiscard]] const std::vector<Rgb8>& palette() const { return palette_; }
 
   private:
     struct Known {
-        std::uint32_t colour = 0xFFFFFFFF;  // not a color
+        std::uint32_t color = 0xFFFFFFFF;  // not a color
         std::uint8_t index = 0;
     };
     std::vector<Rgb8> palette_;

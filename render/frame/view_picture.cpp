@@ -29,11 +29,11 @@ Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,
     }
     if (drawn.view.sweep != nullptr) {
         const FlatField field = sweep_in_picture(*drawn.view.sweep, spec, geometry, threads);
-        return paint_pixels(spec, field, colours_of(drawn.scene), geometry, look, threads);
+        return paint_pixels(spec, field, colors_of(drawn.scene), geometry, look, threads);
     }
     const auto field = map_field(drawn.view, drawn.facts, drawn.scene, drawn.columns, threads);
     if (!field) return pass_on(field);
-    return paint_field(spec, *field, colours_of(drawn.scene), geometry, look, threads,
+    return paint_field(spec, *field, colors_of(drawn.scene), geometry, look, threads,
                        is_smoothed(drawn.scene));
 }
 
@@ -45,7 +45,7 @@ void draw_volume(const DrawnView& drawn, const ViewGeometry& geometry, int threa
         draw_haze(drawn.view, geometry, shades_of(scene.theme).haze, threads, picture);
     }
     const VolumeSlicer slicer(
-        colours_of(scene), drawn.view.quantization, geometry,
+        colors_of(scene), drawn.view.quantization, geometry,
         {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light},
         &cache.transfer, threads);
     slicer.prepare(drawn.view, threads, cache.room);
@@ -61,7 +61,7 @@ Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size
         cut_section(drawn.view, scene.moment, *scene.section, place.width, place.height, threads);
     if (auto in_grid = check_in_grid(section, *drawn.view.spec); !in_grid) return pass_on(in_grid);
     const GroundLook look{&shades_of(scene.theme), nullptr, size.scale};
-    return draw_section(section, colours_of(scene), place, size.width, size.height, look,
+    return draw_section(section, colors_of(scene), place, size.width, size.height, look,
                         scene.units, fonts, threads);
 }
 

@@ -71,9 +71,9 @@ void use_font(cairo_t* context, cairo_font_face_t* face, double size) {
     cairo_font_options_destroy(options);
 }
 
-void use_colour(cairo_t* context, Rgba8 colour) {
-    cairo_set_source_rgba(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0,
-                          colour[3] / 255.0);
+void use_color(cairo_t* context, Rgba8 color) {
+    cairo_set_source_rgba(context, color[0] / 255.0, color[1] / 255.0, color[2] / 255.0,
+                          color[3] / 255.0);
 }
 
 // Cairo's pixels are 32-bit numbers, 0xAARRGGBB; those of an image are bytes, R G B A. Turns either
@@ -124,12 +124,12 @@ void Canvas::Surface::operator()(cairo_surface_t* surface) const {
     cairo_surface_destroy(surface);
 }
 
-Canvas::Canvas(int width, int height, Rgba8 fill_colour)
+Canvas::Canvas(int width, int height, Rgba8 fill_color)
     : width_(width),
       height_(height),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)),
       context_(cairo_create(surface_.get())) {
-    use_colour(context_.get(), fill_colour);
+    use_color(context_.get(), fill_color);
     cairo_paint(context_.get());
 }
 
@@ -147,23 +147,23 @@ void Canvas::trace(const std::vector<Point>& points) const {
         cairo_line_to(context_.get(), p.x, p.y);
 }
 
-void Canvas::fill(const Rect& rect, Rgba8 colour) {
-    use_colour(context_.get(), colour);
+void Canvas::fill(const Rect& rect, Rgba8 color) {
+    use_color(context_.get(), color);
     cairo_rectangle(context_.get(), rect.x, rect.y, rect.width, rect.height);
     cairo_fill(context_.get());
 }
 
-void Canvas::fill(const std::vector<Point>& polygon, Rgba8 colour) {
+void Canvas::fill(const std::vector<Point>& polygon, Rgba8 color) {
     trace(polygon);
     cairo_close_path(context_.get());
-    use_colour(context_.get(), colour);
+    use_color(context_.get(), color);
     cairo_fill(context_.get());
 }
 
-void Canvas::line(const std::vector<Point>& points, double line_width, Rgba8 colour, bool closed) {
+void Canvas::line(const std::vector<Point>& points, double line_width, Rgba8 color, bool closed) {
     trace(points);
     if (closed) cairo_close_path(context_.get());
-    use_colour(context_.get(), colour);
+    use_color(context_.get(), color);
     cairo_set_line_width(context_.get(), line_width);
     cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(context_.get());
@@ -175,8 +175,8 @@ void Canvas::add_to_path(const std::vector<Point>& points, Point offset) {
         cairo_line_to(context_.get(), p.x + offset.x, p.y + offset.y);
 }
 
-void Canvas::draw_path(double line_width, Rgba8 colour) {
-    use_colour(context_.get(), colour);
+void Canvas::draw_path(double line_width, Rgba8 color) {
+    use_color(context_.get(), color);
     cairo_set_line_width(context_.get(), line_width);
     cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_BEVEL);
     // This takes half the time and looks the same.
@@ -204,7 +204,7 @@ void Canvas::unclip() {
 }
 
 void Canvas::text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
-                  bool bold, Rgba8 colour, Rgba8 halo) {
+                  bool bold, Rgba8 color, Rgba8 halo) {
     cairo_t* context = context_.get();
     use_font(context, fonts.face(bold), size);
     const std::string terminated(text);
@@ -215,11 +215,11 @@ void Canvas::text(const Fonts& fonts, std::string_view text, Point left_baseline
         CoverMask mask =
             halos_.halo_of(cairo_get_scaled_font(context), bold, size, terminated.c_str(),
                            static_cast<int>(x), static_cast<int>(y), std::max(2.0, size / 4));
-        use_colour(context, halo);
+        use_color(context, halo);
         paint_cover(context, mask);
     }
     cairo_move_to(context, x, y);
-    use_colour(context, colour);
+    use_color(context, color);
     cairo_show_text(context, terminated.c_str());
 }
 

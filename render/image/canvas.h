@@ -60,12 +60,12 @@ class Canvas {
     explicit Canvas(const Image& opaque);
 
     // Colors may be translucent.
-    void fill(const Rect& rect, Rgba8 colour);
-    void fill(const std::vector<Point>& polygon, Rgba8 colour);
-    void line(const std::vector<Point>& points, double line_width, Rgba8 colour, bool closed);
+    void fill(const Rect& rect, Rgba8 color);
+    void fill(const std::vector<Point>& polygon, Rgba8 color);
+    void line(const std::vector<Point>& points, double line_width, Rgba8 color, bool closed);
     // Draws many lines as one, so that a translucent color does not add up where they cross.
     void add_to_path(const std::vector<Point>& points, Point offset = {});
-    void draw_path(double line_width, Rgba8 colour);  // draws the path and begins a new one
+    void draw_path(double line_width, Rgba8 color);  // draws the path and begins a new one
     // Until the next clip() or unclip(), only what lies inside is drawn.
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);
@@ -73,7 +73,7 @@ class Canvas {
     // The text starts at `left`, on its `baseline`. With a halo color of alpha > 0 it gets an
     // outline, so that it is readable on anything.
     void text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
-              bool bold, Rgba8 colour, Rgba8 halo = {0, 0, 0, 0});
+              bool bold, Rgba8 color, Rgba8 halo = {0, 0, 0, 0});
 
     void place(const Image& image, int left, int top);
     [[nodiscard]] Image image() const;

@@ -7,12 +7,12 @@
 
 namespace stormcellar::render {
 
-Rgba8 over(const Rgba8& colour, const Rgba8& below) {
-    if (colour[3] == 255) return {colour[0], colour[1], colour[2], below[3]};
+Rgba8 over(const Rgba8& color, const Rgba8& below) {
+    if (color[3] == 255) return {color[0], color[1], color[2], below[3]};
     Rgba8 mixed = below;
-    const double alpha = colour[3] / 255.0;
+    const double alpha = color[3] / 255.0;
     for (std::size_t c = 0; c < 3; ++c) {
-        mixed[c] = nearest_level(below[c] + alpha * (static_cast<double>(colour[c]) - below[c]));
+        mixed[c] = nearest_level(below[c] + alpha * (static_cast<double>(color[c]) - below[c]));
     }
     return mixed;
 }

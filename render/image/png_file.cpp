@@ -78,7 +78,7 @@ Status check(const Image& image, const std::vector<std::pair<std::string, std::s
 
 // The colors of an image, and for each pixel the number of its own.
 struct Palette {
-    std::vector<Rgba8> colours;
+    std::vector<Rgba8> colors;
     std::vector<std::uint8_t> pixels;
 };
 
@@ -91,59 +91,59 @@ class PaletteFinder {
         std::uint32_t last = 0;
         std::uint8_t number = 0;
         for (std::size_t i = 0; i < found.pixels.size(); ++i) {
-            std::uint32_t colour = 0;
-            std::memcpy(&colour, image.rgba.data() + 4 * i, sizeof colour);
-            if (i == 0 || colour != last) {
-                const auto known = number_of(colour);
+            std::uint32_t color = 0;
+            std::memcpy(&color, image.rgba.data() + 4 * i, sizeof color);
+            if (i == 0 || color != last) {
+                const auto known = number_of(color);
                 if (!known) return std::nullopt;
                 number = *known;
-                last = colour;
+                last = color;
             }
             found.pixels[i] = number;
         }
-        for (const std::uint32_t colour : colours_)
-            found.colours.push_back(std::bit_cast<Rgba8>(colour));
+        for (const std::uint32_t color : colors_)
+            found.colors.push_back(std::bit_cast<Rgba8>(color));
         return found;
     }
 
   private:
     static constexpr std::size_t slots = 1024;  // of a hash table with open addressing
 
-    std::optional<std::uint8_t> number_of(std::uint32_t colour) {
-        for (std::size_t slot = (colour * 2654435761U) >> 22;; slot = (slot + 1) % slots) {
+    std::optional<std::uint8_t> number_of(std::uint32_t color) {
+        for (std::size_t slot = (color * 2654435761U) >> 22;; slot = (slot + 1) % slots) {
             if (table_[slot] == 0) {
-                if (colours_.size() == 256) return std::nullopt;
-                colours_.push_back(colour);
-                table_[slot] = static_cast<std::uint16_t>(colours_.size());
+                if (colors_.size() == 256) return std::nullopt;
+                colors_.push_back(color);
+                table_[slot] = static_cast<std::uint16_t>(colors_.size());
             }
             const std::size_t number = table_[slot] - 1U;
-            if (colours_[number] == colour) return static_cast<std::uint8_t>(number);
+            if (colors_[number] == color) return static_cast<std::uint8_t>(number);
         }
     }
 
     std::array<std::uint16_t, slots> table_{};  // 0: free, else one more than the number
-    std::vector<std::uint32_t> colours_;
+    std::vector<std::uint32_t> colors_;
 };
 
 struct PaletteChunks {
-    std::array<png_color, 256> colours{};
+    std::array<png_color, 256> colors{};
     std::array<png_byte, 256> alphas{};
     int count = 0;
 };
 
 PaletteChunks chunks_of(const Palette& palette) {
     PaletteChunks chunks;
-    chunks.count = static_cast<int>(palette.colours.size());
-    for (std::size_t i = 0; i < palette.colours.size(); ++i) {
-        const auto& [red, green, blue, alpha] = palette.colours[i];
-        chunks.colours[i] = {red, green, blue};
+    chunks.count = static_cast<int>(palette.colors.size());
+    for (std::size_t i = 0; i < palette.colors.size(); ++i) {
+        const auto& [red, green, blue, alpha] = palette.colors[i];
+        chunks.colors[i] = {red, green, blue};
         chunks.alphas[i] = alpha;
     }
     return chunks;
 }
 
-int bits_for(int colours) {
-    return colours <= 2 ? 1 : colours <= 4 ? 2 : colours <= 16 ? 4 : 8;
+int bits_for(int colors) {
+    return colors <= 2 ? 1 : colors <= 4 ? 2 : colors <= 16 ? 4 : 8;
 }
 
 // Uses C calls and trivial objects only, like write_png().
@@ -155,7 +155,7 @@ bool write_palette_png(png_structp png, png_infop info, int width, int height,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_set_compression_level(png, 2);
-    png_set_PLTE(png, info, chunks.colours.data(), chunks.count);
+    png_set_PLTE(png, info, chunks.colors.data(), chunks.count);
     png_set_tRNS(png, info, chunks.alphas.data(), chunks.count, nullptr);
     png_write_info(png, info);
     png_set_packing(png);
@@ -214,7 +214,7 @@ Result<std::vector<std::byte>> encode_png(
     return std::move(writer.sink.bytes);
 }
 
-Result<std::vector<std::byte>> encode_png_of_few_colours(const Image& image) {
+Result<std::vector<std::byte>> encode_png_of_few_colors(const Image& image) {
     if (auto checked = check(image, {}); !checked) return pass_on(checked);
     const auto palette = PaletteFinder().find(image);
     if (!palette) return encode_png(image, {}, PngAlpha::always);

@@ -17,7 +17,7 @@ void draw_texts(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
                 const std::vector<MarkText>& texts) {
     for (const MarkText& text : texts) {
         canvas.text(fonts, text.text, moved(lines, text.left_baseline), text.size, text.bold,
-                    text.colour, lines.shades->halo);
+                    text.color, lines.shades->halo);
     }
 }
 
@@ -137,11 +137,11 @@ void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const
     const double size = marks.sites.size() > 1 ? 0.75 : 1;
     for (const Point& site : marks.sites) {
         const Point at = moved(lines, site);
-        for (const auto& [half, colour] :
+        for (const auto& [half, color] :
              {std::pair{3.8, lines.shades->halo}, std::pair{2.4, lines.shades->text}}) {
             const double r = size * half * lines.scale;
             canvas.fill({{at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y}},
-                        colour);
+                        color);
         }
     }
     draw_texts(canvas, fonts, lines, marks.ground_texts);

@@ -34,7 +34,7 @@ double LabelBuilder::put(std::string text, double x, double baseline, double roo
                             baseline,
                             size,
                             style.bold,
-                            style.colour,
+                            style.color,
                             std::move(text)});
     return width;
 }

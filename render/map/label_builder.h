@@ -18,13 +18,13 @@ struct LabelText {
     double baseline = 0;
     double size = 0;
     bool bold = false;
-    Rgba8 colour{};
+    Rgba8 color{};
     std::string text;
 };
 
 struct LabelBlock {
     Rect box;
-    Rgba8 colour{};
+    Rgba8 color{};
     bool hatched = false;
 };
 
@@ -38,7 +38,7 @@ struct LabelParts {
 struct LabelStyle {
     double size = 10;  // at scale 1
     bool bold = false;
-    Rgba8 colour{};
+    Rgba8 color{};
 };
 
 // The part of a text that is at its place.
@@ -64,8 +64,8 @@ class LabelBuilder {
     // `room` pixels. Returns its width; 0 if it is empty or has no room at all.
     double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
                Align align = Align::left);
-    void block(const Rect& box, Rgba8 colour, bool hatched = false) {
-        parts_.blocks.push_back({box, colour, hatched});
+    void block(const Rect& box, Rgba8 color, bool hatched = false) {
+        parts_.blocks.push_back({box, color, hatched});
     }
     void outline(const Rect& box) { parts_.outlines.push_back(box); }
 

@@ -125,25 +125,25 @@ void put_product(LabelBuilder& builder, const HeaderTexts& texts, double left, d
 // Takes room for the small map of a section: from the colors at the right, from those below, or, in
 // a tall picture, from the section, below the title.
 void make_room_for_inset(const PictureSpace& space, const LabelBuilder& builder,
-                         LabelLayout& layout, Rect& colours) {
+                         LabelLayout& layout, Rect& colors) {
     const double gap = std::round(builder.scaled(8));
     switch (space.shape) {
         case PictureShape::wide: {
-            const double side = std::round(colours.width - builder.scaled(12 + margin));
-            if (side > 0.45 * colours.height) return;
+            const double side = std::round(colors.width - builder.scaled(12 + margin));
+            if (side > 0.45 * colors.height) return;
             layout.inset =
-                Rect{std::round(colours.x + builder.scaled(12)), std::round(colours.y), side, side};
-            colours.y += side + gap;
-            colours.height -= side + gap;
+                Rect{std::round(colors.x + builder.scaled(12)), std::round(colors.y), side, side};
+            colors.y += side + gap;
+            colors.height -= side + gap;
             return;
         }
         case PictureShape::square: {
             const double side = std::round(builder.scaled(116));
-            layout.height -= static_cast<int>(side - colours.height);
-            colours.y -= side - colours.height;
-            layout.inset = Rect{colours.x, colours.y, side, side};
-            colours.x += side + gap;
-            colours.width -= side + gap;
+            layout.height -= static_cast<int>(side - colors.height);
+            colors.y -= side - colors.height;
+            layout.inset = Rect{colors.x, colors.y, side, side};
+            colors.x += side + gap;
+            colors.width -= side + gap;
             return;
         }
         case PictureShape::tall:
@@ -250,21 +250,21 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     layout.top = space.header;
     layout.width = scene.width - space.panel;
     layout.height = scene.height - space.header - space.footer - space.band;
-    Rect colours = {static_cast<double>(layout.width), static_cast<double>(layout.top),
-                    static_cast<double>(space.panel), static_cast<double>(layout.height)};
+    Rect colors = {static_cast<double>(layout.width), static_cast<double>(layout.top),
+                   static_cast<double>(space.panel), static_cast<double>(layout.height)};
     if (space.band > 0) {
         const double left = builder.scaled(margin);
-        colours = {left, static_cast<double>(layout.top + layout.height), scene.width - 2 * left,
-                   static_cast<double>(space.band)};
+        colors = {left, static_cast<double>(layout.top + layout.height), scene.width - 2 * left,
+                  static_cast<double>(space.band)};
     }
     if (view_of(scene.product) == View::section)
-        make_room_for_inset(space, builder, layout, colours);
+        make_room_for_inset(space, builder, layout, colors);
     lay_out_header(builder, space.shape, scene.width, header_of(facts, picture.legend.product));
     lay_out_footer(builder, scene.width, scene.height, footer_of(scene, facts, picture));
     if (space.band > 0) {
-        lay_out_band(builder, picture.legend, colours);
+        lay_out_band(builder, picture.legend, colors);
     } else {
-        lay_out_panel(builder, picture.legend, colours);
+        lay_out_panel(builder, picture.legend, colors);
     }
     return layout;
 }
@@ -272,31 +272,31 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout) {
     for (const LabelBlock& block : layout.blocks) {
         if (!block.hatched) {
-            canvas.fill(block.box, block.colour);
+            canvas.fill(block.box, block.color);
             continue;
         }
         Image swatch(static_cast<int>(block.box.width), static_cast<int>(block.box.height),
-                     block.colour);
+                     block.color);
         for (int y = 0; y < swatch.height; ++y) {
             for (int x = 0; x < swatch.width; ++x) {
-                swatch.set(x, y, hatched(block.colour, *layout.shades, x, y, layout.scale));
+                swatch.set(x, y, hatched(block.color, *layout.shades, x, y, layout.scale));
             }
         }
         canvas.place(swatch, static_cast<int>(block.box.x), static_cast<int>(block.box.y));
     }
     for (const Rect& box : layout.outlines) {
-        Rgba8 colour = layout.shades->border;
-        colour[3] = 110;
+        Rgba8 color = layout.shades->border;
+        color[3] = 110;
         const double half = 0.5;
         canvas.line({{box.x - half, box.y - half},
                      {box.right() + half, box.y - half},
                      {box.right() + half, box.bottom() + half},
                      {box.x - half, box.bottom() + half}},
-                    1, colour, true);
+                    1, color, true);
     }
     for (const LabelText& text : layout.texts) {
         canvas.text(fonts, text.text, {text.box.x, text.baseline}, text.size, text.bold,
-                    text.colour);
+                    text.color);
     }
 }
 

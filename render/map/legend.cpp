@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/image/shades.h"
 #include "render/products/ground.h"
 #include "render/view/length_text.h"
@@ -15,7 +15,7 @@ namespace {
 // Returns "no echo and < 5 dBZ" for a table that begins there; "no echo" for one that takes all
 // values.
 std::string clear_words(const Scene& scene, std::string_view between) {
-    const ColourTable& table = colours_of(scene);
+    const ColorTable& table = colors_of(scene);
     const bool takes_all =
         table.bar_begin || (look_of(scene.moment).is_never_negative && !(table.lowest() > 0));
     if (takes_all) return "no echo";
@@ -55,7 +55,7 @@ void add_flat_rows(const Scene& scene, Legend& legend) {
         legend.rows.push_back({clear_words(scene, "or"), shades.land.seen, false});
     }
     if (facts.has_echo_states) {
-        legend.rows.push_back({"range folded", colours_of(scene).range_folded, false});
+        legend.rows.push_back({"range folded", colors_of(scene).range_folded, false});
     }
     legend.rows.push_back({"not seen", shades.land.not_seen, true});
 }
@@ -65,7 +65,7 @@ void add_flat_rows(const Scene& scene, Legend& legend) {
 Legend legend_of(const Scene& scene) {
     Legend legend;
     legend.product = product_title(scene);
-    legend.table = &colours_of(scene);
+    legend.table = &colors_of(scene);
     const ShownUnit unit = written_unit(scene);
     legend.bar_heading = unit.symbol;
     legend.shown_per_value = unit.per_stored;

@@ -7,25 +7,25 @@
 #include <string>
 #include <vector>
 
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
 
 struct LegendRow {
     std::string text;
-    Rgba8 colour{};
+    Rgba8 color{};
     bool hatched = false;
 };
 
 struct Legend {
-    std::string product;                 // "Composite reflectivity (column maximum)"
-    std::string heading;                 // over the rows; may be empty
-    std::vector<LegendRow> rows;         // from the top down: what is not in the color bar
-    std::vector<std::string> notes;      // in small print below
-    std::string bar_heading;             // the unit, else the name of the moment
-    const ColourTable* table = nullptr;  // of the color bar; null: no bar
-    double shown_per_value = 1;          // of the bar's numbers, by those of the table
+    std::string product;                // "Composite reflectivity (column maximum)"
+    std::string heading;                // over the rows; may be empty
+    std::vector<LegendRow> rows;        // from the top down: what is not in the color bar
+    std::vector<std::string> notes;     // in small print below
+    std::string bar_heading;            // the unit, else the name of the moment
+    const ColorTable* table = nullptr;  // of the color bar; null: no bar
+    double shown_per_value = 1;         // of the bar's numbers, by those of the table
 };
 
 // Makes the legend of a valid scene, whose table must outlive it.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/map/colour_bar.h"
+#include "render/map/color_bar.h"
 
 namespace stormcellar::render {
 namespace {
@@ -26,15 +26,15 @@ double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& r
 void put_swatch(LabelBuilder& builder, const LegendRow& row, double x, double baseline) {
     const double side = std::round(builder.scaled(swatch_side));
     builder.block({std::round(x), std::round(baseline - side + builder.scaled(2)), side, side},
-                  row.colour, row.hatched);
+                  row.color, row.hatched);
 }
 
 void lay_out_upright_bar(LabelBuilder& builder, const Legend& legend, const Rect& box) {
     const double text_height = builder.scaled(bar_text);
-    const ColourBar bar = colour_bar({*legend.table, legend.shown_per_value}, box,
-                                     1.15 * text_height, builder.shades().land.seen);
+    const ColorBar bar = color_bar({*legend.table, legend.shown_per_value}, box, 1.15 * text_height,
+                                   builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
-        builder.block(block.box, block.colour);
+        builder.block(block.box, block.color);
     builder.outline(box);
     for (const BarTick& tick : bar.ticks) {
         builder.put(tick.text, box.right() + builder.scaled(6), tick.at + 0.3 * text_height,
@@ -54,10 +54,10 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     const double aside = builder.scaled(16);
     const double left = std::round(band.x + heading + aside);
     const Rect box = {left, top, std::max(1.0, std::floor(band.right() - aside - left)), height};
-    const ColourBar bar = lying_bar({*legend.table, legend.shown_per_value}, box, width_of,
-                                    builder.scaled(7), builder.shades().land.seen);
+    const ColorBar bar = lying_bar({*legend.table, legend.shown_per_value}, box, width_of,
+                                   builder.scaled(7), builder.shades().land.seen);
     for (const BarBlock& block : bar.blocks)
-        builder.block(block.box, block.colour);
+        builder.block(block.box, block.color);
     builder.outline(box);
     const double baseline = top + height + builder.scaled(11);
     for (const BarTick& tick : bar.ticks) {

@@ -386,7 +386,7 @@ struct TracedLine {
 
 struct Look {
     double width;
-    Rgba8 colour;
+    Rgba8 color;
 };
 
 Look look_of(MapKind kind, const Shades& shades) {
@@ -481,7 +481,7 @@ void draw_map(Canvas& canvas, const MapLayer& layer, const Shades& shades, doubl
             if (casing) look = {look.width + 1.6, shades.casing};
             for (; first != last; ++first)
                 canvas.add_to_path(first->points, offset);
-            canvas.draw_path(look.width * scale, look.colour);
+            canvas.draw_path(look.width * scale, look.color);
         }
     }
 }

@@ -55,7 +55,7 @@ bool is_finite(Point p) {
 
 // Draws a closed line without the parts that are not visible.
 void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLines& lines,
-                 double line_width, Rgba8 colour) {
+                 double line_width, Rgba8 color) {
     std::vector<Point> run;
     const auto flush = [&] {
         if (run.size() > 1) canvas.add_to_path(run, {lines.left, lines.top});
@@ -70,7 +70,7 @@ void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLine
         }
     }
     flush();
-    canvas.draw_path(line_width, colour);
+    canvas.draw_path(line_width, color);
 }
 
 std::vector<Point> ground_outline(const MapLines& lines) {

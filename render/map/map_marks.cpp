@@ -75,14 +75,14 @@ class Planner {
 
     // Returns the text if its place is free, and takes the place.
     std::optional<MarkText> claim(const std::string& text, Point left_baseline, double size,
-                                  bool bold, Rgba8 colour) {
+                                  bool bold, Rgba8 color) {
         const double halo = scaled(1);
         // The text will be drawn on whole pixels.
         left_baseline = {std::nearbyint(left_baseline.x), std::nearbyint(left_baseline.y)};
         const Rect box = {left_baseline.x - halo, left_baseline.y - 0.8 * size - halo,
                           fonts_.width(text, size, bold) + 2 * halo, 1.05 * size + 2 * halo};
         if (!places_.claim(box)) return std::nullopt;
-        return MarkText{box, left_baseline, size, bold, colour, text};
+        return MarkText{box, left_baseline, size, bold, color, text};
     }
 
     // Chooses the corner for the arrow and the bar: the first that covers no site, else the first.
@@ -283,7 +283,7 @@ class Planner {
                 return city.population >= town.least_population;
             });
             const double size = scaled(look.size);
-            const Rgba8 colour = look.is_large ? lines_.shades->city : lines_.shades->small_city;
+            const Rgba8 color = look.is_large ? lines_.shades->city : lines_.shades->small_city;
             const double width = fonts_.width(city.name, size, false);
             const double right = city.at.x + scaled(4.5);
             const double left = city.at.x - scaled(4.5) - width;
@@ -297,7 +297,7 @@ class Planner {
                 return over_grid(corner) && over_grid({corner.x + width, corner.y});
             });
             for (const Point& corner : corners) {
-                auto text = claim(city.name, corner, size, false, colour);
+                auto text = claim(city.name, corner, size, false, color);
                 if (!text) continue;
                 marks_.ground_texts.push_back(std::move(*text));
                 marks_.cities.push_back(city.at);

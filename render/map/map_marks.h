@@ -27,7 +27,7 @@ struct MarkText {
     Point left_baseline;
     double size = 0;
     bool bold = false;
-    Rgba8 colour{};
+    Rgba8 color{};
     std::string text;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 
 namespace stormcellar::render {
 namespace {
@@ -52,7 +52,7 @@ FitParts parts_to_fit(const SceneOptions& options) {
 }
 
 bool fits_anything(const SceneOptions& options) {
-    return parts_to_fit(options).any() || options.colours.empty();
+    return parts_to_fit(options).any() || options.colors.empty();
 }
 
 bool chooses_light(const SceneOptions& options) {
@@ -63,9 +63,9 @@ Result<FittedView> fit_picture(const EchoOutline& outline, const grid::BrickView
                                const FrameFacts& facts, const SceneOptions& options, Scene& scene,
                                bool orbits, std::optional<FittedView>* last) {
     // By default echo so weak that the usual colors leave it out has those of clear air.
-    if (scene.colours == smooth_colour_table(level2::Moment::ref) && options.colours.empty() &&
+    if (scene.colors == smooth_color_table(level2::Moment::ref) && options.colors.empty() &&
         is_clear_air(outline)) {
-        scene.colours = clear_air_colours();
+        scene.colors = clear_air_colors();
     }
     if (view_of(scene.product) != View::volume) return FittedView{};
     if (chooses_light(options)) scene.light.gradient = scene.light.shadow = true;

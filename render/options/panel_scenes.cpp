@@ -41,7 +41,7 @@ Result<std::vector<PanelScene>> panel_scenes(
         }
     }
     SceneOptions panel = options;
-    panel.colours.clear();
+    panel.colors.clear();
     const auto is_given = [&](const PictureOption& row) {
         return contains(options.typed, row) || contains(options.in_file, row);
     };

@@ -53,7 +53,7 @@ constexpr std::array option_rows{
                   .section = "picture",
                   .key = "colors",
                   .old_key = "colours",
-                  .value = TextValue{.field = [](To to) { return &to.options.colours; },
+                  .value = TextValue{.field = [](To to) { return &to.options.colors; },
                                      .check = check_colors,
                                      .beside = colors_beside,
                                      .is_file = is_color_file},

@@ -6,8 +6,8 @@
 #include "base/local_time.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_file.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_file.h"
 #include "render/options/moment_name.h"
 #include "render/options/named_place.h"
 #include "render/options/scene_options.h"
@@ -87,9 +87,9 @@ Status check_time_zone(const std::string& zone) {
 
 Status check_colors(const std::string& name) {
     if (table_of_family(name, level2::Moment::ref) != nullptr) return {};
-    const auto table = colours_from(name);
+    const auto table = colors_from(name);
     if (table) return {};
-    const std::vector<std::string> families(colour_families.begin(), colour_families.end());
+    const std::vector<std::string> families(color_families.begin(), color_families.end());
     if (const std::string meant = did_you_mean(name, families); !meant.empty())
         return fail(ErrorCode::bad_argument, "there is no color table '{}'{}", printable(name),
                     meant);

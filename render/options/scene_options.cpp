@@ -8,8 +8,8 @@
 
 #include "base/floating_point.h"
 #include "base/local_time.h"
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_file.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_file.h"
 #include "render/options/moment_name.h"
 
 namespace stormcellar::render {
@@ -107,15 +107,15 @@ Result<Scene> scene_of(const SceneOptions& options) {
     }
     // A picture that says nothing of colors has those without classes; a scene file has the
     // defaults that it was written for.
-    const bool has_own_colours = facts_of(scene.product).colours != nullptr;
-    if (options.colours.empty() && options.file_product.empty() && !has_own_colours) {
-        scene.colours = smooth_colour_table(scene.moment);
-    } else if (const auto* table = table_of_family(options.colours, scene.moment)) {
-        scene.colours = *table;
-    } else if (!options.colours.empty()) {
-        auto colours = colours_from(options.colours);
-        if (!colours) return pass_on(colours);
-        scene.colours = std::move(*colours);
+    const bool has_own_colors = facts_of(scene.product).colors != nullptr;
+    if (options.colors.empty() && options.file_product.empty() && !has_own_colors) {
+        scene.colors = smooth_color_table(scene.moment);
+    } else if (const auto* table = table_of_family(options.colors, scene.moment)) {
+        scene.colors = *table;
+    } else if (!options.colors.empty()) {
+        auto colors = colors_from(options.colors);
+        if (!colors) return pass_on(colors);
+        scene.colors = std::move(*colors);
     }
     scene.smooth =
         options.smooth.empty() ? options.file_product.empty() : options.smooth == "cubic";

@@ -33,7 +33,7 @@ struct SceneOptions {
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string theme{theme_name(Theme::dark)};
     std::string panels;     // of a scene file: "REF,VEL", several in a picture; empty: one moment
-    std::string colours;    // empty: those of the product or the moment
+    std::string colors;     // empty: those of the product or the moment
     std::string smooth;     // cubic or none; empty: cubic, but none for a scene file
     std::string time_zone;  // IANA; empty: that of the machine
     bool no_labels = false;

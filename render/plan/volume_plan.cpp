@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "accuracy/governor.h"
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 #include "render/image/shades.h"
 #include "stormcellar/accuracy/candidate.h"
 
@@ -23,7 +23,7 @@ Result<double> difference(const Image& one, const Image& other) {
 
 }  // namespace
 
-VolumeScene::VolumeScene(const grid::BrickView& view, const ColourTable& table, const Scene& scene,
+VolumeScene::VolumeScene(const grid::BrickView& view, const ColorTable& table, const Scene& scene,
                          int width, int height, int threads)
     : view_(view),
       table_(table),

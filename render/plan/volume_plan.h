@@ -26,8 +26,8 @@ namespace stormcellar::render {
 class VolumeScene {
   public:
     // `width` and `height` are those of the picture without its labels.
-    VolumeScene(const grid::BrickView& view, const ColourTable& table, const Scene& scene,
-                int width, int height, int threads);
+    VolumeScene(const grid::BrickView& view, const ColorTable& table, const Scene& scene, int width,
+                int height, int threads);
 
     struct Drawn {
         Image picture;
@@ -38,7 +38,7 @@ class VolumeScene {
 
   private:
     grid::BrickView view_;
-    const ColourTable& table_;
+    const ColorTable& table_;
     Scene scene_;
     int width_, height_, threads_;
     std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to these stay valid

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "render/products/smooth_field.h"
 #include "render/products/water_rows.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 namespace {
@@ -156,21 +156,21 @@ Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>&
     });
 }
 
-Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
+Rgba8 shade_of(const FlatField& field, std::size_t place, const ColorTable& table,
                const GroundPatch& patch, const GroundLook& look) {
     const bool at_least = !field.at_least.empty() && field.at_least[place] != 0;
     return shade_of(field.status[place], field.values[place], at_least, table, patch, look);
 }
 
-Rgba8 shade_of(grid::CellStatus status, float value, bool at_least, const ColourTable& table,
+Rgba8 shade_of(grid::CellStatus status, float value, bool at_least, const ColorTable& table,
                const GroundPatch& patch, const GroundLook& look) {
     const Rgba8 plain = patch.shade(look, &GroundShades::seen);
     switch (status) {
         case grid::CellStatus::value: {
-            const auto colour = colour_of(table, value);
-            if (!colour) return plain;
+            const auto color = color_of(table, value);
+            if (!color) return plain;
             return at_least && is_dot(patch.x, patch.y, look.scale) ? look.shades->page
-                                                                    : over(*colour, plain);
+                                                                    : over(*color, plain);
         }
         case grid::CellStatus::range_folded:
             return over(table.range_folded, plain);
@@ -182,7 +182,7 @@ Rgba8 shade_of(grid::CellStatus status, float value, bool at_least, const Colour
     return patch.unseen(look);
 }
 
-Image paint_field(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
+Image paint_field(const grid::GridSpec& spec, const FlatField& field, const ColorTable& table,
                   const ViewGeometry& geometry, const GroundLook& look, int threads,
                   bool smoothed) {
     if (!smoothed) {
@@ -224,7 +224,7 @@ void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads
     });
 }
 
-Image paint_pixels(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
+Image paint_pixels(const grid::GridSpec& spec, const FlatField& field, const ColorTable& table,
                    const ViewGeometry& geometry, const GroundLook& look, int threads) {
     return paint(spec, geometry, look, threads,
                  [&](std::size_t /*column*/, const GroundPatch& patch) {

@@ -16,7 +16,7 @@
 #include "render/products/flat_field.h"
 #include "render/products/water_mask.h"
 #include "stormcellar/grid/brick_view.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/image.h"
 #include "stormcellar/render/view_geometry.h"
 
@@ -59,18 +59,18 @@ struct GroundPatch {
 // the table, over plain ground where that is translucent, and with dots if it is "at least". No
 // echo and values below the table are plain ground, range folded has its own color, and not seen is
 // hatched.
-[[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table,
+[[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColorTable& table,
                              const GroundPatch& patch, const GroundLook& look);
 
 // The same for a value or a state of no field.
 [[nodiscard]] Rgba8 shade_of(grid::CellStatus status, float value, bool at_least,
-                             const ColourTable& table, const GroundPatch& patch,
+                             const ColorTable& table, const GroundPatch& patch,
                              const GroundLook& look);
 
 // Paints a product, whose columns and rows are those of the grid; `smoothed` by
 // render/products/smooth_field.h.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
-                                const ColourTable& table, const ViewGeometry& geometry,
+                                const ColorTable& table, const ViewGeometry& geometry,
                                 const GroundLook& look, int threads, bool smoothed = false);
 
 // Returns true if parallel rays look straight down, as in a map.
@@ -83,7 +83,7 @@ struct GroundPatch {
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture);
 // The same for a field of the pixels themselves (sweep_in_picture()).
 [[nodiscard]] Image paint_pixels(const grid::GridSpec& spec, const FlatField& field,
-                                 const ColourTable& table, const ViewGeometry& geometry,
+                                 const ColorTable& table, const ViewGeometry& geometry,
                                  const GroundLook& look, int threads);
 
 // Returns the index of the column whose cell holds a point of the ground; -1 beyond the grid.

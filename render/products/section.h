@@ -20,7 +20,7 @@
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/grid/site_frame.h"
 #include "stormcellar/level2/volume.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/image.h"
 #include "stormcellar/render/scene.h"
 
@@ -55,7 +55,7 @@ struct SectionPlace {
 // Draws the section with axes: distance and height in their units, latitude and longitude of both
 // ends, and the factor by which heights are stretched, which follows from filling the picture. If
 // `fonts` is null, there are no axes.
-[[nodiscard]] Image draw_section(const Section& section, const ColourTable& table,
+[[nodiscard]] Image draw_section(const Section& section, const ColorTable& table,
                                  const SectionPlace& place, int width, int height,
                                  const GroundLook& look, const Units& units, const Fonts* fonts,
                                  int threads = 1);

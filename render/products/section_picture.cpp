@@ -94,9 +94,9 @@ class Axes {
     }
 
     [[nodiscard]] Rgba8 faint() const {
-        Rgba8 colour = shades_.border;
-        colour[3] = 44;
-        return colour;
+        Rgba8 color = shades_.border;
+        color[3] = 44;
+        return color;
     }
 
     Canvas& canvas_;
@@ -119,7 +119,7 @@ std::string place_text(grid::GeoPoint point) {
                        point.longitude_deg < 0 ? 'W' : 'E');
 }
 
-Image draw_section(const Section& section, const ColourTable& table, const SectionPlace& place,
+Image draw_section(const Section& section, const ColorTable& table, const SectionPlace& place,
                    int width, int height, const GroundLook& look, const Units& units,
                    const Fonts* fonts, int threads) {
     Image image(width, height, look.shades->page);

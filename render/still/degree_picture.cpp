@@ -110,7 +110,7 @@ class DegreeMesh {
 }  // namespace
 
 Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec, const FlatField& field,
-                                      const ColourTable& table, int threads) {
+                                      const ColorTable& table, int threads) {
     const grid::GridProjection projection(spec);
     for (const double pole_deg : {-90.0, 90.0}) {
         if (!spec.in_degrees() && is_inside(spec, projection.to_column({pole_deg, 0}))) {
@@ -131,7 +131,7 @@ Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec, const FlatFiel
             const auto iy = static_cast<int>(std::lround(at.y));
             const std::size_t place =
                 field.index(std::clamp(ix, 0, spec.nx - 1), std::clamp(iy, 0, spec.ny - 1));
-            drawn.image.set(x, y, overlay_colour(field, place, table));
+            drawn.image.set(x, y, overlay_color(field, place, table));
         }
     });
     const double turn = std::floor((box.west_deg + 180) / 360) * 360;

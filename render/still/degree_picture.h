@@ -12,7 +12,7 @@
 #include "render/products/flat_field.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/grid_spec.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
@@ -29,8 +29,8 @@ struct DegreePicture {
 };
 
 [[nodiscard]] Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec,
-                                                    const FlatField& field,
-                                                    const ColourTable& table, int threads);
+                                                    const FlatField& field, const ColorTable& table,
+                                                    int threads);
 
 inline constexpr int most_degree_pixels = 4096;  // along a side: what globes take as a texture
 

@@ -106,7 +106,7 @@ void place_raster(const grid::GridSpec& spec, TiffFacts& facts) {
 struct StateClass {
     std::uint8_t code = 0;
     std::string_view name = {};
-    std::array<std::uint8_t, 3> colour = {};
+    std::array<std::uint8_t, 3> color = {};
 };
 constexpr std::uint8_t at_least_code = 4;
 constexpr std::array state_classes{
@@ -144,7 +144,7 @@ TiffRaster raster_of(const FlatField& field, const PixelOf& pixel_of) {
     return raster;
 }
 
-TiffRaster content_of(const FlatField& field, TiffContent content, const ColourTable& table) {
+TiffRaster content_of(const FlatField& field, TiffContent content, const ColorTable& table) {
     switch (content) {
         case TiffContent::values:
             return raster_of(field, [&](std::size_t place) {
@@ -153,9 +153,9 @@ TiffRaster content_of(const FlatField& field, TiffContent content, const ColourT
             });
         case TiffContent::states:
             return raster_of(field, [&](std::size_t place) { return state_of(field, place); });
-        case TiffContent::colours:
-            return raster_of(
-                field, [&](std::size_t place) { return overlay_colour(field, place, table); });
+        case TiffContent::colors:
+            return raster_of(field,
+                             [&](std::size_t place) { return overlay_color(field, place, table); });
     }
     return {};
 }
@@ -206,7 +206,7 @@ std::string gdal_metadata(const StillMap& map, const StillOptions& options) {
             items += fmt::format("  <Item name=\"STATES\">{}</Item>\n", states_text());
             band("description", product_title(map.scene) + ", states");
             break;
-        case TiffContent::colours:
+        case TiffContent::colors:
             break;
     }
     return fmt::format("<GDALMetadata>\n{}</GDALMetadata>\n", items);
@@ -222,9 +222,9 @@ TiffFacts facts_of_file(const StillMap& map, const StillOptions& options) {
         case TiffContent::states:
             facts.samples = TiffSamples::palette;
             for (const StateClass& one : state_classes)
-                facts.palette.push_back(one.colour);
+                facts.palette.push_back(one.color);
             break;
-        case TiffContent::colours:
+        case TiffContent::colors:
             facts.samples = TiffSamples::rgba;
             break;
     }
@@ -244,7 +244,7 @@ TiffFacts facts_of_file(const StillMap& map, const StillOptions& options) {
 Result<std::vector<std::byte>> encode_geotiff(const StillMap& map, const StillOptions& options) {
     const auto field = still_field(map, options.threads);
     if (!field) return pass_on(field);
-    std::vector<TiffRaster> rasters = {content_of(*field, options.tiff, colours_of(map.scene))};
+    std::vector<TiffRaster> rasters = {content_of(*field, options.tiff, colors_of(map.scene))};
     while (std::max(rasters.back().width, rasters.back().height) > tiff_tile_side)
         rasters.push_back(halved(rasters.back()));
     return write_tiff(rasters, facts_of_file(map, options), options.threads);

@@ -63,7 +63,7 @@ Result<std::vector<std::byte>> encode_kmz(const StillMap& map, const StillOption
     const auto field = still_field(map, options.threads);
     if (!field) return pass_on(field);
     const auto drawn =
-        draw_in_degrees(*map.view.spec, *field, colours_of(map.scene), options.threads);
+        draw_in_degrees(*map.view.spec, *field, colors_of(map.scene), options.threads);
     if (!drawn) return pass_on(drawn);
     const auto legend = draw_legend_panel(map);
     if (!legend) return pass_on(legend);

@@ -5,7 +5,7 @@
 
 #include "render/image/canvas.h"
 #include "render/image/shades.h"
-#include "render/map/colour_bar.h"
+#include "render/map/color_bar.h"
 #include "render/still/map_raster.h"
 #include "stormcellar/render/product.h"
 
@@ -22,7 +22,7 @@ constexpr double title_px = 13;
 struct PanelLine {
     std::string text;
     bool bold = false;
-    Rgba8 colour{};
+    Rgba8 color{};
 };
 
 std::vector<PanelLine> lines_of(const StillMap& map, const Shades& shades) {
@@ -39,7 +39,7 @@ std::vector<PanelLine> lines_of(const StillMap& map, const Shades& shades) {
 
 struct PanelState {
     std::string text;
-    Rgba8 colour{};
+    Rgba8 color{};
 };
 
 }  // namespace
@@ -48,7 +48,7 @@ Result<Image> draw_legend_panel(const StillMap& map) {
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
     const Shades& shades = shades_of(map.scene.theme);
-    const ColourTable& table = colours_of(map.scene);
+    const ColorTable& table = colors_of(map.scene);
     const std::vector<PanelLine> lines = lines_of(map, shades);
     std::vector<PanelState> states;
     if (facts_of(map.scene.product).has_echo_states)
@@ -69,7 +69,7 @@ Result<Image> draw_legend_panel(const StillMap& map) {
     double baseline = margin_px + title_px - 2;
     for (const PanelLine& line : lines) {
         canvas.text(*fonts, line.text, {margin_px, baseline}, line.bold ? title_px : text_px,
-                    line.bold, line.colour);
+                    line.bold, line.color);
         baseline += line_px;
     }
     const ShownUnit unit = written_unit(map.scene);
@@ -78,17 +78,16 @@ Result<Image> draw_legend_panel(const StillMap& map) {
         unit.symbol.empty() ? std::string(level2::moment_name(map.scene.moment)) : unit.symbol,
         {margin_px, bar_top - 6}, text_px, false, shades.quiet_text);
     const Rect bar{margin_px, bar_top, bar_width_px, bar_height_px};
-    const ColourBar shown =
-        colour_bar({table, unit.per_stored}, bar, line_px - 2, shades.land.seen);
+    const ColorBar shown = color_bar({table, unit.per_stored}, bar, line_px - 2, shades.land.seen);
     for (const BarBlock& block : shown.blocks)
-        canvas.fill(block.box, block.colour);
+        canvas.fill(block.box, block.color);
     for (const BarTick& tick : shown.ticks) {
         canvas.text(*fonts, tick.text, {bar.right() + 8, tick.at + text_px / 3}, text_px, false,
                     shades.text);
     }
     baseline = states_top + text_px - 1;
     for (const PanelState& state : states) {
-        canvas.fill({margin_px, baseline - text_px + 1, bar_width_px, text_px}, state.colour);
+        canvas.fill({margin_px, baseline - text_px + 1, bar_width_px, text_px}, state.color);
         canvas.text(*fonts, state.text, {bar.right() + 8, baseline}, text_px, false, shades.text);
         baseline += line_px;
     }

@@ -20,11 +20,11 @@ Result<FlatField> still_field(const StillMap& map, int threads) {
     return map_field(map.view, map.facts, map.scene, columns, threads);
 }
 
-Rgba8 overlay_colour(const FlatField& field, std::size_t place, const ColourTable& table) {
-    return overlay_colour(field.status[place], field.values[place], table);
+Rgba8 overlay_color(const FlatField& field, std::size_t place, const ColorTable& table) {
+    return overlay_color(field.status[place], field.values[place], table);
 }
 
-Rgba8 overlay_colour(grid::CellStatus status, float value, const ColourTable& table) {
+Rgba8 overlay_color(grid::CellStatus status, float value, const ColorTable& table) {
     constexpr Rgba8 clear = {0, 0, 0, 0};
     switch (status) {
         case grid::CellStatus::not_seen:
@@ -34,7 +34,7 @@ Rgba8 overlay_colour(grid::CellStatus status, float value, const ColourTable& ta
         case grid::CellStatus::range_folded:
             return table.range_folded;
         case grid::CellStatus::value:
-            return colour_of(table, value).value_or(clear);
+            return color_of(table, value).value_or(clear);
     }
     return clear;
 }

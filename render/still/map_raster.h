@@ -15,9 +15,9 @@ namespace stormcellar::render {
 
 // Returns the color over another map. No echo, and values that the table does not show, are clear;
 // what was not seen is a thin gray veil, which no echo looks like.
-[[nodiscard]] Rgba8 overlay_colour(const FlatField& field, std::size_t place,
-                                   const ColourTable& table);
-[[nodiscard]] Rgba8 overlay_colour(grid::CellStatus status, float value, const ColourTable& table);
+[[nodiscard]] Rgba8 overlay_color(const FlatField& field, std::size_t place,
+                                  const ColorTable& table);
+[[nodiscard]] Rgba8 overlay_color(grid::CellStatus status, float value, const ColorTable& table);
 
 inline constexpr Rgba8 unseen_veil = {96, 100, 108, 72};
 

@@ -101,9 +101,9 @@ void for_each_copy(const PlaneWindow& window, const EarthBox& box, const Work& w
 }
 
 // The color of what is at a place in columns.
-class PlaceColours {
+class PlaceColors {
   public:
-    explicit PlaceColours(const PlaneMap& map)
+    explicit PlaceColors(const PlaneMap& map)
         : map_(map), cells_(map.field), per_column_(1.0 / static_cast<double>(1 << map.halvings)) {}
 
     // The place must be on the grid.
@@ -111,16 +111,16 @@ class PlaceColours {
         if (map_.smooth) {
             const SmoothField::Place place =
                 cells_.at((x + 0.5) * per_column_ - 0.5, (y + 0.5) * per_column_ - 0.5);
-            return overlay_colour(place.status, place.value, map_.table);
+            return overlay_color(place.status, place.value, map_.table);
         }
         const int column = static_cast<int>(x + 0.5) >> map_.halvings;
         const int row = static_cast<int>(y + 0.5) >> map_.halvings;
         const std::size_t cell = map_.field.index(column, row);
         if (cell != last_cell_) {
             last_cell_ = cell;
-            last_colour_ = overlay_colour(map_.field, cell, map_.table);
+            last_color_ = overlay_color(map_.field, cell, map_.table);
         }
-        return last_colour_;
+        return last_color_;
     }
 
   private:
@@ -128,7 +128,7 @@ class PlaceColours {
     SmoothField cells_;
     double per_column_;
     std::size_t last_cell_ = static_cast<std::size_t>(-1);
-    Rgba8 last_colour_{};
+    Rgba8 last_color_{};
 };
 
 // A square of pixels with the places of the centers of its corner pixels, and of the pixels beyond
@@ -141,7 +141,7 @@ struct Mesh {
 class PlanePainter {
   public:
     PlanePainter(const PlaneMap& map, const PlaneWindow& window, Image& image)
-        : map_(map), places_(window), projection_(map.spec), colours_(map), image_(image) {}
+        : map_(map), places_(window), projection_(map.spec), colors_(map), image_(image) {}
 
     void draw(const PixelBox& pixels) {
         pixels_ = pixels;
@@ -218,8 +218,8 @@ class PlanePainter {
     }
     void set_pixel(int x, int y, ColumnPoint at) {
         if (!holds(map_.spec, at)) return;
-        const Rgba8 colour = colours_.at(at.x, at.y);
-        if (colour[3] != 0) std::memcpy(pixel(x, y), colour.data(), colour.size());
+        const Rgba8 color = colors_.at(at.x, at.y);
+        if (color[3] != 0) std::memcpy(pixel(x, y), color.data(), color.size());
     }
     [[nodiscard]] std::uint8_t* pixel(int x, int y) {
         return image_.rgba.data() +
@@ -230,7 +230,7 @@ class PlanePainter {
     const PlaneMap& map_;
     WindowPlaces places_;
     grid::GridProjection projection_;
-    PlaceColours colours_;
+    PlaceColors colors_;
     Image& image_;
     PixelBox pixels_;
 };

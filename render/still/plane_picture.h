@@ -1,7 +1,7 @@
 // render/still/plane_picture.h -- a 2D product drawn on a rectangle of a map's plane: on tiles and
 // on pictures for maps of the web.
 //
-// A pixel shows the cell that holds its center, as overlay_colour() colors it; outside of the grid
+// A pixel shows the cell that holds its center, as overlay_color() colors it; outside of the grid
 // it is clear. The field may be coarser than the grid: a cell of it then stands for 2^halvings by
 // 2^halvings columns, from the southwest corner of the grid.
 //
@@ -14,7 +14,7 @@
 
 #include "render/products/flat_field.h"
 #include "stormcellar/grid/grid_spec.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
@@ -48,7 +48,7 @@ struct PlaneMap {
     const EarthBox& box;     // of the spec
     const FlatField& field;  // halved this often
     int halvings = 0;
-    const ColourTable& table;
+    const ColorTable& table;
     bool smooth = false;  // values go smoothly from cell to cell (smooth_field.h)
 };
 

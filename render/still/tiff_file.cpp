@@ -163,16 +163,16 @@ void add_sample_fields(const TiffFacts& facts, std::vector<Field>& fields) {
             fields.push_back(shorts(format_tag, {3}));  // IEEE
             return;
         case TiffSamples::palette: {
-            std::vector<std::uint16_t> colours(3 * 256, 0);
+            std::vector<std::uint16_t> colors(3 * 256, 0);
             for (std::size_t i = 0; i < facts.palette.size(); ++i) {
                 for (std::size_t part = 0; part < 3; ++part)
-                    colours[part * 256 + i] =
+                    colors[part * 256 + i] =
                         static_cast<std::uint16_t>(facts.palette[i][part] * 257);
             }
             fields.push_back(shorts(bits_tag, {8}));
             fields.push_back(shorts(photometric_tag, {3}));
             fields.push_back(shorts(samples_tag, {1}));
-            fields.push_back(shorts(palette_tag, colours));
+            fields.push_back(shorts(palette_tag, colors));
             return;
         }
         case TiffSamples::rgba:

@@ -6,7 +6,7 @@
 
 #include "base/name_list.h"
 #include "base/nearest_name.h"
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/view/length_text.h"
 #include "stormcellar/render/scene.h"
 
@@ -73,7 +73,7 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .name = "echotop",
      .title = echo_top_title,
      .unit = "km",
-     .colours = echo_top_colours,
+     .colors = echo_top_colors,
      .needs_reflectivity = true,
      .threshold_dbz = &Scene::echo_top_dbz,
      .may_be_higher = true,
@@ -82,14 +82,14 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .name = "vil",
      .title = vil_title,
      .unit = "kg/m2",
-     .colours = vil_colours,
+     .colors = vil_colors,
      .needs_reflectivity = true,
      .is_smooth = true},
     {.product = Product::vil_density,
      .name = "vil-density",
      .title = vil_density_title,
      .unit = "g/m3",
-     .colours = vil_density_colours,
+     .colors = vil_density_colors,
      .needs_reflectivity = true,
      .threshold_dbz = &Scene::echo_top_dbz,
      .is_smooth = true},
@@ -98,7 +98,7 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .aside = "of the column maximum",
      .title = maximum_height_title,
      .unit = "km",
-     .colours = height_colours,
+     .colors = height_colors,
      .needs_reflectivity = true,
      .threshold_dbz = &Scene::echo_top_dbz,
      .is_smooth = true},
@@ -106,13 +106,13 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .name = "lowest-seen",
      .title = lowest_seen_title,
      .unit = "km",
-     .colours = height_colours,
+     .colors = height_colors,
      .has_echo_states = false},
     {.product = Product::highest_seen,
      .name = "highest-seen",
      .title = highest_seen_title,
      .unit = "km",
-     .colours = height_colours,
+     .colors = height_colors,
      .has_echo_states = false},
 });
 static_assert(is_in_order(product_facts, &ProductFacts::product));
@@ -168,10 +168,10 @@ std::string product_title(const Scene& scene) {
     return facts_of(scene.product).title(scene);
 }
 
-const ColourTable& colours_of(const Scene& scene) {
-    if (scene.colours) return *scene.colours;
-    const auto colours = facts_of(scene.product).colours;
-    return colours != nullptr ? colours() : default_colour_table(scene.moment);
+const ColorTable& colors_of(const Scene& scene) {
+    if (scene.colors) return *scene.colors;
+    const auto colors = facts_of(scene.product).colors;
+    return colors != nullptr ? colors() : default_color_table(scene.moment);
 }
 
 std::string unit_shown(const Scene& scene) {

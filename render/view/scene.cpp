@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/floating_point.h"
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 
 namespace stormcellar::render {
 namespace {
@@ -43,23 +43,23 @@ Status check_section(const Scene& scene) {
                        limits::section_km);
 }
 
-Status check_colours(const Scene& scene) {
+Status check_colors(const Scene& scene) {
     if (facts_of(scene.product).needs_reflectivity && scene.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "{} is made from reflectivity (REF), not from {}",
                     product_name(scene.product), level2::moment_name(scene.moment));
     }
-    if (!scene.colours) return {};
-    if (auto valid = validate(*scene.colours); !valid) {
-        return fail(ErrorCode::bad_argument, "color table {}: it {}", scene.colours->name,
+    if (!scene.colors) return {};
+    if (auto valid = validate(*scene.colors); !valid) {
+        return fail(ErrorCode::bad_argument, "color table {}: it {}", scene.colors->name,
                     valid.error().message);
     }
     const std::string wanted = unit_shown(scene);
-    const std::string& unit = scene.colours->unit;
+    const std::string& unit = scene.colors->unit;
     // A table of RHO has no unit either.
-    const bool of_numbers = unit_of(scene.colours->moment).empty();
+    const bool of_numbers = unit_of(scene.colors->moment).empty();
     if (unit == wanted || (unit.empty() && !of_numbers)) return {};
     return fail(ErrorCode::bad_argument, "color table {} is {}, but the picture is {}",
-                scene.colours->name, unit.empty() ? "without a unit" : "in " + unit,
+                scene.colors->name, unit.empty() ? "without a unit" : "in " + unit,
                 wanted.empty() ? "without a unit" : "in " + wanted);
 }
 
@@ -125,7 +125,7 @@ Status validate(const Scene& scene) {
             ? Status{}
             : check_range("the number of a sweep", scene.sweep_number, limits::sweep_number),
         check_section(scene),
-        check_colours(scene),
+        check_colors(scene),
     };
     for (const Status& check : checks) {
         if (!check) return check;

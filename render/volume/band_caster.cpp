@@ -35,13 +35,13 @@ class BandCaster::Tiles {
     void cast_wanted() {
         if (count_ == 0) return;
         const std::span<const PixelPlace> pixels = std::span(wanted_).first(count_);
-        float colours[packet_rays * 4];
+        float colors[packet_rays * 4];
         float lights[packet_rays];
         cast_packet(caster_.volume_, caster_.maker_.packet(pixels), packet_words_.data(),
-                    packet_words_.size(), colours, lights);
+                    packet_words_.size(), colors, lights);
         for (std::size_t i = 0; i < count_; ++i) {
             const auto [x, y] = wanted_[i];
-            std::copy_n(colours + i * 4, 4, caster_.at(x, y));
+            std::copy_n(colors + i * 4, 4, caster_.at(x, y));
             if (caster_.light_ != nullptr) *caster_.light_at(x, y) = lights[i];
         }
         count_ = 0;

@@ -122,8 +122,8 @@ class HazeMarcher {
 
 }  // namespace
 
-Rgba8 veiled(Rgba8 colour, Rgba8 haze, double opacity) {
-    return mixed(colour, haze, opacity);
+Rgba8 veiled(Rgba8 color, Rgba8 haze, double opacity) {
+    return mixed(color, haze, opacity);
 }
 
 void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, Rgba8 haze, int threads,

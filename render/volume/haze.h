@@ -20,7 +20,7 @@ namespace stormcellar::render {
 inline constexpr double most_haze = 0.6;
 
 // Returns a color behind haze of this color and opacity.
-[[nodiscard]] Rgba8 veiled(Rgba8 colour, Rgba8 haze, double opacity);
+[[nodiscard]] Rgba8 veiled(Rgba8 color, Rgba8 haze, double opacity);
 
 // Draws the haze over `picture`, which has the size of the geometry.
 void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, Rgba8 haze, int threads,

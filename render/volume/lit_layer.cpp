@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/parallel.h"
-#include "render/colour/ok_lab.h"
+#include "render/color/ok_lab.h"
 
 namespace stormcellar::render {
 namespace {
@@ -56,8 +56,8 @@ float to_srgb(float linear) {
     return table(std::sqrt(std::clamp(linear, 0.0F, 1.0F)));
 }
 
-OkLab ok_lab(const Rgb& colour) {
-    return ok_lab_of({to_linear(colour[0]), to_linear(colour[1]), to_linear(colour[2])});
+OkLab ok_lab(const Rgb& color) {
+    return ok_lab_of({to_linear(color[0]), to_linear(color[1]), to_linear(color[2])});
 }
 
 bool is_shown(const Rgb& linear) {
@@ -66,16 +66,16 @@ bool is_shown(const Rgb& linear) {
 }
 
 // Returns the color, with as much of its chroma as can be shown.
-Rgb shown(const OkLab& colour) {
-    Rgb linear = linear_of(colour);
+Rgb shown(const OkLab& color) {
+    Rgb linear = linear_of(color);
     if (is_shown(linear)) return linear;
     float low = 0, high = 1;
     for (int step = 0; step < 7; ++step) {
         const float middle = 0.5F * (low + high);
-        const Rgb tried = linear_of(OkLab{colour.l, middle * colour.a, middle * colour.b});
+        const Rgb tried = linear_of(OkLab{color.l, middle * color.a, middle * color.b});
         (is_shown(tried) ? low : high) = middle;
     }
-    return linear_of(OkLab{colour.l, low * colour.a, low * colour.b});
+    return linear_of(OkLab{color.l, low * color.a, low * color.b});
 }
 
 float lit_lightness(float l, float factor) {
@@ -83,15 +83,15 @@ float lit_lightness(float l, float factor) {
     return l + std::max(0.0F, lightest - l) * (1 - std::exp(-lightening * (factor - 1)));
 }
 
-Rgb colour_at(const float* rgba) {
+Rgb color_at(const float* rgba) {
     const float whole = 1 / rgba[3];
     return {rgba[0] * whole, rgba[1] * whole, rgba[2] * whole};
 }
 
 }  // namespace
 
-Rgb lit_colour(const Rgb& colour, float factor) {
-    OkLab lab = ok_lab(colour);
+Rgb lit_color(const Rgb& color, float factor) {
+    OkLab lab = ok_lab(color);
     const float l = lit_lightness(lab.l, factor);
     if (factor < 1) {
         const float chroma = lab.l > 0 ? std::sqrt(l / lab.l) : 1;
@@ -115,7 +115,7 @@ float exposure_of(const Layer& layer, const std::vector<float>& light) {
                                static_cast<std::size_t>(x);
             const float* rgba = layer.rgba.data() + 4 * pixel;
             if (rgba[3] < least_alpha) continue;
-            seen.push_back({ok_lab(colour_at(rgba)).l, light[pixel] / rgba[3], rgba[3]});
+            seen.push_back({ok_lab(color_at(rgba)).l, light[pixel] / rgba[3], rgba[3]});
         }
     }
     if (seen.empty()) return 1;
@@ -140,7 +140,7 @@ void apply_light(Layer& layer, const std::vector<float>& light, int threads) {
             float* rgba = layer.rgba.data() + 4 * pixel;
             const float alpha = rgba[3];
             if (alpha < least_alpha) continue;
-            const Rgb lit = lit_colour(colour_at(rgba), exposure * light[pixel] / alpha);
+            const Rgb lit = lit_color(color_at(rgba), exposure * light[pixel] / alpha);
             for (std::size_t c = 0; c < 3; ++c)
                 rgba[c] = alpha * lit[c];
         }

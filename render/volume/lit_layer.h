@@ -24,7 +24,7 @@ namespace stormcellar::render {
 using Rgb = std::array<float, 3>;  // sRGB, 0..1
 
 // Returns a color, lit.
-[[nodiscard]] Rgb lit_colour(const Rgb& colour, float factor);
+[[nodiscard]] Rgb lit_color(const Rgb& color, float factor);
 // Returns the exposure; 1 for a layer without echo. `light` has the sum of the factors of each
 // pixel times what is seen of them, so that it is the factor times alpha.
 [[nodiscard]] float exposure_of(const Layer& layer, const std::vector<float>& light);

@@ -33,7 +33,7 @@ double level_position(const std::vector<double>& levels_m, double height_m) {
 
 }  // namespace
 
-ReferenceMarcher::ReferenceMarcher(const grid::BrickView& view, const ColourTable& table,
+ReferenceMarcher::ReferenceMarcher(const grid::BrickView& view, const ColorTable& table,
                                    const ViewGeometry& geometry, double opacity)
     : geometry_(geometry), table_(table), spec_(*view.spec), opacity_(opacity) {
     values_.reserve(spec_.cell_count());
@@ -83,7 +83,7 @@ ReferenceMarcher::Sample ReferenceMarcher::sample(const Vec3& point) const {
 }
 
 std::array<double, 4> ReferenceMarcher::ray(Pixel pixel, int steps) const {
-    return lit_ray(pixel, steps, nullptr).colour;
+    return lit_ray(pixel, steps, nullptr).color;
 }
 
 double ReferenceMarcher::light_at(const ShadeField& shades, const Vec3& point) const {
@@ -107,16 +107,16 @@ ReferenceMarcher::Lit ReferenceMarcher::lit_ray(Pixel pixel, int steps,
         above_ground = above_ground || (!below && is_inside(point));
         const Sample found = sample(point);
         if (found.share <= 0) continue;
-        const auto shown = colour_of(table_, static_cast<float>(found.value));
+        const auto shown = color_of(table_, static_cast<float>(found.value));
         if (!shown) continue;
         const double depth = extinction_per_m(table_, found.value, opacity_) * length * found.share;
         const double alpha = -std::expm1(-depth);
         for (std::size_t c = 0; c < 3; ++c)
-            lit.colour[c] += through * alpha * (*shown)[c] / 255.0;
+            lit.color[c] += through * alpha * (*shown)[c] / 255.0;
         lit.light += through * alpha * (shades != nullptr ? light_at(*shades, point) : 1);
         through *= 1 - alpha;
     }
-    lit.colour[3] = 1 - through;
+    lit.color[3] = 1 - through;
     return lit;
 }
 

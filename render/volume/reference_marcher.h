@@ -15,7 +15,7 @@
 
 #include "render/volume/shade_field.h"
 #include "stormcellar/grid/brick_view.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
@@ -23,7 +23,7 @@ namespace stormcellar::render {
 class ReferenceMarcher {
   public:
     // The geometry must outlive this object.
-    ReferenceMarcher(const grid::BrickView& view, const ColourTable& table,
+    ReferenceMarcher(const grid::BrickView& view, const ColorTable& table,
                      const ViewGeometry& geometry, double opacity);
 
     // Returns red, green and blue, premultiplied, and alpha, all 0..1. There are `steps` steps
@@ -32,7 +32,7 @@ class ReferenceMarcher {
     // The same, and the sum of the factors of the light, each times what is seen there. `shades`
     // may be null; then they are 1.
     struct Lit {
-        std::array<double, 4> colour{};
+        std::array<double, 4> color{};
         double light = 0;
     };
     [[nodiscard]] Lit lit_ray(Pixel pixel, int steps, const ShadeField* shades) const;
@@ -49,7 +49,7 @@ class ReferenceMarcher {
     [[nodiscard]] double light_at(const ShadeField& shades, const Vec3& point) const;
 
     const ViewGeometry& geometry_;
-    const ColourTable table_;
+    const ColorTable table_;
     const grid::GridSpec spec_;
     double opacity_;
     std::vector<float> values_;  // z runs fastest, then y, then x; NaN if there is no value

@@ -28,7 +28,7 @@ std::size_t as_index(int number) {
 // Makes the field in passes over rows of coarse cells, each shared between threads.
 class ShadeField::Baker {
   public:
-    Baker(const grid::BrickView& view, const ColourTable& table, const ViewGeometry& geometry,
+    Baker(const grid::BrickView& view, const ColorTable& table, const ViewGeometry& geometry,
           const Light& light, const LightVolume* volume, const std::array<int, 3>& sizes)
         : view_(view), geometry_(geometry), light_(light), volume_(volume), sizes_(sizes) {
         const float zero = std::min(0.0F, table.lowest());
@@ -305,7 +305,7 @@ class ShadeField::Baker {
     std::vector<std::uint8_t> codes_;
 };
 
-ShadeField::ShadeField(const grid::BrickView& view, const ColourTable& table,
+ShadeField::ShadeField(const grid::BrickView& view, const ColorTable& table,
                        const ViewGeometry& geometry, const Light& light, const LightVolume* volume,
                        int threads)
     : sizes_{(view.spec->nx + cells_across - 1) / cells_across,

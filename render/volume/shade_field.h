@@ -27,7 +27,7 @@
 
 #include "render/volume/light_volume.h"
 #include "stormcellar/grid/brick_view.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 
@@ -37,7 +37,7 @@ class ShadeField {
     static constexpr float of_code = 1.0F / 128;
 
     // `light` may be null, if neither shadow nor scattering is asked for.
-    ShadeField(const grid::BrickView& view, const ColourTable& table, const ViewGeometry& geometry,
+    ShadeField(const grid::BrickView& view, const ColorTable& table, const ViewGeometry& geometry,
                const Light& light, const LightVolume* volume, int threads);
 
     // Returns the factor at a place in cells and levels: trilinear, constant beyond the edges. This

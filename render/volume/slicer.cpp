@@ -28,7 +28,7 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
 
 }  // namespace
 
-VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
+VolumeSlicer::VolumeSlicer(const ColorTable& table, const grid::Quantization& quantization,
                            const ViewGeometry& geometry, const VolumeOptions& options,
                            TransferCache* cache, int threads)
     : geometry_(geometry), table_(table), options_(options) {

@@ -33,7 +33,7 @@
 #include "render/volume/slice_mask.h"
 #include "render/volume/transfer_cache.h"
 #include "stormcellar/grid/brick_view.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/light.h"
 #include "stormcellar/render/view_geometry.h"
 
@@ -65,7 +65,7 @@ struct VolumeOptions {
 class VolumeSlicer {
   public:
     // The geometry must outlive this object; `cache` may be null. `threads` make what is shared.
-    VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
+    VolumeSlicer(const ColorTable& table, const grid::Quantization& quantization,
                  const ViewGeometry& geometry, const VolumeOptions& options,
                  TransferCache* cache = nullptr, int threads = 1);
 
@@ -80,7 +80,7 @@ class VolumeSlicer {
     [[nodiscard]] double step_m() const;
 
     const ViewGeometry& geometry_;
-    ColourTable table_;
+    ColorTable table_;
     VolumeOptions options_;
     std::shared_ptr<const TransferFunction> transfer_;
 };

@@ -28,16 +28,16 @@ void integrate(const BinLooks& looks, const PieceOpacities& opacities, std::size
             const bool is_end = m == 0 || m == distance;
             const OfBins& opacity = is_end ? opacities.half : opacities.whole;
             const auto seen = hn::Mul(through, hn::LoadU(d, opacity.data() + at));
-            red = hn::Add(red, hn::Mul(seen, hn::LoadU(d, looks.colour[0].data() + at)));
-            green = hn::Add(green, hn::Mul(seen, hn::LoadU(d, looks.colour[1].data() + at)));
-            blue = hn::Add(blue, hn::Mul(seen, hn::LoadU(d, looks.colour[2].data() + at)));
+            red = hn::Add(red, hn::Mul(seen, hn::LoadU(d, looks.color[0].data() + at)));
+            green = hn::Add(green, hn::Mul(seen, hn::LoadU(d, looks.color[1].data() + at)));
+            blue = hn::Add(blue, hn::Mul(seen, hn::LoadU(d, looks.color[2].data() + at)));
             through = hn::Sub(through, seen);
             const auto of_bin = hn::LoadU(d, looks.depth.data() + at);
             depth = hn::Add(depth, is_end ? hn::Mul(half, of_bin) : of_bin);
         }
-        hn::StoreU(red, d, result.colour[0].data() + i);
-        hn::StoreU(green, d, result.colour[1].data() + i);
-        hn::StoreU(blue, d, result.colour[2].data() + i);
+        hn::StoreU(red, d, result.color[0].data() + i);
+        hn::StoreU(green, d, result.color[1].data() + i);
+        hn::StoreU(blue, d, result.color[2].data() + i);
         hn::StoreU(through, d, result.through.data() + i);
         hn::StoreU(depth, d, result.depth.data() + i);
     }

@@ -21,7 +21,7 @@ using OfBins = std::array<double, step_bins + bins_of_a_vector>;
 // The look of each bin: the optical depth of a step that is wholly in it, and its color.
 struct BinLooks {
     OfBins depth{};
-    std::array<OfBins, 3> colour{};
+    std::array<OfBins, 3> color{};
 };
 
 // The opacity of the pieces of a step over some number of bins.
@@ -32,7 +32,7 @@ struct PieceOpacities {
 // At i, the step with bin i at its lower end: the color that gets out at its front, the light that
 // gets through it, and the sum of the depths of its bins.
 struct StepIntegrals {
-    std::array<OfBins, 3> colour;
+    std::array<OfBins, 3> color;
     OfBins through, depth;
 };
 

@@ -2,7 +2,7 @@
 
 namespace stormcellar::render {
 
-std::shared_ptr<const TransferFunction> TransferCache::get(const ColourTable& table,
+std::shared_ptr<const TransferFunction> TransferCache::get(const ColorTable& table,
                                                            const grid::Quantization& quantization,
                                                            double opacity, double step_m,
                                                            Integration integration, int threads) {

@@ -16,13 +16,13 @@ class TransferCache {
   public:
     // Returns the function; makes it anew if anything differs from the last call.
     [[nodiscard]] std::shared_ptr<const TransferFunction> get(
-        const ColourTable& table, const grid::Quantization& quantization, double opacity,
+        const ColorTable& table, const grid::Quantization& quantization, double opacity,
         double step_m, Integration integration, int threads = 1);
     [[nodiscard]] int times_made() const { return times_made_; }
 
   private:
     struct Key {
-        ColourTable table;
+        ColorTable table;
         grid::Quantization quantization;
         double opacity = 0, step_m = 0;
         Integration integration{};

@@ -24,7 +24,7 @@ TransferEntry entry_of(double red, double green, double blue, double depth) {
 void fill_riemann(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         const auto entry =
-            entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
+            entry_of(look.color[0][i], look.color[1][i], look.color[2][i], look.depth[i]);
         std::fill_n(entries.begin() + static_cast<std::ptrdiff_t>(i * bins), bins, entry);
     }
 }
@@ -33,11 +33,11 @@ void fill_riemann(const BinLooks& look, Entries& entries) {
 void fill_first_order(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         double depth = 0;
-        std::array<double, 3> colour{};
+        std::array<double, 3> color{};
         const auto add = [&](std::size_t bin, double share) {
             depth += share * look.depth[bin];
             for (std::size_t c = 0; c < 3; ++c)
-                colour[c] += share * look.depth[bin] * look.colour[c][bin];
+                color[c] += share * look.depth[bin] * look.color[c][bin];
         };
         add(i, 1);
         for (std::size_t j = i; j < bins; ++j) {
@@ -51,7 +51,7 @@ void fill_first_order(const BinLooks& look, Entries& entries) {
             if (depth <= 0) continue;
             const double length = j == i ? 1 : static_cast<double>(j - i);
             const TransferEntry entry =
-                entry_of(colour[0] / depth, colour[1] / depth, colour[2] / depth, depth / length);
+                entry_of(color[0] / depth, color[1] / depth, color[2] / depth, depth / length);
             entries[i * bins + j] = entry;
             entries[j * bins + i] = entry;
         }
@@ -67,8 +67,8 @@ void put_steps(const StepIntegrals& steps, std::size_t distance, StepDirection d
         if (!(seen > 0)) continue;
         const std::size_t place = direction == StepDirection::rising ? i * bins + i + distance
                                                                      : (i + distance) * bins + i;
-        entries[place] = entry_of(steps.colour[0][i] / seen, steps.colour[1][i] / seen,
-                                  steps.colour[2][i] / seen, steps.depth[i] * piece);
+        entries[place] = entry_of(steps.color[0][i] / seen, steps.color[1][i] / seen,
+                                  steps.color[2][i] / seen, steps.depth[i] * piece);
     }
 }
 
@@ -87,7 +87,7 @@ void fill_second_order(const BinLooks& look, int threads, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         if (look.depth[i] <= 0) continue;
         entries[i * bins + i] =
-            entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
+            entry_of(look.color[0][i], look.color[1][i], look.color[2][i], look.depth[i]);
     }
     // Each distance has entries of its own.
     for_each_piece(static_cast<int>(bins) - 1, threads, [&](int piece) {
@@ -116,7 +116,7 @@ std::string_view integration_name(Integration integration) {
 }
 
 // The bin of a stop begins at the stop if a whole number of bins fits between any two stops.
-void TransferFunction::choose_bins(const ColourTable& table) {
+void TransferFunction::choose_bins(const ColorTable& table) {
     const auto& stops = table.stops;
     lowest_ = static_cast<double>(std::max(table.lowest(), table.extinction.front().value));
     const auto highest =
@@ -131,7 +131,7 @@ void TransferFunction::choose_bins(const ColourTable& table) {
     bin_width_ = bins_a_gap >= 1 ? gap / bins_a_gap : finest;
 }
 
-TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
+TransferFunction::TransferFunction(const ColorTable& table, const grid::Quantization& quantization,
                                    double opacity, double step_m, Integration integration,
                                    int threads)
     : entries_(bins * bins), visible_below_(bins + 1) {
@@ -148,9 +148,9 @@ TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantiz
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);
         look.depth[at] = extinction_per_m(table, value_of(i), opacity) * step_m;
-        const auto colour = colour_of(table, static_cast<float>(value_of(i)));
-        for (std::size_t c = 0; c < 3 && colour; ++c)
-            look.colour[c][at] = (*colour)[c] / 255.0;
+        const auto color = color_of(table, static_cast<float>(value_of(i)));
+        for (std::size_t c = 0; c < 3 && color; ++c)
+            look.color[c][at] = (*color)[c] / 255.0;
     }
     for (std::size_t i = 0; i < bins; ++i)
         visible_below_[i + 1] = visible_below_[i] + (look.depth[i] > 0 ? 1 : 0);

@@ -1,6 +1,6 @@
 // render/volume/transfer_function.h -- a color table, prepared for steps through a volume.
 //
-// A path of length s through an extinction k (ColourTable::extinction) has the optical depth k s
+// A path of length s through an extinction k (ColorTable::extinction) has the optical depth k s
 // and the opacity 1 - exp(-k s). Lengths are those of the drawn scene, with heights exaggerated.
 //
 // Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear: it
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "stormcellar/grid/brick_view.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/integration.h"
 
 namespace stormcellar::render {
@@ -36,7 +36,7 @@ class TransferFunction {
 
     // Makes the table for steps of `step_m` in the drawn scene. The bits do not depend on the
     // number of threads.
-    TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
+    TransferFunction(const ColorTable& table, const grid::Quantization& quantization,
                      double opacity, double step_m, Integration integration, int threads = 1);
 
     // The bin of a code is the whole part of bin_offset + bin_slope * code, bounded. The code may
@@ -65,7 +65,7 @@ class TransferFunction {
     }
 
   private:
-    void choose_bins(const ColourTable& table);
+    void choose_bins(const ColorTable& table);
 
     double lowest_ = 0, bin_width_ = 1;
     float bin_offset_ = 0, bin_slope_ = 0;

@@ -113,9 +113,9 @@ TEST(Plot, ThirtyFiveSeriesLookDifferent) {
     }
     const std::string svg = drawn(plot);
     // The color and the shape of the markers in the legend, one after the other.
-    for (const char* colour :
+    for (const char* color :
          {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"}) {
-        EXPECT_EQ(count(svg, std::string("fill=\"") + colour), 10U) << colour;
+        EXPECT_EQ(count(svg, std::string("fill=\"") + color), 10U) << color;
     }
     EXPECT_EQ(count(svg, "<circle"), 14U);
 }

@@ -217,7 +217,7 @@ TEST_F(Frame, TakesTheNewestGridOfTheMoment) {
     EXPECT_EQ(run("--domain KBGM --moment VEL --product vil -o " + out("b.png")), exit_bad_usage);
 }
 
-TEST_F(Frame, TakesColoursByNameOrFile) {
+TEST_F(Frame, TakesColorsByNameOrFile) {
     const std::string start =
         "--domain KBGM --product composite -o " + out("a.png") + " --colours ";
     EXPECT_EQ(run(start + "safe-reflectivity"), exit_done) << messages_;

@@ -117,7 +117,7 @@ TEST_F(Loop, WhereAllLiesInTheFutureItIsShownWithAWarning) {
     EXPECT_THAT(result.err, HasSubstr("lies in the future"));
 }
 
-TEST_F(Loop, ColoursAndViewAreThoseOfAllFrames) {
+TEST_F(Loop, ColorsAndViewAreThoseOfAllFrames) {
     commit("20050822_024400", 5);
     commit("20050822_025000", 70);
     for (const std::vector<std::string>& product :
@@ -133,7 +133,7 @@ TEST_F(Loop, ColoursAndViewAreThoseOfAllFrames) {
         const auto first = render::decode_png_file(out("f/frame_0000.png"));
         const auto second = render::decode_png_file(out("f/frame_0001.png"));
         ASSERT_EQ(first.rgba.size(), second.rgba.size());
-        // The colour bar and its numbers.
+        // The color bar and its numbers.
         std::size_t differing = 0;
         for (int y = 60; y < first.height - 20; ++y) {
             for (int x = first.width - 110; x < first.width; ++x) {

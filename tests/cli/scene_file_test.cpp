@@ -40,7 +40,7 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->product, render::Product::volume);
     EXPECT_EQ(scene->moment, level2::Moment::rho);
-    EXPECT_EQ(scene->colours->name, "safe-rho");
+    EXPECT_EQ(scene->colors->name, "safe-rho");
     EXPECT_EQ(scene->width, 640);
     EXPECT_EQ(scene->height, 480);
     EXPECT_EQ(scene->camera.azimuth_deg, 135);
@@ -189,17 +189,17 @@ TEST_F(SceneFileTest, PathsStartAtTheFile) {
         "colour = \"#ffffff\"\n",
         "mine.toml");
     ASSERT_TRUE(read("[picture]\ncolours = \"mine.toml\"\n"));
-    EXPECT_EQ(settings_.scene.colours, at("mine.toml"));
+    EXPECT_EQ(settings_.scene.colors, at("mine.toml"));
     const auto scene = scene_of(settings_.scene);
     ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->colours->name, "mine");
+    EXPECT_EQ(scene->colors->name, "mine");
 }
 
 TEST_F(SceneFileTest, AnOlderKeyIsTakenToo) {
     for (const char* key : {"colors", "colours"}) {
         settings_ = {};
         ASSERT_TRUE(read(fmt::format("[picture]\n{} = \"safe-rho\"\nmoment = \"RHO\"\n", key)));
-        EXPECT_EQ(scene_of(settings_.scene)->colours->name, "safe-rho");
+        EXPECT_EQ(scene_of(settings_.scene)->colors->name, "safe-rho");
         EXPECT_THAT(complaint(fmt::format("[picture]\n{} = \"none-such\"\n", key)),
                     HasSubstr(fmt::format("s.toml:2: [picture] {}: there is no color table", key)));
     }

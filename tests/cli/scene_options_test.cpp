@@ -52,7 +52,7 @@ TEST(SceneOptions, ProductsHaveOptionsOfTheirOwn) {
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->product, render::Product::section);
     EXPECT_EQ(scene->moment, level2::Moment::rho);
-    EXPECT_EQ(scene->colours->name, "safe-rho");
+    EXPECT_EQ(scene->colors->name, "safe-rho");
     EXPECT_EQ(scene->section->from.longitude_deg, -98.5);
     EXPECT_EQ(scene->section->to.latitude_deg, 36);
     EXPECT_EQ(scene_of(parse("--product cappi --height-km 4.5"))->cappi_height_m, 4500);
@@ -64,7 +64,7 @@ TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
     for (const char* spelling : {"--colors", "--colours"}) {
         const auto scene = scene_of(parse(fmt::format("{} safe-reflectivity", spelling)));
         ASSERT_TRUE(scene) << scene.error().message;
-        EXPECT_EQ(scene->colours->name, "safe-reflectivity");
+        EXPECT_EQ(scene->colors->name, "safe-reflectivity");
         EXPECT_THAT(scene_of(parse(fmt::format("{} none-such", spelling))).error().message,
                     ::testing::StartsWith(fmt::format("{}: there is no color table", spelling)));
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 
 namespace stormcellar::images {
 namespace {
@@ -46,7 +46,7 @@ std::vector<double> differences(const Image& one, const Image& other) {
     for (int y = 0; y < a.height; ++y) {
         for (int x = 0; x < a.width; ++x) {
             const bool same = a.at(x, y) == b.at(x, y);
-            found.push_back(same ? 0 : render::colour_difference(a.at(x, y), b.at(x, y)));
+            found.push_back(same ? 0 : render::color_difference(a.at(x, y), b.at(x, y)));
         }
     }
     return found;

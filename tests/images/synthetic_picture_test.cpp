@@ -89,8 +89,8 @@ TEST_P(SyntheticPicture, AMirroredGridIsFound) {
 }
 
 // the classes of the table that occur in every one of these pictures
-TEST_P(SyntheticPicture, TwoExchangedColoursAreFound) {
-    const std::size_t classes = render::colours_of(picture_.scene).stops.size();
+TEST_P(SyntheticPicture, TwoExchangedColorsAreFound) {
+    const std::size_t classes = render::colors_of(picture_.scene).stops.size();
     const std::size_t first = picture_.scene.product == render::Product::cappi ? classes / 2 : 3;
     swap_classes(picture_.scene, first);
     EXPECT_TRUE(found(draw(picture_)));
@@ -149,8 +149,8 @@ TEST_P(LabelledPicture, AnotherTimeIsFound) {
 }
 
 TEST_P(LabelledPicture, AWrongUnitIsFound) {
-    picture_.scene.colours = render::colours_of(picture_.scene);
-    picture_.scene.colours->unit = "kt";
+    picture_.scene.colors = render::colors_of(picture_.scene);
+    picture_.scene.colors->unit = "kt";
     EXPECT_TRUE(found(draw(picture_)));
 }
 
@@ -159,7 +159,7 @@ TEST_P(LabelledPicture, EachLabelThatMovedIsFound) {
     const auto fonts = render::Fonts::load();
     ASSERT_TRUE(fonts) << fonts.error().message;
     render::Legend legend = render::legend_of(picture_.scene);
-    legend.table = &render::colours_of(picture_.scene);
+    legend.table = &render::colors_of(picture_.scene);
     const auto layout =
         render::lay_out_labels(*fonts, picture_.scene, picture_.facts, {legend, 50e3, {}});
     ASSERT_TRUE(layout) << layout.error().message;

@@ -139,12 +139,12 @@ void mirror(Grid& grid) {
 }
 
 void swap_classes(Scene& scene, std::size_t first) {
-    render::ColourTable table = render::colours_of(scene);
+    render::ColorTable table = render::colors_of(scene);
     auto& one = table.stops.at(first);
     auto& next = table.stops.at(first + 1);
     std::swap(one.from, next.from);
     std::swap(one, next);
-    scene.colours = std::move(table);
+    scene.colors = std::move(table);
 }
 
 }  // namespace stormcellar::images

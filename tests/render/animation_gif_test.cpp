@@ -33,7 +33,7 @@ class AnimationGif : public ::testing::Test {
     testing::TemporaryDirectory directory_;
 };
 
-TEST_F(AnimationGif, FewColoursComeBackExactly) {
+TEST_F(AnimationGif, FewColorsComeBackExactly) {
     const auto frames = test_frames(6);
     const auto back = round_trip(frames);
     ASSERT_EQ(back.error, "");
@@ -45,27 +45,27 @@ TEST_F(AnimationGif, FewColoursComeBackExactly) {
 
 // Noise fills the code table and restarts it many times. Every number of colors has its own width
 // of codes.
-TEST_F(AnimationGif, NoiseOfAnyNumberOfColoursComesBackExactly) {
+TEST_F(AnimationGif, NoiseOfAnyNumberOfColorsComesBackExactly) {
     std::mt19937 random(20261121);
-    for (const unsigned colours : {1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 100U, 254U, 255U}) {
+    for (const unsigned colors : {1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 100U, 254U, 255U}) {
         std::vector<Image> frames(2, Image(150, 110, {0, 0, 0, 255}));
         for (Image& frame : frames) {
             for (int y = 0; y < frame.height; ++y) {
                 for (int x = 0; x < frame.width; ++x) {
-                    const auto entry = static_cast<std::uint8_t>(random() % colours);
+                    const auto entry = static_cast<std::uint8_t>(random() % colors);
                     frame.set(x, y, {entry, static_cast<std::uint8_t>(255 - entry), 9, 255});
                 }
             }
         }
         const auto back = round_trip(frames);
-        ASSERT_EQ(back.error, "") << colours;
-        ASSERT_EQ(back.frames.size(), 2U) << colours;
-        EXPECT_EQ(back.frames[0].image.rgba, frames[0].rgba) << colours;
-        EXPECT_EQ(back.frames[1].image.rgba, frames[1].rgba) << colours;
+        ASSERT_EQ(back.error, "") << colors;
+        ASSERT_EQ(back.frames.size(), 2U) << colors;
+        EXPECT_EQ(back.frames[0].image.rgba, frames[0].rgba) << colors;
+        EXPECT_EQ(back.frames[1].image.rgba, frames[1].rgba) << colors;
     }
 }
 
-TEST_F(AnimationGif, ColourThatStandsStillDoesNotFlicker) {
+TEST_F(AnimationGif, ColorThatStandsStillDoesNotFlicker) {
     std::vector<Image> frames(3, Image(128, 128, {}));
     for (int i = 0; i < 3; ++i) {
         for (int y = 0; y < 128; ++y) {

@@ -24,7 +24,7 @@ class AnimationVideo : public ::testing::TestWithParam<std::string> {
 };
 
 // In the middle of flat patches, halved chroma has no effect: red stays red, and blue stays blue.
-TEST_P(AnimationVideo, ColoursAndTheirPlacesComeBack) {
+TEST_P(AnimationVideo, ColorsAndTheirPlacesComeBack) {
     const auto frames = test_frames(6, 160, 96);
     write(frames, {.last_frame_dwell_s = 0});
     const auto back = decode_with_ffmpeg(path());

@@ -1,4 +1,4 @@
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 
 #include <set>
 
@@ -14,7 +14,7 @@ using level2::Moment;
 
 TEST(BuiltInTables, AreValidOpaqueAndHaveNamesOfTheirOwn) {
     std::set<std::string> names;
-    for (const ColourTable& table : built_in_tables()) {
+    for (const ColorTable& table : built_in_tables()) {
         const Status valid = validate(table);
         EXPECT_TRUE(valid) << table.name << " " << valid.error().message;
         EXPECT_TRUE(names.insert(table.name).second) << table.name;
@@ -23,18 +23,18 @@ TEST(BuiltInTables, AreValidOpaqueAndHaveNamesOfTheirOwn) {
         EXPECT_EQ(table.range_folded, (Rgba8{0x77, 0, 0x7D, 255}));
         // On maps, weak echo of the smooth tables of reflectivity lets the ground through.
         if (is_smooth && table.moment == Moment::ref) continue;
-        for (const ColourStop& stop : table.stops)
-            EXPECT_EQ(stop.colour[3], 255) << table.name;
+        for (const ColorStop& stop : table.stops)
+            EXPECT_EQ(stop.color[3], 255) << table.name;
     }
 }
 
 TEST(BuiltInTables, AreFoundByNameAndAllAreNamedOtherwise) {
-    for (const ColourTable& table : built_in_tables()) {
-        const auto found = find_colour_table(table.name);
+    for (const ColorTable& table : built_in_tables()) {
+        const auto found = find_color_table(table.name);
         ASSERT_TRUE(found);
         EXPECT_EQ(found->name, table.name);
     }
-    const auto missing = find_colour_table("rainbow");
+    const auto missing = find_color_table("rainbow");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code, ErrorCode::not_found);
     EXPECT_THAT(missing.error().message,
@@ -45,7 +45,7 @@ TEST(BuiltInTables, AreFoundByNameAndAllAreNamedOtherwise) {
 
 TEST(BuiltInTables, EachMomentHasOneOfItsOwnUnit) {
     for (const Moment moment : level2::all_moments) {
-        const ColourTable& table = default_colour_table(moment);
+        const ColorTable& table = default_color_table(moment);
         EXPECT_EQ(table.moment, moment);
         EXPECT_EQ(table.unit, unit_of(moment)) << table.name;
     }
@@ -53,34 +53,34 @@ TEST(BuiltInTables, EachMomentHasOneOfItsOwnUnit) {
     EXPECT_EQ(unit_of(Moment::rho), "");
 }
 
-TEST(BuiltInTables, HaveTheWeatherServicesColours) {
-    const ColourTable& velocity = default_colour_table(Moment::vel);
-    EXPECT_EQ(colour_of(velocity, -64), (Rgba8{0x02, 0xFC, 0x02, 255}));
-    EXPECT_EQ(colour_of(velocity, -5.1F), (Rgba8{0x04, 0x72, 0x02, 255}));
-    EXPECT_EQ(colour_of(velocity, 0), (Rgba8{0x80, 0x80, 0x80, 255})) << "at rest";
-    EXPECT_EQ(colour_of(velocity, 60), (Rgba8{0xFE, 0, 0, 255}));
-    EXPECT_EQ(colour_of(default_colour_table(Moment::sw), 4), (Rgba8{0, 0xBB, 0, 255}));
-    EXPECT_EQ(colour_of(default_colour_table(Moment::rho), 0.965F), (Rgba8{0xFF, 0x2B, 0, 255}));
-    EXPECT_FALSE(colour_of(default_colour_table(Moment::rho), 0.1F));
-    EXPECT_EQ(colour_of(default_colour_table(Moment::zdr), 2.2F), (Rgba8{0xFF, 0xFF, 0x60, 255}));
-    EXPECT_EQ(colour_of(echo_top_colours(), 12.5F), (Rgba8{0, 0xEF, 0, 255}));
-    EXPECT_EQ(colour_of(vil_colours(), 52), (Rgba8{0xDA, 0, 0, 255}));
-    EXPECT_EQ(colour_of(height_colours(), -1), height_colours().stops.front().colour);
+TEST(BuiltInTables, HaveTheWeatherServicesColors) {
+    const ColorTable& velocity = default_color_table(Moment::vel);
+    EXPECT_EQ(color_of(velocity, -64), (Rgba8{0x02, 0xFC, 0x02, 255}));
+    EXPECT_EQ(color_of(velocity, -5.1F), (Rgba8{0x04, 0x72, 0x02, 255}));
+    EXPECT_EQ(color_of(velocity, 0), (Rgba8{0x80, 0x80, 0x80, 255})) << "at rest";
+    EXPECT_EQ(color_of(velocity, 60), (Rgba8{0xFE, 0, 0, 255}));
+    EXPECT_EQ(color_of(default_color_table(Moment::sw), 4), (Rgba8{0, 0xBB, 0, 255}));
+    EXPECT_EQ(color_of(default_color_table(Moment::rho), 0.965F), (Rgba8{0xFF, 0x2B, 0, 255}));
+    EXPECT_FALSE(color_of(default_color_table(Moment::rho), 0.1F));
+    EXPECT_EQ(color_of(default_color_table(Moment::zdr), 2.2F), (Rgba8{0xFF, 0xFF, 0x60, 255}));
+    EXPECT_EQ(color_of(echo_top_colors(), 12.5F), (Rgba8{0, 0xEF, 0, 255}));
+    EXPECT_EQ(color_of(vil_colors(), 52), (Rgba8{0xDA, 0, 0, 255}));
+    EXPECT_EQ(color_of(height_colors(), -1), height_colors().stops.front().color);
 }
 
 TEST(BuiltInTables, EachMomentHasASmoothOne) {
     for (const Moment moment : level2::all_moments) {
-        const ColourTable& table = smooth_colour_table(moment);
+        const ColorTable& table = smooth_color_table(moment);
         EXPECT_EQ(table.moment, moment);
         EXPECT_TRUE(table.name.starts_with("smooth-")) << table.name;
         EXPECT_FALSE(is_stepped(table)) << table.name;
     }
-    EXPECT_EQ(clear_air_colours().name, "smooth-clear-air");
+    EXPECT_EQ(clear_air_colors().name, "smooth-clear-air");
 }
 
 // Symmetric about 0, so that both sides of a couplet weigh the same.
 TEST(DefaultExtinction, OfVelocityGoesBySpeed) {
-    const ColourTable& table = default_colour_table(Moment::vel);
+    const ColorTable& table = default_color_table(Moment::vel);
     double before = 0;
     for (double speed = 0; speed <= 60; speed += 2.5) {
         const double away = extinction_per_m(table, speed, 1);
@@ -93,14 +93,14 @@ TEST(DefaultExtinction, OfVelocityGoesBySpeed) {
 }
 
 // For every value that the cache can hold, so that none is drawn as if it did not exist.
-TEST(DefaultExtinction, WhatHasAColourCanBeSeen) {
+TEST(DefaultExtinction, WhatHasAColorCanBeSeen) {
     for (const Moment moment : level2::all_moments) {
-        const ColourTable& table = default_colour_table(moment);
+        const ColorTable& table = default_color_table(moment);
         const grid::Quantization codes = grid::default_quantization(moment);
         for (std::uint32_t code = grid::first_value_code; code <= codes.largest_code(); ++code) {
             const float value = codes.value_of(static_cast<std::uint16_t>(code));
             const bool visible = extinction_per_m(table, static_cast<double>(value), 1) > 0;
-            ASSERT_EQ(visible, colour_of(table, value).has_value()) << table.name << " " << value;
+            ASSERT_EQ(visible, color_of(table, value).has_value()) << table.name << " " << value;
         }
     }
 }
@@ -113,24 +113,24 @@ TEST(DefaultExtinction, OfReflectivityBeginsWhereATableDoes) {
 
 TEST(Validate, NamesWhatIsWrongWithATable) {
     const auto with = [](auto change) {
-        ColourTable table = nws_reflectivity();
+        ColorTable table = nws_reflectivity();
         change(table);
         const Status status = validate(table);
         return status ? std::string{} : status.error().message;
     };
     using ::testing::HasSubstr;
-    EXPECT_EQ(with([](ColourTable&) {}), "");
-    EXPECT_THAT(with([](ColourTable& t) { t.stops.clear(); }), HasSubstr("no colors"));
-    EXPECT_THAT(with([](ColourTable& t) { t.stops[3].from = t.stops[2].from; }),
+    EXPECT_EQ(with([](ColorTable&) {}), "");
+    EXPECT_THAT(with([](ColorTable& t) { t.stops.clear(); }), HasSubstr("no colors"));
+    EXPECT_THAT(with([](ColorTable& t) { t.stops[3].from = t.stops[2].from; }),
                 HasSubstr("do not rise"));
-    EXPECT_THAT(with([](ColourTable& t) { t.stops[3].from = std::nanf(""); }),
+    EXPECT_THAT(with([](ColorTable& t) { t.stops[3].from = std::nanf(""); }),
                 HasSubstr("do not rise"));
-    EXPECT_THAT(with([](ColourTable& t) { t.end = 75; }), HasSubstr("ends before"));
-    EXPECT_THAT(with([](ColourTable& t) { t.bar_begin = 90.0F; }), HasSubstr("begins"));
-    EXPECT_THAT(with([](ColourTable& t) { t.extinction.clear(); }), HasSubstr("no opacity"));
-    EXPECT_THAT(with([](ColourTable& t) { t.extinction[1].value = -9; }), HasSubstr("opacities"));
-    EXPECT_THAT(with([](ColourTable& t) { t.extinction[1].per_km = -1; }), HasSubstr("per km"));
-    EXPECT_THAT(with([](ColourTable& t) { t.extinction[1].per_km = std::nan(""); }),
+    EXPECT_THAT(with([](ColorTable& t) { t.end = 75; }), HasSubstr("ends before"));
+    EXPECT_THAT(with([](ColorTable& t) { t.bar_begin = 90.0F; }), HasSubstr("begins"));
+    EXPECT_THAT(with([](ColorTable& t) { t.extinction.clear(); }), HasSubstr("no opacity"));
+    EXPECT_THAT(with([](ColorTable& t) { t.extinction[1].value = -9; }), HasSubstr("opacities"));
+    EXPECT_THAT(with([](ColorTable& t) { t.extinction[1].per_km = -1; }), HasSubstr("per km"));
+    EXPECT_THAT(with([](ColorTable& t) { t.extinction[1].per_km = std::nan(""); }),
                 HasSubstr("per km"));
 }
 

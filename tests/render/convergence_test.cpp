@@ -11,8 +11,8 @@ namespace stormcellar::render {
 namespace {
 
 // Smooth in value: colors blend, extinction rises linearly.
-ColourTable smooth_table() {
-    ColourTable table;
+ColorTable smooth_table() {
+    ColorTable table;
     table.stops = {{0, {20, 40, 250, 255}, {250, 60, 20, 255}},
                    {60, {250, 60, 20, 255}, {250, 60, 20, 255}}};
     table.end = 70;
@@ -35,7 +35,7 @@ grid::BrickGrid ball(const grid::GridSpec& spec) {
         {2, -32, 0.01F});
 }
 
-double error_of(const grid::BrickView& bricks, const ViewGeometry& view, const ColourTable& table,
+double error_of(const grid::BrickView& bricks, const ViewGeometry& view, const ColorTable& table,
                 const VolumeOptions& options) {
     const Layer layer = VolumeSlicer(table, bricks.quantization, view, options).draw(bricks, 2);
     const ReferenceMarcher reference(bricks, table, view, options.opacity);

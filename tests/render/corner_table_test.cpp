@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/volume/ray_maker.h"
 #include "render/volume/ray_packet.h"
 #include "tests/render/synthetic_storm.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/image/shades.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 namespace {
@@ -47,7 +47,7 @@ void expect_tidy(const LabelLayout& layout, int width, int height) {
     }
 }
 
-DrawnFacts picture_of(Scene scene, level2::Moment moment, const ColourTable& table) {
+DrawnFacts picture_of(Scene scene, level2::Moment moment, const ColorTable& table) {
     scene.moment = moment;
     Legend legend = legend_of(scene);
     legend.table = &table;
@@ -66,8 +66,8 @@ FrameFacts troubled(int sites) {
 }
 
 // Uneven classes of a moment without a unit, and a blend with long numbers.
-ColourTable uneven_table() {
-    ColourTable table = nws_reflectivity();
+ColorTable uneven_table() {
+    ColorTable table = nws_reflectivity();
     table.unit = "";
     table.stops = {{-0.0625F, {1, 2, 3, 255}, {1, 2, 3, 255}},
                    {0.125F, {9, 2, 3, 255}, {9, 2, 3, 255}},
@@ -77,8 +77,8 @@ ColourTable uneven_table() {
     return table;
 }
 
-ColourTable smooth_labels_table() {
-    ColourTable table = nws_reflectivity();
+ColorTable smooth_labels_table() {
+    ColorTable table = nws_reflectivity();
     table.unit = "degrees a kilometre";
     table.stops = {{-64.25F, {0, 0, 200, 255}, {200, 200, 200, 255}},
                    {0, {200, 200, 200, 255}, {200, 0, 0, 255}}};
@@ -92,9 +92,9 @@ constexpr std::pair<int, int> sizes[] = {
     {2160, 3840}, {1000, 1000}, {1080, 1350}, {8192, 8192}, {400, 8192}, {1200, 1001}};
 
 void expect_tidy(const Fonts& fonts, const Scene& scene, const FrameFacts& facts) {
-    const ColourTable tables[] = {nws_reflectivity(), uneven_table(), smooth_labels_table()};
+    const ColorTable tables[] = {nws_reflectivity(), uneven_table(), smooth_labels_table()};
     std::vector<DrawnFacts> pictures;
-    for (const ColourTable& table : tables)
+    for (const ColorTable& table : tables)
         pictures.push_back(picture_of(scene, level2::Moment::ref, table));
     for (const level2::Moment moment : level2::all_moments)
         pictures.push_back(picture_of(scene, moment, tables[0]));
@@ -164,7 +164,7 @@ TEST(Labels, WarningsStandBesideTheProductAndMoveNothing) {
             "standby")
             continue;
         found = true;
-        EXPECT_EQ(text.colour, shades::dark.warning_text);
+        EXPECT_EQ(text.color, shades::dark.warning_text);
     }
     EXPECT_TRUE(found);
 }

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_difference.h"
-#include "render/colour/ok_lab.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_difference.h"
+#include "render/color/ok_lab.h"
 #include "render/view/fitted_camera.h"
 #include "render/volume/reference_marcher.h"
 #include "render/volume/slicer.h"
@@ -25,10 +25,10 @@
 namespace stormcellar::render {
 namespace {
 
-OkLab ok_lab_of_srgb(const Rgb& colour) {
+OkLab ok_lab_of_srgb(const Rgb& color) {
     LinearRgb linear{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const float level = colour[c];
+        const float level = color[c];
         linear[c] = level <= 0.04045F ? level / 12.92F : std::pow((level + 0.055F) / 1.055F, 2.4F);
     }
     return ok_lab_of(linear);
@@ -39,31 +39,30 @@ double hue_between_deg(const OkLab& one, const OkLab& other) {
     return std::abs(std::remainder(turn, 2 * std::numbers::pi)) * 180 / std::numbers::pi;
 }
 
-TEST(LitColour, KeepsTheHueAndFollowsTheFactor) {
-    for (const ColourTable& table :
-         {smooth_colour_table(level2::Moment::ref), nws_reflectivity()}) {
-        for (const ColourStop& stop : table.stops) {
-            const Rgb colour = {stop.colour[0] / 255.0F, stop.colour[1] / 255.0F,
-                                stop.colour[2] / 255.0F};
-            const OkLab plain = ok_lab_of_srgb(colour);
+TEST(LitColor, KeepsTheHueAndFollowsTheFactor) {
+    for (const ColorTable& table : {smooth_color_table(level2::Moment::ref), nws_reflectivity()}) {
+        for (const ColorStop& stop : table.stops) {
+            const Rgb color = {stop.color[0] / 255.0F, stop.color[1] / 255.0F,
+                               stop.color[2] / 255.0F};
+            const OkLab plain = ok_lab_of_srgb(color);
             float before = 0;
             for (float factor = 0.3F; factor <= 1.8F; factor += 0.1F) {
-                const OkLab lit = ok_lab_of_srgb(lit_colour(colour, factor));
+                const OkLab lit = ok_lab_of_srgb(lit_color(color, factor));
                 EXPECT_GE(lit.l, before - 2e-3F) << stop.from << " " << factor;
                 before = lit.l;
                 if (std::hypot(lit.a, lit.b) < 0.03F) continue;  // gray has no hue
                 EXPECT_LT(hue_between_deg(lit, plain), 1.5) << stop.from << " " << factor;
             }
-            const OkLab same = ok_lab_of_srgb(lit_colour(colour, 1));
+            const OkLab same = ok_lab_of_srgb(lit_color(color, 1));
             EXPECT_NEAR(same.l, plain.l, 2e-3) << stop.from;
         }
     }
 }
 
-TEST(LitColour, DarkensAndLightens) {
+TEST(LitColor, DarkensAndLightens) {
     const Rgb green = {0.1F, 0.6F, 0.3F};
-    EXPECT_LT(ok_lab_of_srgb(lit_colour(green, 0.7F)).l, 0.8 * ok_lab_of_srgb(green).l);
-    EXPECT_GT(ok_lab_of_srgb(lit_colour(green, 1.3F)).l, 1.1 * ok_lab_of_srgb(green).l);
+    EXPECT_LT(ok_lab_of_srgb(lit_color(green, 0.7F)).l, 0.8 * ok_lab_of_srgb(green).l);
+    EXPECT_GT(ok_lab_of_srgb(lit_color(green, 1.3F)).l, 1.1 * ok_lab_of_srgb(green).l);
 }
 
 // The layer of a picture with light, before it is lit.
@@ -99,7 +98,7 @@ TEST(LitLayer, TheSumOfLightAgreesWithTheReference) {
                 const double fast = room.light[static_cast<std::size_t>(y * 200 + x)];
                 worst = std::max(worst, std::abs(slow.light - fast));
                 sum += (slow.light - fast) * (slow.light - fast);
-                apart = std::max(apart, std::abs(slow.light - slow.colour[3]));
+                apart = std::max(apart, std::abs(slow.light - slow.color[3]));
                 ++count;
             }
         }
@@ -171,7 +170,7 @@ Lightness lightness_of(const Layer& lit, const Layer& plain, double& mean_plain)
         const float alpha = plain.rgba[i + 3];
         EXPECT_EQ(lit.rgba[i + 3], alpha);
         if (alpha < 0.1F) continue;
-        const auto colour = [&](const Layer& layer) {
+        const auto color = [&](const Layer& layer) {
             return Rgb{layer.rgba[i] / alpha, layer.rgba[i + 1] / alpha, layer.rgba[i + 2] / alpha};
         };
         const double l = lightness_at(lit, i);
@@ -181,7 +180,7 @@ Lightness lightness_of(const Layer& lit, const Layer& plain, double& mean_plain)
         weight += static_cast<double>(alpha);
         found.lighter += l > l_plain + 2 ? 1 : 0;
         found.darker += l < l_plain - 2 ? 1 : 0;
-        const OkLab one = ok_lab_of_srgb(colour(lit)), other = ok_lab_of_srgb(colour(plain));
+        const OkLab one = ok_lab_of_srgb(color(lit)), other = ok_lab_of_srgb(color(plain));
         if (std::min(std::hypot(one.a, one.b), std::hypot(other.a, other.b)) > 0.03F) {
             turns.push_back(hue_between_deg(one, other));
         }
@@ -203,8 +202,8 @@ TEST_P(LitVolume, KeepsItsLightnessAndItsHues) {
     apply(fit_view(outline, scene, 400, 300), scene);
     const ViewGeometry view(*bricks.view().spec, scene.camera, scene.vertical_exaggeration, 400,
                             300);
-    for (const ColourTable* table :
-         {&nws_reflectivity(), &smooth_colour_table(level2::Moment::ref)}) {
+    for (const ColorTable* table :
+         {&nws_reflectivity(), &smooth_color_table(level2::Moment::ref)}) {
         for (const char* kinds : {"gradient,shadow", "gradient", "shadow", "scattering"}) {
             const auto draw = [&](const std::string& names) {
                 VolumeOptions options = options_of(names, 128);
@@ -246,7 +245,7 @@ TEST_P(LitVolume, IsAsLightWhenOtherEchoGoes) {
         VolumeOptions options = options_of(names, 128);
         options.opacity = scene.opacity;
         options.light.sun_azimuth_deg = scene.light.sun_azimuth_deg;
-        return VolumeSlicer(smooth_colour_table(level2::Moment::ref), bricks.view().quantization,
+        return VolumeSlicer(smooth_color_table(level2::Moment::ref), bricks.view().quantization,
                             view, options)
             .draw(bricks.view(), 2);
     };

@@ -31,33 +31,33 @@ int distance(Rgb8 a, Rgb8 b) {
     return largest;
 }
 
-TEST(Palette, FewColoursAreKeptExactly) {
-    ColourHistogram histogram;
-    std::set<Rgb8> colours;
+TEST(Palette, FewColorsAreKeptExactly) {
+    ColorHistogram histogram;
+    std::set<Rgb8> colors;
     for (const Image& frame : test_frames(4)) {
         histogram.add(frame);
         for (std::size_t i = 0; i < frame.rgba.size(); i += 4)
-            colours.insert({frame.rgba[i], frame.rgba[i + 1], frame.rgba[i + 2]});
+            colors.insert({frame.rgba[i], frame.rgba[i + 1], frame.rgba[i + 2]});
     }
     const auto palette = histogram.palette(255);
-    EXPECT_EQ(std::set<Rgb8>(palette.begin(), palette.end()), colours);
+    EXPECT_EQ(std::set<Rgb8>(palette.begin(), palette.end()), colors);
 }
 
-TEST(Palette, ManyColoursAreAllNearAnEntry) {
-    ColourHistogram histogram;
+TEST(Palette, ManyColorsAreAllNearAnEntry) {
+    ColorHistogram histogram;
     const Image image = gradient();
     histogram.add(image);
     const auto palette = histogram.palette(255);
     EXPECT_LE(palette.size(), 255U);
     PaletteMap map(palette);
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-        const Rgb8 colour{image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]};
-        EXPECT_LE(distance(palette[map.nearest(colour)], colour), 24);
+        const Rgb8 color{image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]};
+        EXPECT_LE(distance(palette[map.nearest(color)], color), 24);
     }
 }
 
-TEST(Palette, ColourOfTheBackgroundStaysExactAmongThousands) {
-    ColourHistogram histogram;
+TEST(Palette, ColorOfTheBackgroundStaysExactAmongThousands) {
+    ColorHistogram histogram;
     histogram.add(gradient());
     histogram.add(Image(200, 200, {11, 14, 19, 255}));
     const auto palette = histogram.palette(255);
@@ -65,19 +65,19 @@ TEST(Palette, ColourOfTheBackgroundStaysExactAmongThousands) {
 }
 
 TEST(PaletteMap, AgreesWithAMapThatRemembersNothing) {
-    ColourHistogram histogram;
+    ColorHistogram histogram;
     histogram.add(gradient());
     const auto palette = histogram.palette(64);
     PaletteMap map(palette);
     for (std::uint32_t i = 0; i < 100000; ++i) {
         const std::uint32_t bits = i * 2654435761U;
-        const Rgb8 colour{static_cast<std::uint8_t>(bits >> 8),
-                          static_cast<std::uint8_t>(bits >> 16),
-                          static_cast<std::uint8_t>(bits >> 24)};
-        const auto entry = map.nearest(colour);
+        const Rgb8 color{static_cast<std::uint8_t>(bits >> 8),
+                         static_cast<std::uint8_t>(bits >> 16),
+                         static_cast<std::uint8_t>(bits >> 24)};
+        const auto entry = map.nearest(color);
         if (i % 500 != 0) continue;
-        EXPECT_EQ(entry, PaletteMap(palette).nearest(colour));
-        EXPECT_EQ(map.nearest(colour), entry);
+        EXPECT_EQ(entry, PaletteMap(palette).nearest(color));
+        EXPECT_EQ(map.nearest(color), entry);
     }
 }
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/image/shades.h"
 #include "render/map/legend.h"
 #include "render/products/flat_field.h"
@@ -41,7 +41,7 @@ TEST(ProductTitle, NamesMomentAndProduct) {
     EXPECT_EQ(product_title(scene_of(Product::echo_top, Moment::ref)), "Echo tops, 18.5 dBZ");
 }
 
-TEST(ProductLegend, SaysWhatIsNotInTheColourBar) {
+TEST(ProductLegend, SaysWhatIsNotInTheColorBar) {
     using ::testing::ElementsAre;
     EXPECT_THAT(legend_texts(scene_of(Product::cappi, Moment::ref)),
                 ElementsAre("no echo or < 5 dBZ", "range folded", "not seen"));
@@ -64,7 +64,7 @@ TEST(ProductLegend, OfAHazyVolumeIsOfTheAir) {
     EXPECT_THAT(legend_texts(scene), ElementsAre("seen below 3 km", "seen above 3 km", "not seen"));
     scene.haze = true;
     EXPECT_THAT(legend_texts(scene), ElementsAre("air seen", "air not seen", "nothing seen"));
-    const Rgba8 hazy = legend_of(scene).rows[1].colour;
+    const Rgba8 hazy = legend_of(scene).rows[1].color;
     EXPECT_GT(hazy[0], shades::dark.land.seen[0]);
     EXPECT_LT(hazy[0], shades::dark.haze[0]);
 }

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/frame/frame_cache.h"
 #include "render/image/shades.h"
 #include "render/map/map_layer.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {
@@ -190,7 +190,7 @@ TEST(RenderFrame, DrawsEveryProductAndMoment) {
     }
 }
 
-TEST(RenderFrame, TakesTheScenesColours) {
+TEST(RenderFrame, TakesTheScenesColors) {
     const auto grid = make_grid_of(small_spec(100, 4), [](int, int, int) { return valued(52); });
     const auto bricks = bricks_of(grid);
     Scene scene = plain(Product::cappi, 520);
@@ -198,9 +198,9 @@ TEST(RenderFrame, TakesTheScenesColours) {
     const auto usual = render_frame(bricks.view(), facts_of(grid), scene, 1);
     ASSERT_TRUE(usual);
     EXPECT_EQ(map_pixel(*usual, 50, 50), (Rgba8{0xFD, 0, 0, 255}));
-    scene.colours = find_colour_table("safe-reflectivity").value();
+    scene.colors = find_color_table("safe-reflectivity").value();
     const auto safe = render_frame(bricks.view(), facts_of(grid), scene, 1);
-    EXPECT_EQ(map_pixel(*safe, 50, 50), *colour_of(*scene.colours, 52));
+    EXPECT_EQ(map_pixel(*safe, 50, 50), *color_of(*scene.colors, 52));
     scene.cappi_height_m = 9000;
     EXPECT_EQ(render_frame(bricks.view(), facts_of(grid), scene, 1).error().code,
               ErrorCode::bad_argument);
@@ -221,7 +221,7 @@ TEST(EchoTops, ThatMayBeHigherAreDotted) {
         for (int x = 20; x < 250; ++x)
             dots += image->at(x, y) == shades::dark.page ? 1 : 0;
         for (int x = 270; x < 500; ++x)
-            ASSERT_EQ(image->at(x, y), *colour_of(echo_top_colours(), 1.5F));
+            ASSERT_EQ(image->at(x, y), *color_of(echo_top_colors(), 1.5F));
     }
     EXPECT_GT(dots, 5000);
     EXPECT_LT(dots, 30000);

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_difference.h"
-#include "render/colour/smooth_tables.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_difference.h"
+#include "render/color/smooth_tables.h"
 
 namespace stormcellar::render {
 namespace {
@@ -35,30 +35,29 @@ constexpr Sight sights[] = {
       {0.004733, 0.691367, 0.303900}}},
 };
 
-Lab seen_by(const Sight& sight, const Rgba8& colour) {
+Lab seen_by(const Sight& sight, const Rgba8& color) {
     std::array<double, 3> seen{};
     for (std::size_t row = 0; row < 3; ++row) {
         double sum = 0;
         for (std::size_t c = 0; c < 3; ++c)
-            sum += sight.matrix[row][c] * linear_of(colour[c]);
+            sum += sight.matrix[row][c] * linear_of(color[c]);
         seen[row] = std::clamp(sum, 0.0, 1.0);
     }
     return lab_of_linear(seen[0], seen[1], seen[2]);
 }
 
-double least_step(const ColourTable& table, const Sight& sight) {
+double least_step(const ColorTable& table, const Sight& sight) {
     double least = 1000;
     for (std::size_t i = 1; i < table.stops.size(); ++i) {
-        least = std::min(least, ciede2000(seen_by(sight, table.stops[i - 1].colour),
-                                          seen_by(sight, table.stops[i].colour)));
+        least = std::min(least, ciede2000(seen_by(sight, table.stops[i - 1].color),
+                                          seen_by(sight, table.stops[i].color)));
     }
     return least;
 }
 
-bool lightness_rises(const ColourTable& table, std::size_t first, std::size_t end) {
+bool lightness_rises(const ColorTable& table, std::size_t first, std::size_t end) {
     for (std::size_t i = first + 1; i < end; ++i) {
-        if (lab_of(table.stops[i].colour).lightness <=
-            lab_of(table.stops[i - 1].colour).lightness) {
+        if (lab_of(table.stops[i].color).lightness <= lab_of(table.stops[i - 1].color).lightness) {
             return false;
         }
     }
@@ -74,14 +73,14 @@ TEST(Sights, KeepGreysAndMixWhatTheyShould) {
     }
     const Rgba8 red = {200, 90, 40, 255};
     const Rgba8 green = {116, 130, 40, 255};
-    EXPECT_GT(colour_difference(red, green), 30);
+    EXPECT_GT(color_difference(red, green), 30);
     EXPECT_LT(ciede2000(seen_by(sights[2], red), seen_by(sights[2], green)), 12);
 }
 
 TEST(SafeTables, NeighboursDifferForEveryKindOfSight) {
     for (const char* name :
          {"safe-reflectivity", "safe-velocity", "safe-zdr", "safe-rho", "height"}) {
-        const auto table = find_colour_table(name);
+        const auto table = find_color_table(name);
         ASSERT_TRUE(table);
         for (const Sight& sight : sights) {
             const double least = least_step(*table, sight);
@@ -94,21 +93,21 @@ TEST(SafeTables, NeighboursDifferForEveryKindOfSight) {
 
 TEST(SafeTables, LightnessRisesWithTheValue) {
     for (const char* name : {"safe-reflectivity", "safe-zdr", "safe-rho", "height"}) {
-        const auto table = find_colour_table(name);
+        const auto table = find_color_table(name);
         ASSERT_TRUE(table);
         EXPECT_TRUE(lightness_rises(*table, 0, table->stops.size())) << name;
     }
 }
 
 TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
-    ColourTable table = find_colour_table("safe-velocity").value();
+    ColorTable table = find_color_table("safe-velocity").value();
     const std::size_t count = table.stops.size();
     ASSERT_EQ(count % 2, 1U);
     EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "away";
     for (const Sight& sight : sights) {
         for (std::size_t i = 0; i < count / 2; ++i) {
-            EXPECT_GE(ciede2000(seen_by(sight, table.stops[i].colour),
-                                seen_by(sight, table.stops[count - 1 - i].colour)),
+            EXPECT_GE(ciede2000(seen_by(sight, table.stops[i].color),
+                                seen_by(sight, table.stops[count - 1 - i].color)),
                       least_safe_sides)
                 << sight.name << " " << i;
         }
@@ -122,13 +121,13 @@ TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(nws_reflectivity(), sights[1]), 4);
     EXPECT_LT(least_step(nws_reflectivity(), sights[2]), 4);
     EXPECT_FALSE(lightness_rises(nws_reflectivity(), 0, nws_reflectivity().stops.size()));
-    const ColourTable velocity = find_colour_table("nws-velocity").value();
+    const ColorTable velocity = find_color_table("nws-velocity").value();
     double least_sides = 1000;
     for (std::size_t i = 0; i < velocity.stops.size() / 2; ++i) {
         least_sides = std::min(
             least_sides,
-            ciede2000(seen_by(sights[2], velocity.stops[i].colour),
-                      seen_by(sights[2], velocity.stops[velocity.stops.size() - 1 - i].colour)));
+            ciede2000(seen_by(sights[2], velocity.stops[i].color),
+                      seen_by(sights[2], velocity.stops[velocity.stops.size() - 1 - i].color)));
     }
     EXPECT_LT(least_sides, least_safe_sides);
     EXPECT_LT(least_step(velocity, sights[0]), least_safe_step);
@@ -153,7 +152,7 @@ constexpr FarApart far_apart[] = {
 
 TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
     for (const FarApart& row : far_apart) {
-        const ColourTable table = find_colour_table(row.table).value();
+        const ColorTable table = find_color_table(row.table).value();
         for (const Sight& sight : sights) {
             double least = 1000;
             float least_at = 0, least_to = 0;
@@ -161,8 +160,8 @@ TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
                 for (float other = one + row.apart; other <= row.to; other += row.step) {
                     // The circle of phases closes.
                     if (table.moment == level2::Moment::phi && other - one > 360 - row.apart) break;
-                    const double differ = ciede2000(seen_by(sight, *colour_of(table, one)),
-                                                    seen_by(sight, *colour_of(table, other)));
+                    const double differ = ciede2000(seen_by(sight, *color_of(table, one)),
+                                                    seen_by(sight, *color_of(table, other)));
                     if (differ >= least) continue;
                     least = differ;
                     least_at = one;
@@ -181,26 +180,25 @@ TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
 TEST(SmoothTables, HaveNoClassesAndRiseInLightness) {
     for (const char* name :
          {"smooth-spectrum-width", "smooth-zdr", "smooth-rho", "smooth-cfp", "smooth-clear-air"}) {
-        const ColourTable table = find_colour_table(name).value();
+        const ColorTable table = find_color_table(name).value();
         EXPECT_FALSE(is_stepped(table));
         EXPECT_TRUE(lightness_rises(table, 0, table.stops.size())) << name;
         for (std::size_t i = 1; i < table.stops.size(); ++i)
-            EXPECT_EQ(table.stops[i].colour, table.stops[i - 1].until) << name;
+            EXPECT_EQ(table.stops[i].color, table.stops[i - 1].until) << name;
     }
 }
 
 TEST(SmoothTables, ReflectivityChangesItsHueAtTheBoundsOfClasses) {
-    const ColourTable table = find_colour_table("smooth-reflectivity").value();
+    const ColorTable table = find_color_table("smooth-reflectivity").value();
     for (const float bound : {20.0F, 35.0F, 50.0F, 65.0F}) {
         const double across =
-            colour_difference(*colour_of(table, bound - 0.5F), *colour_of(table, bound + 0.5F));
+            color_difference(*color_of(table, bound - 0.5F), *color_of(table, bound + 0.5F));
         EXPECT_GT(across, 10) << bound;
     }
     for (float dbz = 6; dbz < 75; ++dbz) {
         const float beside = std::abs(std::remainder(dbz - 5, 15.0F));
         if (beside <= 1) continue;
-        EXPECT_LT(colour_difference(*colour_of(table, dbz - 0.5F), *colour_of(table, dbz + 0.5F)),
-                  8)
+        EXPECT_LT(color_difference(*color_of(table, dbz - 0.5F), *color_of(table, dbz + 0.5F)), 8)
             << dbz;
     }
 }

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 
 namespace stormcellar::render {
 namespace {
@@ -26,23 +26,23 @@ TEST(Product, UnknownNameListsTheKnownOnes) {
     EXPECT_THAT(product.error().message, ::testing::HasSubstr("volume, composite"));
 }
 
-TEST(Colours, AreTheScenesOrTheProductsOrTheMoments) {
+TEST(Colors, AreTheScenesOrTheProductsOrTheMoments) {
     Scene scene;
-    EXPECT_EQ(colours_of(scene).name, "nws-reflectivity");
+    EXPECT_EQ(colors_of(scene).name, "nws-reflectivity");
     EXPECT_EQ(unit_shown(scene), "dBZ");
     scene.product = Product::echo_top;
-    EXPECT_EQ(colours_of(scene).name, "nws-echo-top");
+    EXPECT_EQ(colors_of(scene).name, "nws-echo-top");
     EXPECT_EQ(unit_shown(scene), "km");
     scene.product = Product::highest_seen;
-    EXPECT_EQ(colours_of(scene).name, "height");
+    EXPECT_EQ(colors_of(scene).name, "height");
     scene.product = Product::cappi;
     scene.moment = level2::Moment::rho;
-    EXPECT_EQ(colours_of(scene).name, "nws-rho");
-    scene.colours = find_colour_table("safe-rho").value();
-    EXPECT_EQ(colours_of(scene).name, "safe-rho");
+    EXPECT_EQ(colors_of(scene).name, "nws-rho");
+    scene.colors = find_color_table("safe-rho").value();
+    EXPECT_EQ(colors_of(scene).name, "safe-rho");
     EXPECT_TRUE(validate(scene));
-    scene.colours->unit.clear();
-    scene.colours->moment = level2::Moment::ref;
+    scene.colors->unit.clear();
+    scene.colors->moment = level2::Moment::ref;
     EXPECT_TRUE(validate(scene)) << "a table that says no unit";
 }
 
@@ -86,13 +86,13 @@ TEST(SceneValidation, NamesTheFieldThatIsOutOfRange) {
              s.moment = level2::Moment::vel;
          }},
         {"nws-velocity is in m/s, but the picture is in dBZ",
-         [](Scene& s) { s.colours = find_colour_table("nws-velocity").value(); }},
+         [](Scene& s) { s.colors = find_color_table("nws-velocity").value(); }},
         {"nws-rho is without a unit, but the picture is in dBZ",
-         [](Scene& s) { s.colours = find_colour_table("nws-rho").value(); }},
+         [](Scene& s) { s.colors = find_color_table("nws-rho").value(); }},
         {"do not rise",
          [](Scene& s) {
-             s.colours = nws_reflectivity();
-             s.colours->stops[2].from = -99;
+             s.colors = nws_reflectivity();
+             s.colors->stops[2].from = -99;
          }},
     };
     for (const Case& c : cases) {

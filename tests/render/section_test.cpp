@@ -3,7 +3,7 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "render/image/shades.h"
 #include "stormcellar/grid/projection.h"
 #include "tests/render/synthetic_storm.h"
@@ -92,7 +92,7 @@ TEST(Section, BeyondTheGridIsNothing) {
     const Image image =
         draw_section(section, nws_reflectivity(), {0, 0, 60, 4}, 60, 4, {}, {}, nullptr);
     EXPECT_EQ(image.at(2, 1), shades::dark.page);
-    EXPECT_EQ(image.at(30, 1), *colour_of(nws_reflectivity(), 30));
+    EXPECT_EQ(image.at(30, 1), *color_of(nws_reflectivity(), 30));
 }
 
 TEST(Section, IsTheSameForAnyNumberOfThreads) {

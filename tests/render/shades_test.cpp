@@ -14,12 +14,12 @@ namespace stormcellar::render {
 namespace {
 
 // The relative luminance and the contrast ratio of WCAG 2.
-double luminance(Rgba8 colour) {
+double luminance(Rgba8 color) {
     const auto linear = [](std::uint8_t level) {
         const double c = level / 255.0;
         return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
     };
-    return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
+    return 0.2126 * linear(color[0]) + 0.7152 * linear(color[1]) + 0.0722 * linear(color[2]);
 }
 double contrast(Rgba8 one, Rgba8 other) {
     const double a = luminance(one);

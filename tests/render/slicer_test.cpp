@@ -37,11 +37,11 @@ TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
                 const double path_m = 16 * 500 * 2 / std::cos(tilt / 57.29577951308232);
                 const double alpha =
                     1 - std::exp(-extinction_per_m(nws_reflectivity(), dbz, opacity) * path_m);
-                const auto colour = pixel_of(layer, 45, 35);
-                EXPECT_NEAR(colour[3], alpha, 2e-5) << tilt << " " << slices;
-                EXPECT_NEAR(colour[0] / colour[3], 0xE5 / 255.0, 1e-4);
-                EXPECT_NEAR(colour[1] / colour[3], 0xBC / 255.0, 1e-4);
-                EXPECT_NEAR(colour[2], 0, 1e-6);
+                const auto color = pixel_of(layer, 45, 35);
+                EXPECT_NEAR(color[3], alpha, 2e-5) << tilt << " " << slices;
+                EXPECT_NEAR(color[0] / color[3], 0xE5 / 255.0, 1e-4);
+                EXPECT_NEAR(color[1] / color[3], 0xBC / 255.0, 1e-4);
+                EXPECT_NEAR(color[2], 0, 1e-6);
             }
         }
     }
@@ -190,7 +190,7 @@ TEST(Slicer, NothingIsDrawnForCellsWithoutAValue) {
 }
 
 // Next to cells without a value, whatever their state, echo keeps its own color and only fades.
-TEST(Slicer, EdgesFadeInTheEchosOwnColour) {
+TEST(Slicer, EdgesFadeInTheEchosOwnColor) {
     const grid::GridSpec spec = small_spec(40, 16);
     for (const auto status :
          {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded}) {
@@ -202,14 +202,14 @@ TEST(Slicer, EdgesFadeInTheEchosOwnColour) {
         double previous = 1;
         int fading = 0;
         for (int x = 190; x < 215; ++x) {
-            const auto colour = pixel_of(layer, x, 200);
-            EXPECT_LE(colour[3], previous + 1e-6);
-            if (colour[3] > 0 && colour[3] < previous - 1e-6) ++fading;
-            previous = colour[3];
-            if (colour[3] > 1e-4) {
-                EXPECT_NEAR(colour[0] / colour[3], 0xFD / 255.0, 1e-3);
+            const auto color = pixel_of(layer, x, 200);
+            EXPECT_LE(color[3], previous + 1e-6);
+            if (color[3] > 0 && color[3] < previous - 1e-6) ++fading;
+            previous = color[3];
+            if (color[3] > 1e-4) {
+                EXPECT_NEAR(color[0] / color[3], 0xFD / 255.0, 1e-3);
             }
-            EXPECT_EQ(colour[1], 0);
+            EXPECT_EQ(color[1], 0);
         }
         EXPECT_EQ(previous, 0);
         EXPECT_GE(fading, 8) << "over the width of a cell, about 10 pixels";

@@ -206,20 +206,20 @@ TEST_P(StillGdal, StatesAndColorsAreOtherContentsOfAGeotiff) {
     StillOptions options;
     options.tiff = TiffContent::states;
     write("states.tif", options);
-    options.tiff = TiffContent::colours;
+    options.tiff = TiffContent::colors;
     write("colors.tif", options);
     EXPECT_EQ(info("states.tif")["bands"][0]["colorInterpretation"], "Palette");
-    const auto colours = info("colors.tif");
-    ASSERT_EQ(colours["bands"].size(), 4U);
-    EXPECT_EQ(colours["bands"][3]["colorInterpretation"], "Alpha");
+    const auto colors = info("colors.tif");
+    ASSERT_EQ(colors["bands"].size(), 4U);
+    EXPECT_EQ(colors["bands"][3]["colorInterpretation"], "Alpha");
     const auto columns = some_columns(spec_);
     const auto states = at("states.tif", 1, places_of(columns, 0));
     const auto drawn = at("colors.tif", 4, places_of(columns, 0));
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const std::size_t place = place_in(*field, columns[i]);
         EXPECT_EQ(states[i][0], static_cast<double>(field->status[place]));
-        const Rgba8 colour = overlay_colour(*field, place, colours_of(scene_));
-        EXPECT_EQ(drawn[i], std::vector<double>(colour.begin(), colour.end()));
+        const Rgba8 color = overlay_color(*field, place, colors_of(scene_));
+        EXPECT_EQ(drawn[i], std::vector<double>(color.begin(), color.end()));
     }
 }
 
@@ -230,11 +230,10 @@ TEST_P(StillGdal, AKmzLiesWhereItsCellsAre) {
     const auto found = at("a.kmz", 4, places_of(columns, 0));
     int visible = 0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Rgba8 colour =
-            overlay_colour(*field, place_in(*field, columns[i]), colours_of(scene_));
-        ASSERT_EQ(found[i], std::vector<double>(colour.begin(), colour.end()))
+        const Rgba8 color = overlay_color(*field, place_in(*field, columns[i]), colors_of(scene_));
+        ASSERT_EQ(found[i], std::vector<double>(color.begin(), color.end()))
             << columns[i].x << ' ' << columns[i].y;
-        visible += colour[3] == 255 ? 1 : 0;
+        visible += color[3] == 255 ? 1 : 0;
     }
     EXPECT_GT(visible, 4);
 }

@@ -146,7 +146,7 @@ TEST_F(SweepField, ThePictureHasTheColorsOfTheGates) {
             if (column_at(spec, geometry.ground({x + 0.5, y + 0.5}).value()) < 0) continue;
             const auto gate = sweep_->at(exact(spec, geometry, x, y));
             const auto color = gate.status == CellStatus::value
-                                   ? colour_of(colours_of(scene()), gate.value)
+                                   ? color_of(colors_of(scene()), gate.value)
                                    : std::nullopt;
             if (!color) continue;
             const auto probe = probe_pixel(view, facts, scene(), x, y, 1);
@@ -199,7 +199,7 @@ TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
     asked.width = 800;
     asked.height = 600;
     asked.labels = true;
-    asked.colours = colours_of(asked);  // a table of the scene's own
+    asked.colors = colors_of(asked);  // a table of the scene's own
     const Panel lowest{view, facts, asked};
     const Panel by_angle{view, facts, scene_shown(view, asked)};
     const auto pair = render_panels(std::vector<Panel>{lowest, lowest}, 2);

@@ -59,7 +59,7 @@ TEST(TransferFunction, TheNumberOfThreadsChangesNoBit) {
 
 TEST(TransferFunction, EachClassBeginsABin) {
     const auto transfer = of_reflectivity(1000, Integration::riemann);
-    for (const ColourStop& stop : nws_reflectivity().stops) {
+    for (const ColorStop& stop : nws_reflectivity().stops) {
         const int bin = bin_of(transfer, stop.from);
         EXPECT_NEAR(transfer.value_of(bin) - transfer.bin_width() / 2, stop.from, 1e-6);
     }
@@ -72,7 +72,7 @@ TEST(TransferFunction, ShowsWhatIsNotClear) {
     EXPECT_TRUE(transfer.shows(code(-32), code(5)));
     EXPECT_TRUE(transfer.shows(code(70), code(70)));
 
-    ColourTable gap;
+    ColorTable gap;
     gap.stops = {{0, {1, 2, 3, 255}, {1, 2, 3, 255}}, {40, {9, 9, 9, 255}, {9, 9, 9, 255}}};
     gap.end = 80;
     gap.extinction = {{0, 1}, {10, 0}, {30, 0}, {40, 1}};
@@ -84,7 +84,7 @@ TEST(TransferFunction, ShowsWhatIsNotClear) {
 }
 
 TEST(TransferFunction, ATableOfOneStopIsATable) {
-    ColourTable one;
+    ColorTable one;
     one.stops = {{20, {10, 20, 30, 255}, {10, 20, 30, 255}}};
     one.end = 30;
     one.extinction = {{20, 0.5}};
@@ -96,7 +96,7 @@ TEST(TransferFunction, ATableOfOneStopIsATable) {
 // The integral in the order from the nearer value to the farther one, in 20,000 pieces.
 struct Exact {
     double alpha = 0;
-    std::array<double, 3> colour{};
+    std::array<double, 3> color{};
 };
 Exact integrate(double from, double to, double step_m) {
     constexpr int pieces = 20000;
@@ -104,12 +104,12 @@ Exact integrate(double from, double to, double step_m) {
     double through = 1;
     for (int i = 0; i < pieces; ++i) {
         const double value = from + (to - from) * (i + 0.5) / pieces;
-        const auto colour = colour_of(nws_reflectivity(), static_cast<float>(value));
-        if (!colour) continue;
+        const auto color = color_of(nws_reflectivity(), static_cast<float>(value));
+        if (!color) continue;
         const double seen = through * -std::expm1(-extinction_per_m(nws_reflectivity(), value, 1) *
                                                   step_m / pieces);
         for (std::size_t c = 0; c < 3; ++c)
-            sum.colour[c] += seen * (*colour)[c] / 255;
+            sum.color[c] += seen * (*color)[c] / 255;
         through -= seen;
     }
     sum.alpha = 1 - through;
@@ -129,9 +129,9 @@ TEST(TransferFunction, SecondOrderIsTheIntegralInItsOrder) {
             const Exact exact = integrate(transfer.value_of(one), transfer.value_of(other), step_m);
             const double alpha = alpha_of(entry);
             EXPECT_NEAR(alpha, exact.alpha, 2e-3) << step_m << " " << from << " " << to;
-            EXPECT_NEAR(alpha * entry.red, exact.colour[0], 6e-3);
-            EXPECT_NEAR(alpha * entry.green, exact.colour[1], 6e-3);
-            EXPECT_NEAR(alpha * entry.blue, exact.colour[2], 6e-3);
+            EXPECT_NEAR(alpha * entry.red, exact.color[0], 6e-3);
+            EXPECT_NEAR(alpha * entry.green, exact.color[1], 6e-3);
+            EXPECT_NEAR(alpha * entry.blue, exact.color[2], 6e-3);
         }
     }
 }

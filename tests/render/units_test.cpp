@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
-#include "render/map/colour_bar.h"
+#include "render/color/built_in_tables.h"
+#include "render/map/color_bar.h"
 #include "render/map/legend.h"
 #include "render/map/map_lines.h"
 #include "render/view/length_text.h"
@@ -119,8 +119,8 @@ TEST(Units, LegendsAndTitlesHaveThem) {
 TEST(Units, NumbersOfABarStandAtTheirValues) {
     const Rect box = {0, 0, 20, 400};
     const double per_value = shown_unit("m/s", units("knots")).per_stored;
-    const ColourTable smooth = smooth_colour_table(level2::Moment::vel);
-    const ColourBar bar = colour_bar({smooth, per_value}, box, 12, {});
+    const ColorTable smooth = smooth_color_table(level2::Moment::vel);
+    const ColorBar bar = color_bar({smooth, per_value}, box, 12, {});
     const double lowest = static_cast<double>(smooth.bar_begin.value_or(smooth.lowest()));
     const double span = static_cast<double>(smooth.end) - lowest;
     ASSERT_GT(bar.ticks.size(), 4U);
@@ -132,7 +132,7 @@ TEST(Units, NumbersOfABarStandAtTheirValues) {
     // The classes of the Weather Service are of whole knots, and stored in m/s.
     std::vector<std::string> texts;
     for (const BarTick& tick :
-         colour_bar({default_colour_table(level2::Moment::vel), per_value}, box, 12, {}).ticks)
+         color_bar({default_color_table(level2::Moment::vel), per_value}, box, 12, {}).ticks)
         texts.push_back(tick.text);
     EXPECT_THAT(texts, ::testing::IsSupersetOf({"-64", "-50", "-36", "-26", "26", "36", "50"}));
 }

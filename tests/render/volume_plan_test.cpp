@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"

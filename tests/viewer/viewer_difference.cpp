@@ -18,9 +18,9 @@
 
 #include <fmt/format.h>
 
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_difference.h"
-#include "render/colour/colour_file.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_difference.h"
+#include "render/color/color_file.h"
 #include "render/volume/slicer.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/render/png_file.h"
@@ -54,7 +54,7 @@ Shown shown_of(const Image& one, const Image& other) {
     return shown;
 }
 
-Image drawn(const grid::BrickView& view, const ColourTable& colours,
+Image drawn(const grid::BrickView& view, const ColorTable& colors,
             const std::array<double, number_count>& numbers, const Light& light, int slices,
             int width, int height) {
     const auto [azimuth, tilt, zoom, field_of_view, exaggeration, opacity, x, y, z] = numbers;
@@ -65,7 +65,7 @@ Image drawn(const grid::BrickView& view, const ColourTable& colours,
     camera.field_of_view_deg = field_of_view;
     camera.look_at = Eye{x, y, z};
     const ViewGeometry geometry(*view.spec, camera, exaggeration, width, height);
-    const VolumeSlicer slicer(colours, view.quantization, geometry,
+    const VolumeSlicer slicer(colors, view.quantization, geometry,
                               {.slices = slices, .opacity = opacity, .light = light}, nullptr,
                               threads);
     Image image(width, height, black);
@@ -130,19 +130,19 @@ int run(int argc, char** argv) {
     for (int i = 0; i < number_count; ++i)
         numbers[static_cast<std::size_t>(i)] = std::stod(argv[first_number + i]);
     int last = first_number + number_count;
-    Result<ColourTable> colours = smooth_colour_table(file->description().moment);
+    Result<ColorTable> colors = smooth_color_table(file->description().moment);
     if (argc > last + 1 && std::string_view(argv[last]) == "--colors") {
-        colours = colours_from(argv[last + 1]);
+        colors = colors_from(argv[last + 1]);
         last += 2;
     }
-    if (!colours) return complain(colours.error().message);
+    if (!colors) return complain(colors.error().message);
     int slices = VolumeOptions{}.slices;
     if (argc > last + 1 && std::string_view(argv[last]) == "--slices") {
         slices = std::stoi(argv[last + 1]);
         last += 2;
     }
     const Image ours =
-        drawn(file->view(), *colours, numbers, light, slices, page->width, page->height);
+        drawn(file->view(), *colors, numbers, light, slices, page->width, page->height);
     if (argc > last && !write_png(ours, argv[last])) return complain("cannot write the picture");
     const Shown shown = shown_of(*page, ours);
     if (shown.one.width == 0) return complain("both pictures are black");

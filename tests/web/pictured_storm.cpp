@@ -66,8 +66,8 @@ void PictureTest::SetUp() {
     storm_ = storm;
 }
 
-render::Rgba8 composite_colour_at(const OpenGrid& grid, const render::Scene& scene,
-                                  grid::GeoPoint place) {
+render::Rgba8 composite_color_at(const OpenGrid& grid, const render::Scene& scene,
+                                 grid::GeoPoint place) {
     const grid::BrickView view = grid.file.view();
     const grid::ColumnPoint at = grid::GridProjection(*view.spec).to_column(place);
     const auto x = static_cast<int>(std::floor(at.x + 0.5));
@@ -82,8 +82,8 @@ render::Rgba8 composite_colour_at(const OpenGrid& grid, const render::Scene& sce
         if (status != grid::CellStatus::value) continue;
         largest = std::max(largest.value_or(-1e9F), view.value(x, y, z));
     }
-    const render::ColourTable& table = render::colours_of(scene);
-    if (largest) return render::colour_of(table, *largest).value_or(render::Rgba8{0, 0, 0, 0});
+    const render::ColorTable& table = render::colors_of(scene);
+    if (largest) return render::color_of(table, *largest).value_or(render::Rgba8{0, 0, 0, 0});
     if (is_folded) return table.range_folded;
     return is_seen ? render::Rgba8{0, 0, 0, 0} : render::Rgba8{96, 100, 108, 72};
 }

@@ -48,7 +48,7 @@ class PictureTest : public ::testing::Test {
 };
 
 // The color that the column maximum of the grid has at a place, by the grid's own cells one by one.
-[[nodiscard]] render::Rgba8 composite_colour_at(const OpenGrid& grid, const render::Scene& scene,
-                                                grid::GeoPoint place);
+[[nodiscard]] render::Rgba8 composite_color_at(const OpenGrid& grid, const render::Scene& scene,
+                                               grid::GeoPoint place);
 
 }  // namespace stormcellar::web

@@ -51,9 +51,9 @@ void expect_pixels(const render::Image& image, const OpenGrid& grid, int zoom, i
         for (int x = 0; x < image.width; x += 3) {
             const auto place =
                 place_of_pixel(column * image.width + x, row * image.height + y, zoom, image.width);
-            const render::Rgba8 colour = composite_colour_at(grid, style->scene, place);
-            if (image.at(x, y) != colour) ++wrong;
-            if (colour[3] != 0) ++shown;
+            const render::Rgba8 color = composite_color_at(grid, style->scene, place);
+            if (image.at(x, y) != color) ++wrong;
+            if (color[3] != 0) ++shown;
         }
     }
     EXPECT_GT(shown, 1000);
@@ -72,8 +72,8 @@ TEST_F(Tiles, FromAfarNoEchoIsLost) {
     // At zoom 4 a pixel covers four columns and more. The strongest echo must be there.
     const auto style = map_style({}, {}, {});
     const render::Image image = tile("4/3/6.png");
-    const render::ColourTable& table = render::colours_of(style->scene);
-    const render::Rgba8 strongest = *render::colour_of(table, 65);
+    const render::ColorTable& table = render::colors_of(style->scene);
+    const render::Rgba8 strongest = *render::color_of(table, 65);
     int red = 0;
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x)

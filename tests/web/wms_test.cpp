@@ -59,11 +59,11 @@ void expect_cells(const render::Image& image, const OpenGrid& grid, const PlaceO
     int wrong = 0, shown = 0;
     for (int y = 0; y < image.height; y += 2) {
         for (int x = 0; x < image.width; x += 2) {
-            const render::Rgba8 colour = composite_colour_at(
+            const render::Rgba8 color = composite_color_at(
                 grid, style->scene,
                 place_of((x + 0.5) / image.width, (image.height - y - 0.5) / image.height));
-            if (image.at(x, y) != colour) ++wrong;
-            if (colour[3] == 255) ++shown;
+            if (image.at(x, y) != color) ++wrong;
+            if (color[3] == 255) ++shown;
         }
     }
     EXPECT_GT(shown, 500);
@@ -202,15 +202,15 @@ TEST_F(Wms, FeatureInfoIsTheCellUnderThePixel) {
             const auto& found = json["features"][0];
             const grid::GeoPoint place{37 - 3 * (row + 0.5) / 150, -99 + 3 * (column + 0.5) / 150};
             ASSERT_NEAR(found["geometry"]["coordinates"][1], place.latitude_deg, 1e-9);
-            const render::Rgba8 colour = composite_colour_at(*grid, style->scene, place);
+            const render::Rgba8 color = composite_color_at(*grid, style->scene, place);
             const auto& properties = found["properties"];
             if (properties["status"] == "value") {
                 ++values;
-                ASSERT_EQ(render::colour_of(render::colours_of(style->scene), properties["value"])
+                ASSERT_EQ(render::color_of(render::colors_of(style->scene), properties["value"])
                               .value_or(render::Rgba8{0, 0, 0, 0}),
-                          colour);
+                          color);
             } else {
-                ASSERT_EQ(colour[3], properties["status"] == "not seen" ? 72 : 0);
+                ASSERT_EQ(color[3], properties["status"] == "not seen" ? 72 : 0);
             }
         }
     }

@@ -99,7 +99,7 @@ Result<Kept> MapPictures::draw(const MapPicture& picture) {
         }
     }
     const auto bytes = picture.is_jpeg ? render::still_format_of(".jpg")->encode_picture(image, {})
-                                       : render::encode_png_of_few_colours(image);
+                                       : render::encode_png_of_few_colors(image);
     if (!bytes) return pass_on(bytes);
     return Kept{text_of(text_of_bytes(*bytes)), picture.etag(),
                 picture.is_jpeg ? "image/jpeg" : "image/png"};
@@ -120,7 +120,7 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
                                   .box = box,
                                   .field = (*map)->levels[static_cast<std::size_t>(halvings)],
                                   .halvings = halvings,
-                                  .table = render::colours_of(scene),
+                                  .table = render::colors_of(scene),
                                   .smooth = render::is_smoothed(scene)},
                                  window);
 }
@@ -146,7 +146,7 @@ Result<Kept> MapPictures::legend(const PictureLayer& layer) {
         render::frame_facts_of(grid.domain, grid.file.description(), "UTC");
     const auto panel = render::draw_legend_panel({grid.file.view(), facts, layer.style.scene});
     if (!panel) return pass_on(panel);
-    const auto bytes = render::encode_png_of_few_colours(*panel);
+    const auto bytes = render::encode_png_of_few_colors(*panel);
     if (!bytes) return pass_on(bytes);
     std::string text = text_of_bytes(*bytes);
     std::string etag = fmt::format("\"{:016x}\"", xxh3_64(std::as_bytes(std::span(text))));

@@ -2,17 +2,17 @@
 #include <span>
 
 #include "base/checksum.h"
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "web/data/compressed.h"
 #include "web/doors/api_operations.h"
 
 namespace stormcellar::web {
 namespace {
 
-ApiJson table_json(const render::ColourTable& table) {
+ApiJson table_json(const render::ColorTable& table) {
     ApiJson stops = ApiJson::array();
-    for (const render::ColourStop& stop : table.stops)
-        stops.push_back({{"from", stop.from}, {"color", stop.colour}, {"until", stop.until}});
+    for (const render::ColorStop& stop : table.stops)
+        stops.push_back({{"from", stop.from}, {"color", stop.color}, {"until", stop.until}});
     ApiJson extinction = ApiJson::array();
     for (const render::ExtinctionPoint& point : table.extinction)
         extinction.push_back({{"value", point.value}, {"per_km", point.per_km}});
@@ -24,11 +24,11 @@ ApiJson table_json(const render::ColourTable& table) {
 
 Result<Kept> make_tables(Coding coding) {
     ApiJson tables = ApiJson::array();
-    for (const render::ColourTable& table : render::built_in_tables())
+    for (const render::ColorTable& table : render::built_in_tables())
         tables.push_back(table_json(table));
     ApiJson usual = ApiJson::object();
     for (const level2::Moment moment : level2::all_moments)
-        usual[std::string(level2::moment_name(moment))] = render::smooth_colour_table(moment).name;
+        usual[std::string(level2::moment_name(moment))] = render::smooth_color_table(moment).name;
     const std::string text =
         ApiJson{{"tables", std::move(tables)}, {"usual", std::move(usual)}}.dump() + "\n";
     auto sent = compressed(text, coding);

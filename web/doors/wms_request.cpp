@@ -11,7 +11,7 @@
 
 #include "base/number_list.h"
 #include "base/printable.h"
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "web/doors/w3c_times.h"
 
 namespace stormcellar::web {
@@ -55,7 +55,7 @@ WmsRead<int> whole_number(const WmsParameters& parameters, std::string_view name
 }
 
 // "0xFFFFFF" as the standard writes colors.
-WmsRead<render::Rgba8> colour_of_text(std::string_view text) {
+WmsRead<render::Rgba8> color_of_text(std::string_view text) {
     std::uint32_t number = 0;
     const bool has_prefix = text.starts_with("0x") || text.starts_with("0X");
     const std::string_view digits = has_prefix ? text.substr(2) : text;
@@ -77,9 +77,9 @@ WmsRead<std::optional<render::Rgba8>> ground_of(const WmsParameters& parameters,
     if (transparent && !is_true && !same_letters(*transparent, "false"))
         return wms_fault(
             "", fmt::format("TRANSPARENT is TRUE or FALSE, not '{}'.", shown(*transparent)));
-    const auto colour = colour_of_text(parameters.find("BGCOLOR").value_or("0xFFFFFF"));
-    if (!colour) return tl::unexpected(colour.error());
-    return *colour;
+    const auto color = color_of_text(parameters.find("BGCOLOR").value_or("0xFFFFFF"));
+    if (!color) return tl::unexpected(color.error());
+    return *color;
 }
 
 struct System {
@@ -196,10 +196,10 @@ std::vector<std::string> wms_styles_of(const MapLayer& layer) {
     render::Scene scene;
     scene.product = layer.product;
     scene.moment = layer.moment;
-    if (render::facts_of(layer.product).colours == nullptr)
-        names.insert(names.end(), render::colour_families.begin(), render::colour_families.end());
+    if (render::facts_of(layer.product).colors == nullptr)
+        names.insert(names.end(), render::color_families.begin(), render::color_families.end());
     const std::string unit = render::unit_shown(scene);
-    for (const render::ColourTable& table : render::built_in_tables())
+    for (const render::ColorTable& table : render::built_in_tables())
         if (table.moment == layer.moment && table.unit == unit) names.push_back(table.name);
     return names;
 }

@@ -3,7 +3,7 @@
 // This is the one list of moments. Other rooms add facts of their own in one layer each, which has
 // a row or a case for every moment, so that a forgotten one does not compile:
 //   grid    grid/cells/moment_rules.cpp       how values are stored, mixed and compared
-//   render  render/colour/built_in_tables.cpp title, colors, opacity
+//   render  render/color/built_in_tables.cpp title, colors, opacity
 //   export  export/moment_text.cpp            names in netCDF files
 // CONTRIBUTING.md says how to add a moment.
 // Threads: constants and pure functions.

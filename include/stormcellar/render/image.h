@@ -14,8 +14,8 @@ namespace stormcellar::render {
 
 using Rgba8 = std::array<std::uint8_t, 4>;  // sRGB; alpha is not premultiplied
 
-// Returns the color that results from drawing `colour` over the opaque color `below`.
-[[nodiscard]] Rgba8 over(const Rgba8& colour, const Rgba8& below);
+// Returns the color that results from drawing `color` over the opaque color `below`.
+[[nodiscard]] Rgba8 over(const Rgba8& color, const Rgba8& below);
 
 // Row 0 is the top. All pixels are opaque unless stated otherwise.
 struct Image {
@@ -29,8 +29,8 @@ struct Image {
         const std::size_t first = offset(x, y);
         return {rgba[first], rgba[first + 1], rgba[first + 2], rgba[first + 3]};
     }
-    void set(int x, int y, Rgba8 colour) {
-        std::memcpy(rgba.data() + offset(x, y), colour.data(), colour.size());
+    void set(int x, int y, Rgba8 color) {
+        std::memcpy(rgba.data() + offset(x, y), color.data(), color.size());
     }
 
   private:

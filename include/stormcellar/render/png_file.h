@@ -27,6 +27,6 @@ enum class PngAlpha { when_needed, always };
 // The same pixels in few bytes and little time, for pictures of few colors such as tiles of a map:
 // an image of up to 256 colors becomes one with a palette (8 bits or fewer a pixel), any other
 // RGBA. Errors: those of encode_png().
-[[nodiscard]] Result<std::vector<std::byte>> encode_png_of_few_colours(const Image& image);
+[[nodiscard]] Result<std::vector<std::byte>> encode_png_of_few_colors(const Image& image);
 
 }  // namespace stormcellar::render

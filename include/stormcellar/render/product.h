@@ -13,7 +13,7 @@
 
 namespace stormcellar::render {
 
-struct ColourTable;
+struct ColorTable;
 struct Scene;
 struct ShownUnit;
 
@@ -45,7 +45,7 @@ struct ProductFacts {
     View view = View::map;
     std::string (*title)(const Scene&) = nullptr;  // "Echo tops, 18.5 dBZ"
     std::string_view unit = {};                    // empty: the moment's
-    const ColourTable& (*colours)() = nullptr;     // null: the moment's
+    const ColorTable& (*colors)() = nullptr;       // null: the moment's
     bool needs_reflectivity = false;
     // The value that echo must reach for a column to have a value.
     double Scene::*threshold_dbz = nullptr;
@@ -69,7 +69,7 @@ struct ProductFacts {
 // Returns a title such as "Composite reflectivity (column maximum)".
 [[nodiscard]] std::string product_title(const Scene& scene);
 // Returns the scene's table, or else the product's, or else the moment's.
-[[nodiscard]] const ColourTable& colours_of(const Scene& scene);
+[[nodiscard]] const ColorTable& colors_of(const Scene& scene);
 // Returns the unit of the product's values: "dBZ", "km"; empty for a number without one.
 [[nodiscard]] std::string unit_shown(const Scene& scene);
 // Returns the unit in which the picture writes these values.

@@ -14,7 +14,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/site_frame.h"
 #include "stormcellar/level2/volume.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 #include "stormcellar/render/integration.h"
 #include "stormcellar/render/light.h"
 #include "stormcellar/render/product.h"
@@ -76,7 +76,7 @@ struct SectionLine {
 struct Scene {
     Product product = Product::volume;
     level2::Moment moment = level2::Moment::ref;        // of the grid; some products need REF
-    std::optional<ColourTable> colours = std::nullopt;  // none: see colours_of()
+    std::optional<ColorTable> colors = std::nullopt;    // none: see colors_of()
     double cappi_height_m = 3000;                       // above sea level
     std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
     double echo_top_dbz = 18.5;

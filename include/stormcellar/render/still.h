@@ -33,9 +33,9 @@ namespace stormcellar::render {
 
 // The kinds of pixels that a GeoTIFF may hold.
 enum class TiffContent {
-    values,   // float: what the product shows, in its unit; NaN where a column has no value
-    states,   // byte: 0 not seen, 1 no echo, 2 range folded, 3 value, 4 value or more (tops)
-    colours,  // red, green, blue, alpha: as the color table has it
+    values,  // float: what the product shows, in its unit; NaN where a column has no value
+    states,  // byte: 0 not seen, 1 no echo, 2 range folded, 3 value, 4 value or more (tops)
+    colors,  // red, green, blue, alpha: as the color table has it
 };
 struct TiffContentFacts {
     TiffContent content = TiffContent::values;
@@ -44,7 +44,7 @@ struct TiffContentFacts {
 inline constexpr TiffContentFacts tiff_contents[] = {
     {TiffContent::values, "values"},
     {TiffContent::states, "states"},
-    {TiffContent::colours, "colors"},
+    {TiffContent::colors, "colors"},
 };
 [[nodiscard]] std::optional<TiffContent> tiff_content_from_name(std::string_view name);
 

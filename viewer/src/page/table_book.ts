@@ -8,7 +8,7 @@ import { Tables } from '../wire/api';
 import { texts } from './texts';
 
 // Tables of the server with this in front differ from class to class for every kind of color vision
-// (render/colour/built_in_tables.h).
+// (render/color/built_in_tables.h).
 const safePrefix = 'safe-';
 const clearAir = 'smooth-clear-air';
 export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.editor.safe(name) : name);

@@ -1,4 +1,4 @@
-// Color tables of the GRLevelX programs, as render/colour/pal_file.cpp reads them; colour_file.h says
+// Color tables of the GRLevelX programs, as render/color/pal_file.cpp reads them; color_file.h says
 // what each key means.
 //
 // Errors: a TableError, "FILE:LINE: why".

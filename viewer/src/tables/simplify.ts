@@ -23,7 +23,7 @@ export function cornersToKeep(count: number, most: number, errorAt: (first: numb
 
 const linearOf = (level: number): number => (level <= 10.31475 ? level / 3294.6 : ((level / 255 + 0.055) / 1.055) ** 2.4);
 
-// OKLab, in which equal distances look about equal: render/colour/ok_lab.h.
+// OKLab, in which equal distances look about equal: render/color/ok_lab.h.
 export function okLabOf([r, g, b]: readonly number[]): [number, number, number] {
     const [red, green, blue] = [linearOf(r!), linearOf(g!), linearOf(b!)];
     const l = Math.cbrt(0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue);

@@ -1,4 +1,4 @@
-// Content of a file of a color table, and the table that it makes. render/colour/colour_file.h has the same
+// Content of a file of a color table, and the table that it makes. render/color/color_file.h has the same
 // rules, so that `stormcellar frame --colors FILE` and the page draw the same.
 //
 // Errors: a TableError that names the file, the line where there is one, and the reason.

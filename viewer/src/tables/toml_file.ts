@@ -1,4 +1,4 @@
-// Color tables in TOML, as docs/rendering.md and render/colour/colour_file.h have them.
+// Color tables in TOML, as docs/rendering.md and render/color/color_file.h have them.
 //
 // Errors: see table_file.ts; of several complaints the one on the earliest line.
 

@@ -1,5 +1,5 @@
 // Opacity of echo of a moment where a table does not say it: default_extinction() of
-// render/colour/built_in_tables.h, from the tables of the server.
+// render/color/built_in_tables.h, from the tables of the server.
 
 import { colorOf } from './color_table';
 import { ColorTable, ExtinctionPoint } from '../wire/color_tables';

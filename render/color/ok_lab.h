@@ -1,4 +1,4 @@
-// render/colour/ok_lab.h -- the color space in which colors are mixed and lit: OKLab.
+// render/color/ok_lab.h -- the color space in which colors are mixed and lit: OKLab.
 //
 // Equal steps look about equally large in it, and a color that only becomes lighter or darker keeps
 // its hue.
@@ -29,10 +29,10 @@ struct OkLab {
 }
 
 // Numbers outside 0..1 are colors that no display shows.
-[[nodiscard]] inline LinearRgb linear_of(const OkLab& colour) {
-    const float l = colour.l + 0.3963377774F * colour.a + 0.2158037573F * colour.b;
-    const float m = colour.l - 0.1055613458F * colour.a - 0.0638541728F * colour.b;
-    const float s = colour.l - 0.0894841775F * colour.a - 1.2914855480F * colour.b;
+[[nodiscard]] inline LinearRgb linear_of(const OkLab& color) {
+    const float l = color.l + 0.3963377774F * color.a + 0.2158037573F * color.b;
+    const float m = color.l - 0.1055613458F * color.a - 0.0638541728F * color.b;
+    const float s = color.l - 0.0894841775F * color.a - 1.2914855480F * color.b;
     const float l3 = l * l * l, m3 = m * m * m, s3 = s * s * s;
     return {4.0767416621F * l3 - 3.3077115913F * m3 + 0.2309699292F * s3,
             -1.2684380046F * l3 + 2.6097574011F * m3 - 0.3413193965F * s3,

@@ -1,4 +1,4 @@
-// render/colour/colour_difference.h -- how different two colors look: CIEDE2000.
+// render/color/color_difference.h -- how different two colors look: CIEDE2000.
 //
 // Alpha is ignored.
 //
@@ -27,14 +27,14 @@ struct Lab {
     double b = 0;          // blue to yellow
 };
 
-[[nodiscard]] Lab lab_of(const Rgba8& colour);
+[[nodiscard]] Lab lab_of(const Rgba8& color);
 // Converts linear sRGB, 0..1.
 [[nodiscard]] Lab lab_of_linear(double red, double green, double blue);
 // Converts 0..255 as stored to 0..1 in proportion to light.
 [[nodiscard]] double linear_of(std::uint8_t channel);
 
 [[nodiscard]] double ciede2000(const Lab& one, const Lab& other);
-[[nodiscard]] double colour_difference(const Rgba8& one, const Rgba8& other);
+[[nodiscard]] double color_difference(const Rgba8& one, const Rgba8& other);
 
 // Figures over all pixels of two pictures.
 struct ImageDifference {

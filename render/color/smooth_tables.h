@@ -1,4 +1,4 @@
-// render/colour/smooth_tables.h -- the built-in tables without classes, one for each moment.
+// render/color/smooth_tables.h -- the built-in tables without classes, one for each moment.
 //
 //   smooth-reflectivity, smooth-velocity, smooth-spectrum-width, smooth-zdr, smooth-rho,
 //   smooth-phi, smooth-cfp smooth-clear-air    reflectivity from -30 dBZ, for insects, birds and
@@ -19,13 +19,13 @@
 
 #include <vector>
 
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 
 inline constexpr double least_smooth_step = 6;
 
 // Makes the tables, in the order of the moments, and then that of clear air.
-[[nodiscard]] std::vector<ColourTable> make_smooth_tables();
+[[nodiscard]] std::vector<ColorTable> make_smooth_tables();
 
 }  // namespace stormcellar::render

@@ -1,4 +1,4 @@
-// render/map/colour_bar.h -- how a color table is shown as a bar, upright or lying.
+// render/map/color_bar.h -- how a color table is shown as a bar, upright or lying.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "render/image/canvas.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 
 struct BarBlock {
     Rect box;  // whole pixels, so that there are no seams
-    Rgba8 colour{};
+    Rgba8 color{};
 };
 
 struct BarTick {
@@ -22,7 +22,7 @@ struct BarTick {
     std::string text;
 };
 
-struct ColourBar {
+struct ColorBar {
     std::vector<BarBlock> blocks;  // from the bottom up; together they fill the box
     std::vector<BarTick> ticks;    // at least `least_tick` apart
 };
@@ -34,16 +34,16 @@ struct ColourBar {
 // Translucent colors show the `ground` below.
 // What the numbers say: those of the table, or those in another unit.
 struct BarScale {
-    const ColourTable& table;
+    const ColorTable& table;
     double shown_per_value = 1;
 };
 
-[[nodiscard]] ColourBar colour_bar(const BarScale& scale, const Rect& box, double least_tick,
-                                   Rgba8 ground);
+[[nodiscard]] ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick,
+                                 Rgba8 ground);
 // The same bar, lying: it rises to the right. The numbers, of this width each, are at least `gap`
 // apart.
-[[nodiscard]] ColourBar lying_bar(const BarScale& scale, const Rect& box,
-                                  const std::function<double(const std::string&)>& width_of,
-                                  double gap, Rgba8 ground);
+[[nodiscard]] ColorBar lying_bar(const BarScale& scale, const Rect& box,
+                                 const std::function<double(const std::string&)>& width_of,
+                                 double gap, Rgba8 ground);
 
 }  // namespace stormcellar::render

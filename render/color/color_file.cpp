@@ -1,10 +1,10 @@
-#include "render/colour/colour_file.h"
+#include "render/color/color_file.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::render {
@@ -21,7 +21,7 @@ std::string lower_ending(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<ColourTable> read_colour_file(const std::filesystem::path& file) {
+Result<ColorTable> read_color_file(const std::filesystem::path& file) {
     const std::string ending = lower_ending(file);
     if (ending != ".pal" && ending != ".toml") {
         return fail(ErrorCode::bad_argument,
@@ -32,22 +32,22 @@ Result<ColourTable> read_colour_file(const std::filesystem::path& file) {
     std::string text(bytes->size(), '\0');
     if (!text.empty()) std::memcpy(text.data(), bytes->data(), text.size());
     auto table =
-        ending == ".pal" ? parse_pal(text, file.native()) : parse_toml_colours(text, file.native());
+        ending == ".pal" ? parse_pal(text, file.native()) : parse_toml_colors(text, file.native());
     if (table && table->name.empty()) table->name = file.stem().native();
     return table;
 }
 
-Result<ColourTable> colours_from(const std::string& name_or_file) {
+Result<ColorTable> colors_from(const std::string& name_or_file) {
     const std::string ending = lower_ending(name_or_file);
-    if (ending == ".pal" || ending == ".toml") return read_colour_file(name_or_file);
-    auto table = find_colour_table(name_or_file);
+    if (ending == ".pal" || ending == ".toml") return read_color_file(name_or_file);
+    auto table = find_color_table(name_or_file);
     if (table) return table;
     const std::string& why = table.error().message;
     return fail(ErrorCode::bad_argument, "{}{}", why,
                 why.ends_with('?') ? "" : "; or name a .pal or .toml file");
 }
 
-std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table, bool of_moment) {
+std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table, bool of_moment) {
     std::vector<ExtinctionPoint> points;
     if (of_moment) {
         points = default_extinction(table.moment, table.lowest());
@@ -55,8 +55,8 @@ std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table, boo
         points = {{table.lowest(), 0.02}, {table.end, 0.5}};
     }
     for (ExtinctionPoint& point : points) {
-        const auto colour = colour_of(table, std::max(point.value, table.lowest()));
-        point.per_km *= (*colour)[3] / 255.0;
+        const auto color = color_of(table, std::max(point.value, table.lowest()));
+        point.per_km *= (*color)[3] / 255.0;
     }
     return points;
 }

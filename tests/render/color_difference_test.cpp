@@ -1,4 +1,4 @@
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 
 #include <cmath>
 
@@ -61,7 +61,7 @@ TEST(Ciede2000, AgreesWithThe34PublishedPairsEitherWayRound) {
 
 // Lightness alone, by hand: at a mean of 50 the divisor is 1, from black to white as well.
 TEST(Ciede2000, BlackAndWhiteAreAHundredApart) {
-    EXPECT_NEAR(colour_difference({0, 0, 0, 255}, {255, 255, 255, 255}), 100, 1e-9);
+    EXPECT_NEAR(color_difference({0, 0, 0, 255}, {255, 255, 255, 255}), 100, 1e-9);
     EXPECT_NEAR(ciede2000({45, 0, 0}, {55, 0, 0}), 10, 1e-12);
 }
 
@@ -105,8 +105,8 @@ TEST(ImageDifference, SummarisesMeanPercentileAndLargest) {
     other.set(0, 0, {255, 255, 255, 255});
     other.set(5, 5, {100, 100, 100, 255});
     other.set(19, 9, {50, 50, 50, 0});
-    const double small = colour_difference(base, {50, 50, 50, 255});
-    const double middle = colour_difference(base, {100, 100, 100, 255});
+    const double small = color_difference(base, {50, 50, 50, 255});
+    const double middle = color_difference(base, {100, 100, 100, 255});
     const auto summary = image_difference(one, other);
     ASSERT_TRUE(summary);
     EXPECT_EQ(summary->unequal, 3U);

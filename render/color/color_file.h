@@ -1,11 +1,11 @@
-// render/colour/colour_file.h -- reads a user's own color tables: TOML and GRLevelX .pal files.
+// render/color/color_file.h -- reads a user's own color tables: TOML and GRLevelX .pal files.
 //
 // TOML (docs/rendering.md has an example):
 //   name, unit, moment = "REF"   All optional. The moment brings its unit and its opacity.
 //   stepped = true|false         Classes, or (the default) colors that blend to the next point's.
 //   end                          Where the color bar ends. range_folded: the color of that state.
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
-//     value, colour = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
+//     value, color = "#rrggbb", "#rrggbbaa", [r, g, b] or [r, g, b, a]
 //     until                      A color to which it blends, instead of the next point's.
 //     opacity_per_km             For volumes: the optical depth, in all points or in none. If in
 //                                none, it is that of the moment times the alpha of the color.
@@ -37,23 +37,22 @@
 #include <string_view>
 
 #include "stormcellar/base/result.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 
 // `name` stands for the file in messages.
-[[nodiscard]] Result<ColourTable> parse_pal(std::string_view text, const std::string& name);
-[[nodiscard]] Result<ColourTable> parse_toml_colours(std::string_view text,
-                                                     const std::string& name);
+[[nodiscard]] Result<ColorTable> parse_pal(std::string_view text, const std::string& name);
+[[nodiscard]] Result<ColorTable> parse_toml_colors(std::string_view text, const std::string& name);
 // Reads a file by its ending, .pal or .toml in any case. Errors: bad_argument for another ending.
-[[nodiscard]] Result<ColourTable> read_colour_file(const std::filesystem::path& file);
+[[nodiscard]] Result<ColorTable> read_color_file(const std::filesystem::path& file);
 // Returns a built-in table by its name, or reads a file. A text that ends in .pal or .toml is a
 // file.
-[[nodiscard]] Result<ColourTable> colours_from(const std::string& name_or_file);
+[[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
 // Returns the extinction of the moment (default_extinction()) times the alpha of the table's
 // colors, for a table that has its stops. Without a moment it rises evenly from 0.02 to 0.5 per km.
-[[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table,
-                                                                 bool of_moment);
+[[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table,
+                                                                bool of_moment);
 
 }  // namespace stormcellar::render

@@ -1,4 +1,4 @@
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 #include <cmath>
 
@@ -7,22 +7,22 @@
 namespace stormcellar::render {
 namespace {
 
-TEST(ColourTable, HasFifteenClassesOfFiveDecibelsFromFive) {
+TEST(ColorTable, HasFifteenClassesOfFiveDecibelsFromFive) {
     for (std::size_t i = 0; i < nws_reflectivity().stops.size(); ++i) {
         EXPECT_EQ(nws_reflectivity().stops[i].from, 5 + 5 * static_cast<float>(i));
     }
 }
 
-TEST(ColourTable, GivesTheColoursOfTheWeatherService) {
-    EXPECT_FALSE(colour_of(nws_reflectivity(), 4.99F));
-    EXPECT_FALSE(colour_of(nws_reflectivity(), std::nanf("")));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 5), (Rgba8{0x04, 0xE9, 0xE7, 255}));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 22.5F), (Rgba8{0x02, 0xFD, 0x02, 255}));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 34.99F), (Rgba8{0x00, 0x8E, 0x00, 255}));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 35), (Rgba8{0xFD, 0xF8, 0x02, 255}));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 51), (Rgba8{0xFD, 0x00, 0x00, 255}));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 67), (Rgba8{0xF8, 0x00, 0xFD, 255}));
-    EXPECT_EQ(colour_of(nws_reflectivity(), 95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
+TEST(ColorTable, GivesTheColorsOfTheWeatherService) {
+    EXPECT_FALSE(color_of(nws_reflectivity(), 4.99F));
+    EXPECT_FALSE(color_of(nws_reflectivity(), std::nanf("")));
+    EXPECT_EQ(color_of(nws_reflectivity(), 5), (Rgba8{0x04, 0xE9, 0xE7, 255}));
+    EXPECT_EQ(color_of(nws_reflectivity(), 22.5F), (Rgba8{0x02, 0xFD, 0x02, 255}));
+    EXPECT_EQ(color_of(nws_reflectivity(), 34.99F), (Rgba8{0x00, 0x8E, 0x00, 255}));
+    EXPECT_EQ(color_of(nws_reflectivity(), 35), (Rgba8{0xFD, 0xF8, 0x02, 255}));
+    EXPECT_EQ(color_of(nws_reflectivity(), 51), (Rgba8{0xFD, 0x00, 0x00, 255}));
+    EXPECT_EQ(color_of(nws_reflectivity(), 67), (Rgba8{0xF8, 0x00, 0xFD, 255}));
+    EXPECT_EQ(color_of(nws_reflectivity(), 95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
 }
 
 // docs/rendering.md, by hand: between two points the opacity is exponential in the value.
@@ -45,8 +45,8 @@ TEST(Extinction, OfReflectivityIsAVeilAndACore) {
     }
 }
 
-ColourTable smooth() {
-    ColourTable table;
+ColorTable smooth() {
+    ColorTable table;
     table.stops = {{0, {0, 0, 0, 0}, {100, 200, 50, 255}},
                    {10, {255, 0, 0, 255}, {255, 0, 0, 255}}};
     table.end = 20;
@@ -54,22 +54,22 @@ ColourTable smooth() {
     return table;
 }
 
-TEST(ColourTable, ASmoothTableBlendsUpToTheNextStop) {
-    EXPECT_FALSE(colour_of(smooth(), -0.001F));
-    EXPECT_EQ(colour_of(smooth(), 0), (Rgba8{0, 0, 0, 0}));
-    EXPECT_EQ(colour_of(smooth(), 5), (Rgba8{50, 100, 25, 128}));
-    EXPECT_EQ(colour_of(smooth(), 10), (Rgba8{255, 0, 0, 255}));
-    EXPECT_EQ(colour_of(smooth(), 1e6F), (Rgba8{255, 0, 0, 255}));
+TEST(ColorTable, ASmoothTableBlendsUpToTheNextStop) {
+    EXPECT_FALSE(color_of(smooth(), -0.001F));
+    EXPECT_EQ(color_of(smooth(), 0), (Rgba8{0, 0, 0, 0}));
+    EXPECT_EQ(color_of(smooth(), 5), (Rgba8{50, 100, 25, 128}));
+    EXPECT_EQ(color_of(smooth(), 10), (Rgba8{255, 0, 0, 255}));
+    EXPECT_EQ(color_of(smooth(), 1e6F), (Rgba8{255, 0, 0, 255}));
 }
 
-TEST(ColourTable, ExtinctionIsStraightBetweenItsPoints) {
+TEST(ColorTable, ExtinctionIsStraightBetweenItsPoints) {
     EXPECT_EQ(extinction_per_m(smooth(), 1.9, 1), 0);
     EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 2, 1), 0.5e-3);
     EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 3.5, 2), 2.5e-3);
     EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 99, 1), 1.5e-3);
-    ColourTable late = smooth();
+    ColorTable late = smooth();
     late.stops.front().from = 3;
-    EXPECT_EQ(extinction_per_m(late, 2.5, 1), 0) << "what has no colour is clear";
+    EXPECT_EQ(extinction_per_m(late, 2.5, 1), 0) << "what has no color is clear";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/name_list.h"
 #include "base/nearest_name.h"
-#include "render/colour/smooth_tables.h"
+#include "render/color/smooth_tables.h"
 
 namespace stormcellar::render {
 namespace {
@@ -21,9 +21,9 @@ using level2::Moment;
 constexpr float least_velocity = -64;
 constexpr float least_zdr = -13;
 constexpr float least_height = -10;
-constexpr Rgba8 folded_colour = {0x77, 0x00, 0x7D, 255};
+constexpr Rgba8 folded_color = {0x77, 0x00, 0x7D, 255};
 
-struct ColourClass {
+struct ColorClass {
     float from;
     std::uint32_t rgb;
 };
@@ -34,38 +34,38 @@ Rgba8 rgba_of(std::uint32_t rgb) {
 }
 
 // Makes classes without blending. `end` is where the last class ends in a color bar.
-ColourTable stepped(std::string_view name, Moment moment, std::string unit,
-                    std::span<const ColourClass> classes, float end) {
-    ColourTable table;
+ColorTable stepped(std::string_view name, Moment moment, std::string unit,
+                   std::span<const ColorClass> classes, float end) {
+    ColorTable table;
     table.name = name;
     table.moment = moment;
     table.unit = std::move(unit);
     table.end = end;
-    table.range_folded = folded_colour;
-    for (const ColourClass& one : classes) {
-        const Rgba8 colour = rgba_of(one.rgb);
-        table.stops.push_back({one.from, colour, colour});
+    table.range_folded = folded_color;
+    for (const ColorClass& one : classes) {
+        const Rgba8 color = rgba_of(one.rgb);
+        table.stops.push_back({one.from, color, color});
     }
     return table;
 }
 
-ColourTable of_moment(std::string_view name, Moment moment, std::span<const ColourClass> classes,
-                      float end) {
-    ColourTable table = stepped(name, moment, unit_of(moment), classes, end);
+ColorTable of_moment(std::string_view name, Moment moment, std::span<const ColorClass> classes,
+                     float end) {
+    ColorTable table = stepped(name, moment, unit_of(moment), classes, end);
     table.extinction = default_extinction(moment, table.lowest());
     return table;
 }
 
 // Makes the table of a product that is not a moment. Nothing draws it as a volume.
-ColourTable of_product(std::string_view name, std::string unit,
-                       std::span<const ColourClass> classes, float end) {
-    ColourTable table = stepped(name, Moment::ref, std::move(unit), classes, end);
+ColorTable of_product(std::string_view name, std::string unit, std::span<const ColorClass> classes,
+                      float end) {
+    ColorTable table = stepped(name, Moment::ref, std::move(unit), classes, end);
     table.extinction = {{table.lowest(), 0}};
     return table;
 }
 
-ColourTable nws_reflectivity_table() {
-    constexpr ColourClass classes[] = {
+ColorTable nws_reflectivity_table() {
+    constexpr ColorClass classes[] = {
         {5, 0x04E9E7},  {10, 0x019FF4}, {15, 0x0300F4}, {20, 0x02FD02}, {25, 0x01C501},
         {30, 0x008E00}, {35, 0xFDF802}, {40, 0xE5BC00}, {45, 0xFD9500}, {50, 0xFD0000},
         {55, 0xD40000}, {60, 0xBC0000}, {65, 0xF800FD}, {70, 0x9854C6}, {75, 0xFDFDFD},
@@ -73,8 +73,8 @@ ColourTable nws_reflectivity_table() {
     return of_moment("nws-reflectivity", Moment::ref, classes, 80);
 }
 
-ColourTable nws_velocity_table() {
-    constexpr ColourClass classes[] = {
+ColorTable nws_velocity_table() {
+    constexpr ColorClass classes[] = {
         {least_velocity, 0x02FC02},
         {-33, 0x01E401},
         {-25.5, 0x01C501},
@@ -91,30 +91,30 @@ ColourTable nws_velocity_table() {
         {25.5, 0xEF0000},
         {33, 0xFE0000},
     };
-    ColourTable table = of_moment("nws-velocity", Moment::vel, classes, 40);
+    ColorTable table = of_moment("nws-velocity", Moment::vel, classes, 40);
     table.bar_begin = -40.0F;
     return table;
 }
 
-ColourTable nws_spectrum_width_table() {
-    constexpr ColourClass classes[] = {{0, 0x767676}, {2, 0x9C9C9C}, {4, 0x00BB00},
-                                       {6, 0xFF0000}, {8, 0xD07000}, {10, 0xFFFF00}};
+ColorTable nws_spectrum_width_table() {
+    constexpr ColorClass classes[] = {{0, 0x767676}, {2, 0x9C9C9C}, {4, 0x00BB00},
+                                      {6, 0xFF0000}, {8, 0xD07000}, {10, 0xFFFF00}};
     return of_moment("nws-spectrum-width", Moment::sw, classes, 12);
 }
 
-ColourTable nws_zdr_table() {
-    constexpr ColourClass classes[] = {
+ColorTable nws_zdr_table() {
+    constexpr ColorClass classes[] = {
         {least_zdr, 0x404040}, {-2, 0x9C9C9C}, {-0.5, 0xC9C9C9}, {0, 0x8C78B4}, {0.25, 0x000098},
         {0.5, 0x2398D3},       {1, 0x44FFD2},  {1.5, 0x57DB56},  {2, 0xFFFF60}, {2.5, 0xFF9045},
         {3, 0xDA0000},         {4, 0xAE0000},  {5, 0xF782BE},    {6, 0xFFFFFF},
     };
-    ColourTable table = of_moment("nws-zdr", Moment::zdr, classes, 8);
+    ColorTable table = of_moment("nws-zdr", Moment::zdr, classes, 8);
     table.bar_begin = -4.0F;
     return table;
 }
 
-ColourTable nws_rho_table() {
-    constexpr ColourClass classes[] = {
+ColorTable nws_rho_table() {
+    constexpr ColorClass classes[] = {
         {0.2F, 0x95949C},  {0.45F, 0x16148C}, {0.65F, 0x0902D9}, {0.75F, 0x8987D6},
         {0.8F, 0x5CFF59},  {0.85F, 0x8BCF02}, {0.9F, 0xFFFB00},  {0.93F, 0xFFC400},
         {0.95F, 0xFF8903}, {0.96F, 0xFF2B00}, {0.97F, 0xE30000}, {0.98F, 0xA10000},
@@ -123,8 +123,8 @@ ColourTable nws_rho_table() {
     return of_moment("nws-rho", Moment::rho, classes, 1.05F);
 }
 
-ColourTable nws_echo_top_table() {
-    constexpr ColourClass classes[] = {
+ColorTable nws_echo_top_table() {
+    constexpr ColorClass classes[] = {
         {0, 0x4C4C4C},   {1.5, 0x767676},  {3, 0x00E0FF},    {4.5, 0x00B0FF},  {6, 0x0090CC},
         {7.5, 0x320096}, {9, 0x00FB90},    {10.5, 0x00BB00}, {12, 0x00EF00},   {13.5, 0xFEBF00},
         {15, 0xFFFF00},  {16.5, 0xAE0000}, {18, 0xFF0000},   {19.5, 0xFFFFFF}, {21, 0xE700FF},
@@ -132,8 +132,8 @@ ColourTable nws_echo_top_table() {
     return of_product("nws-echo-top", "km", classes, 22.5);
 }
 
-ColourTable nws_vil_table() {
-    constexpr ColourClass classes[] = {
+ColorTable nws_vil_table() {
+    constexpr ColorClass classes[] = {
         {1, 0x9C9C9C},  {5, 0x767676},  {10, 0xFFAAAA}, {15, 0xEE8C8C}, {20, 0xC97070},
         {25, 0x00FB90}, {30, 0x00BB00}, {35, 0xFFFF70}, {40, 0xD0D060}, {45, 0xFF6060},
         {50, 0xDA0000}, {55, 0xAE0000}, {60, 0x0000FF}, {65, 0xFFFFFF}, {70, 0xE700FF},
@@ -141,8 +141,8 @@ ColourTable nws_vil_table() {
     return of_product("nws-vil", "kg/m2", classes, 75);
 }
 
-ColourTable phi_table() {
-    constexpr ColourClass classes[] = {
+ColorTable phi_table() {
+    constexpr ColorClass classes[] = {
         {0, 0x6A3D9A},   {30, 0x3F51B5},  {60, 0x1E88E5},  {90, 0x00ACC1},
         {120, 0x00897B}, {150, 0x43A047}, {180, 0x9CCC65}, {210, 0xFFEB3B},
         {240, 0xFFB300}, {270, 0xFB6A1A}, {300, 0xE53935}, {330, 0xAD1457},
@@ -150,8 +150,8 @@ ColourTable phi_table() {
     return of_moment("phi", Moment::phi, classes, 360);
 }
 
-ColourTable cfp_table() {
-    constexpr ColourClass classes[] = {
+ColorTable cfp_table() {
+    constexpr ColorClass classes[] = {
         {0, 0x4A4A4A},  {5, 0x8C8C8C},  {10, 0x5B7FBF}, {15, 0x2F9CD8},
         {20, 0x2EC4A6}, {25, 0x6FD24B}, {30, 0xD9D93B}, {35, 0xF2A93B},
         {40, 0xEE6C2D}, {45, 0xD62F2F}, {50, 0xF2C1E0},
@@ -161,8 +161,8 @@ ColourTable cfp_table() {
 
 // From dark blue to light yellow: every kind of color vision distinguishes light from dark and blue
 // from yellow. The steps are about equal along a path through Lab.
-ColourTable height_table() {
-    constexpr ColourClass classes[] = {
+ColorTable height_table() {
+    constexpr ColorClass classes[] = {
         {least_height, 0x003482},
         {0.5, 0x144D94},
         {1, 0x27649E},
@@ -178,13 +178,13 @@ ColourTable height_table() {
         {15, 0xFFEEBE},
         {18, 0xFFF9ED},
     };
-    ColourTable table = of_product("height", "km", classes, 20);
+    ColorTable table = of_product("height", "km", classes, 20);
     table.bar_begin = 0.0F;
     return table;
 }
 
-ColourTable vil_density_table() {
-    constexpr ColourClass classes[] = {
+ColorTable vil_density_table() {
+    constexpr ColorClass classes[] = {
         {0.25, 0x6C7A89}, {0.5, 0x4F7FB5}, {1, 0x2FA4D8}, {1.5, 0x35C3A0},
         {2, 0x43B649},    {2.5, 0xA5CF3B}, {3, 0xFFDC3C}, {3.5, 0xFF5A36},
         {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
@@ -192,8 +192,8 @@ ColourTable vil_density_table() {
     return of_product("water-density", "g/m3", classes, 7);
 }
 
-ColourTable safe_reflectivity_table() {
-    constexpr ColourClass classes[] = {
+ColorTable safe_reflectivity_table() {
+    constexpr ColorClass classes[] = {
         {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
         {30, 0x758C92}, {35, 0x859189}, {40, 0x929780}, {45, 0xA29E74}, {50, 0xB5A763},
         {55, 0xCFB851}, {60, 0xEDD04C}, {65, 0xFFE487}, {70, 0xFFF0C7}, {75, 0xFEFAF3},
@@ -202,8 +202,8 @@ ColourTable safe_reflectivity_table() {
 }
 
 // Blue toward the radar, orange away from it, gray at rest; lighter with speed.
-ColourTable safe_velocity_table() {
-    constexpr ColourClass classes[] = {
+ColorTable safe_velocity_table() {
+    constexpr ColorClass classes[] = {
         {least_velocity, 0xC4EFFF},
         {-33, 0x8FD7FE},
         {-25.5, 0x42B0F1},
@@ -218,24 +218,24 @@ ColourTable safe_velocity_table() {
         {25.5, 0xFFC972},
         {33, 0xFFE6B0},
     };
-    ColourTable table = of_moment("safe-velocity", Moment::vel, classes, 40);
+    ColorTable table = of_moment("safe-velocity", Moment::vel, classes, 40);
     table.bar_begin = -40.0F;
     return table;
 }
 
-ColourTable safe_zdr_table() {
-    constexpr ColourClass classes[] = {
+ColorTable safe_zdr_table() {
+    constexpr ColorClass classes[] = {
         {least_zdr, 0x013288}, {-2, 0x474B8C}, {-0.5, 0x5D5B8A}, {0, 0x716786}, {0.25, 0x846E7F},
         {0.5, 0x957478},       {1, 0xAA7D6F},  {1.5, 0xC38862},  {2, 0xDA9D58}, {2.5, 0xF9B947},
         {3, 0xFFD07D},         {4, 0xFFE1A8},  {5, 0xFFEFCB},    {6, 0xFFFBEA},
     };
-    ColourTable table = of_moment("safe-zdr", Moment::zdr, classes, 8);
+    ColorTable table = of_moment("safe-zdr", Moment::zdr, classes, 8);
     table.bar_begin = -4.0F;
     return table;
 }
 
-ColourTable safe_rho_table() {
-    constexpr ColourClass classes[] = {
+ColorTable safe_rho_table() {
+    constexpr ColorClass classes[] = {
         {0.2F, 0x013288},  {0.45F, 0x494D8C}, {0.65F, 0x605E8A}, {0.75F, 0x766984},
         {0.8F, 0x8A707D},  {0.85F, 0x9E7875}, {0.9F, 0xB78369},  {0.93F, 0xD2955C},
         {0.95F, 0xEDAE4E}, {0.96F, 0xFFCE75}, {0.97F, 0xFFE0A5}, {0.98F, 0xFFEFCB},
@@ -322,24 +322,24 @@ std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
     return look_of(moment).extinction(lowest);
 }
 
-const std::vector<ColourTable>& built_in_tables() {
-    static const std::vector<ColourTable> tables = [] {
-        std::vector<ColourTable> made = {
+const std::vector<ColorTable>& built_in_tables() {
+    static const std::vector<ColorTable> tables = [] {
+        std::vector<ColorTable> made = {
             nws_reflectivity_table(), nws_velocity_table(), nws_spectrum_width_table(),
             nws_zdr_table(),          nws_rho_table(),      nws_echo_top_table(),
             nws_vil_table(),          phi_table(),          cfp_table(),
             height_table(),           vil_density_table(),  safe_reflectivity_table(),
             safe_velocity_table(),    safe_zdr_table(),     safe_rho_table()};
-        const std::vector<ColourTable> smooth = make_smooth_tables();
+        const std::vector<ColorTable> smooth = make_smooth_tables();
         made.insert(made.end(), smooth.begin(), smooth.end());
         return made;
     }();
     return tables;
 }
 
-Result<ColourTable> find_colour_table(std::string_view name) {
+Result<ColorTable> find_color_table(std::string_view name) {
     std::vector<std::string> names;
-    for (const ColourTable& table : built_in_tables()) {
+    for (const ColorTable& table : built_in_tables()) {
         if (table.name == name) return table;
         names.push_back(table.name);
     }
@@ -350,37 +350,37 @@ Result<ColourTable> find_colour_table(std::string_view name) {
                 known);
 }
 
-const ColourTable& nws_reflectivity() {
+const ColorTable& nws_reflectivity() {
     return built_in_tables()[ref];
 }
-const ColourTable& echo_top_colours() {
+const ColorTable& echo_top_colors() {
     return built_in_tables()[echo_top];
 }
-const ColourTable& vil_colours() {
+const ColorTable& vil_colors() {
     return built_in_tables()[vil];
 }
-const ColourTable& height_colours() {
+const ColorTable& height_colors() {
     return built_in_tables()[height];
 }
 
-const ColourTable& smooth_colour_table(Moment moment) {
+const ColorTable& smooth_color_table(Moment moment) {
     const auto& tables = built_in_tables();
     return tables[tables.size() - 1 - level2::all_moments.size() +
                   static_cast<std::size_t>(moment)];
 }
-const ColourTable* table_of_family(std::string_view family, Moment moment) {
-    if (family == colour_families[0]) return &smooth_colour_table(moment);
-    if (family == colour_families[1]) return &default_colour_table(moment);
+const ColorTable* table_of_family(std::string_view family, Moment moment) {
+    if (family == color_families[0]) return &smooth_color_table(moment);
+    if (family == color_families[1]) return &default_color_table(moment);
     return nullptr;
 }
-const ColourTable& clear_air_colours() {
+const ColorTable& clear_air_colors() {
     return built_in_tables().back();
 }
-const ColourTable& vil_density_colours() {
+const ColorTable& vil_density_colors() {
     return built_in_tables()[vil_density];
 }
 
-const ColourTable& default_colour_table(Moment moment) {
+const ColorTable& default_color_table(Moment moment) {
     return built_in_tables()[look_of(moment).table];
 }
 

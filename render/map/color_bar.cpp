@@ -1,4 +1,4 @@
-#include "render/map/colour_bar.h"
+#include "render/map/color_bar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,14 @@
 namespace stormcellar::render {
 namespace {
 
-void add_block(ColourBar& bar, const Rect& box, double low_y, double high_y, Rgba8 colour) {
+void add_block(ColorBar& bar, const Rect& box, double low_y, double high_y, Rgba8 color) {
     if (low_y <= high_y) return;
-    if (!bar.blocks.empty() && bar.blocks.back().colour == colour) {
+    if (!bar.blocks.empty() && bar.blocks.back().color == color) {
         Rect& last = bar.blocks.back().box;
         last = {last.x, high_y, last.width, last.bottom() - high_y};
         return;
     }
-    bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, colour});
+    bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, color});
 }
 
 // The bounds of classes are round in the unit of the table. In another one they are rounded: to the
@@ -29,9 +29,9 @@ std::string bound_text(double value, const BarScale& scale) {
     return fmt::format("{:g}", std::round(shown * parts) / parts + 0.0);
 }
 
-ColourBar stepped_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
-    const ColourTable& table = scale.table;
-    ColourBar bar;
+ColorBar stepped_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
+    const ColorTable& table = scale.table;
+    ColorBar bar;
     const std::size_t classes = table.stops.size();
     const double height = box.height / static_cast<double>(classes);
     std::size_t every = 1;
@@ -43,7 +43,7 @@ ColourBar stepped_bar(const BarScale& scale, const Rect& box, double least_tick,
         if (low > high) {
             // Neighboring classes of one color stay separate, so that each class is shown.
             bar.blocks.push_back(
-                {{box.x, high, box.width, low - high}, over(table.stops[i].colour, ground)});
+                {{box.x, high, box.width, low - high}, over(table.stops[i].color, ground)});
         }
         const bool reaches_far = i == 0 && table.bar_begin;
         if (i % every == 0 && !reaches_far)
@@ -52,9 +52,9 @@ ColourBar stepped_bar(const BarScale& scale, const Rect& box, double least_tick,
     return bar;
 }
 
-ColourBar smooth_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
-    const ColourTable& table = scale.table;
-    ColourBar bar;
+ColorBar smooth_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
+    const ColorTable& table = scale.table;
+    ColorBar bar;
     const double lowest = static_cast<double>(table.bar_begin.value_or(table.lowest()));
     const double span = std::max(1e-6, static_cast<double>(table.end) - lowest);
     const double top = std::round(box.y);
@@ -62,9 +62,9 @@ ColourBar smooth_bar(const BarScale& scale, const Rect& box, double least_tick, 
     const int rows = static_cast<int>(bottom - top);
     for (int row = 0; row < rows; ++row) {
         const double value = lowest + span * (row + 0.5) / rows;
-        const auto colour = colour_of(table, static_cast<float>(value));
+        const auto color = color_of(table, static_cast<float>(value));
         add_block(bar, box, bottom - row, bottom - row - 1,
-                  over(colour.value_or(table.stops.front().colour), ground));
+                  over(color.value_or(table.stops.front().color), ground));
     }
     const double step =
         round_step(span * scale.shown_per_value,
@@ -82,14 +82,14 @@ ColourBar smooth_bar(const BarScale& scale, const Rect& box, double least_tick, 
 
 }  // namespace
 
-ColourBar colour_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
+ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick, Rgba8 ground) {
     return is_stepped(scale.table) ? stepped_bar(scale, box, least_tick, ground)
                                    : smooth_bar(scale, box, least_tick, ground);
 }
 
-ColourBar lying_bar(const BarScale& scale, const Rect& box,
-                    const std::function<double(const std::string&)>& width_of, double gap,
-                    Rgba8 ground) {
+ColorBar lying_bar(const BarScale& scale, const Rect& box,
+                   const std::function<double(const std::string&)>& width_of, double gap,
+                   Rgba8 ground) {
     // A bar that stands on its left end, with fewer numbers until none touches the next.
     const Rect upright = {0, 0, box.height, box.width};
     const auto crowded = [&](const std::vector<BarTick>& ticks) {
@@ -101,10 +101,10 @@ ColourBar lying_bar(const BarScale& scale, const Rect& box,
         return false;
     };
     double least_tick = gap;
-    ColourBar bar = colour_bar(scale, upright, least_tick, ground);
+    ColorBar bar = color_bar(scale, upright, least_tick, ground);
     while (crowded(bar.ticks) && least_tick < 2 * box.width) {
         least_tick *= 1.25;
-        bar = colour_bar(scale, upright, least_tick, ground);
+        bar = color_bar(scale, upright, least_tick, ground);
     }
     for (BarBlock& block : bar.blocks) {
         block.box = {box.x + box.width - block.box.bottom(), box.y, block.box.height, box.height};

@@ -1,4 +1,4 @@
-#include "render/colour/colour_file.h"
+#include "render/color/color_file.h"
 
 #include <fstream>
 #include <random>
@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour/built_in_tables.h"
+#include "render/color/built_in_tables.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -37,14 +37,14 @@ TEST(PalFile, BlendsAsTheFormatSays) {
     EXPECT_EQ(table->unit, "dBZ");
     EXPECT_EQ(table->range_folded, (Rgba8{119, 0, 125, 255}));
     EXPECT_FALSE(is_stepped(*table));
-    EXPECT_FALSE(colour_of(*table, 4.9F));
-    EXPECT_EQ(colour_of(*table, 5), (Rgba8{0, 0, 100, 255}));
-    EXPECT_EQ(colour_of(*table, 10), (Rgba8{50, 100, 75, 255})) << "half way to the second";
-    EXPECT_EQ(colour_of(*table, 15), (Rgba8{10, 20, 30, 255}));
-    EXPECT_EQ(colour_of(*table, 20), (Rgba8{105, 60, 15, 255})) << "half way to the next entry";
-    EXPECT_EQ(colour_of(*table, 44.9F), (Rgba8{200, 100, 0, 255})) << "solid";
-    EXPECT_EQ(colour_of(*table, 50), (Rgba8{94, 109, 124, 255})) << "a quarter";
-    EXPECT_EQ(colour_of(*table, 90), (Rgba8{255, 255, 255, 255}));
+    EXPECT_FALSE(color_of(*table, 4.9F));
+    EXPECT_EQ(color_of(*table, 5), (Rgba8{0, 0, 100, 255}));
+    EXPECT_EQ(color_of(*table, 10), (Rgba8{50, 100, 75, 255})) << "half way to the second";
+    EXPECT_EQ(color_of(*table, 15), (Rgba8{10, 20, 30, 255}));
+    EXPECT_EQ(color_of(*table, 20), (Rgba8{105, 60, 15, 255})) << "half way to the next entry";
+    EXPECT_EQ(color_of(*table, 44.9F), (Rgba8{200, 100, 0, 255})) << "solid";
+    EXPECT_EQ(color_of(*table, 50), (Rgba8{94, 109, 124, 255})) << "a quarter";
+    EXPECT_EQ(color_of(*table, 90), (Rgba8{255, 255, 255, 255}));
     EXPECT_EQ(table->end, 75);
     EXPECT_DOUBLE_EQ(extinction_per_m(*table, 40, 1), extinction_per_m(nws_reflectivity(), 40, 1));
 }
@@ -56,7 +56,7 @@ TEST(PalFile, FallingValuesAreTheSameTable) {
     ASSERT_EQ(rising->stops.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(rising->stops[i].from, falling->stops[i].from);
-        EXPECT_EQ(rising->stops[i].colour, falling->stops[i].colour);
+        EXPECT_EQ(rising->stops[i].color, falling->stops[i].color);
         EXPECT_EQ(rising->stops[i].until, falling->stops[i].until);
     }
 }
@@ -67,8 +67,8 @@ TEST(PalFile, TwoEntriesAtOneValueMakeAnEdge) {
         "Color: 0 0 0 0\nColor: 10 100 100 100\nColor: 10 0 0 200\nColor: 20 0 0 0\n", "e");
     ASSERT_TRUE(table) << table.error().message;
     ASSERT_EQ(table->stops.size(), 3U);
-    EXPECT_EQ(colour_of(*table, 5), (Rgba8{50, 50, 50, 255}));
-    EXPECT_EQ(colour_of(*table, 10), (Rgba8{0, 0, 200, 255}));
+    EXPECT_EQ(color_of(*table, 5), (Rgba8{50, 50, 50, 255}));
+    EXPECT_EQ(color_of(*table, 10), (Rgba8{0, 0, 200, 255}));
 }
 
 // v = (w - offset) / scale.
@@ -161,28 +161,28 @@ colour = "#ff000080"
 opacity_per_km = 0.4
 )";
 
-TEST(TomlColours, BlendFromPointToPoint) {
-    const auto table = parse_toml_colours(toml_example, "t.toml");
+TEST(TomlColors, BlendFromPointToPoint) {
+    const auto table = parse_toml_colors(toml_example, "t.toml");
     ASSERT_TRUE(table) << table.error().message;
     EXPECT_EQ(table->name, "mine");
     EXPECT_EQ(table->moment, Moment::vel);
     EXPECT_EQ(table->unit, "m/s");
-    EXPECT_EQ(colour_of(*table, -30), (Rgba8{0, 0, 255, 255}));
-    EXPECT_EQ(colour_of(*table, -15), (Rgba8{50, 50, 178, 153}));
-    EXPECT_EQ(colour_of(*table, 99), (Rgba8{255, 0, 0, 128}));
+    EXPECT_EQ(color_of(*table, -30), (Rgba8{0, 0, 255, 255}));
+    EXPECT_EQ(color_of(*table, -15), (Rgba8{50, 50, 178, 153}));
+    EXPECT_EQ(color_of(*table, 99), (Rgba8{255, 0, 0, 128}));
     EXPECT_EQ(table->end, 60);
     EXPECT_DOUBLE_EQ(extinction_per_m(*table, 15, 1) * 1000, 0.2);
 }
 
-TEST(TomlColours, ColorIsSpelledEitherWay) {
+TEST(TomlColors, ColorIsSpelledEitherWay) {
     std::string american(toml_example);
     for (std::size_t at = american.find("colour"); at != std::string::npos;
          at = american.find("colour", at))
         american.replace(at, 6, "color");
-    const auto table = parse_toml_colours(american, "t.toml");
+    const auto table = parse_toml_colors(american, "t.toml");
     ASSERT_TRUE(table) << table.error().message;
-    EXPECT_EQ(colour_of(*table, 99), colour_of(*parse_toml_colours(toml_example, "t.toml"), 99));
-    const auto both = parse_toml_colours(
+    EXPECT_EQ(color_of(*table, 99), color_of(*parse_toml_colors(toml_example, "t.toml"), 99));
+    const auto both = parse_toml_colors(
         "[[point]]\nvalue = 1\ncolor = \"#000000\"\ncolour = \"#000000\"\n"
         "[[point]]\nvalue = 2\ncolor = \"#ffffff\"\n",
         "t.toml");
@@ -191,8 +191,8 @@ TEST(TomlColours, ColorIsSpelledEitherWay) {
 }
 
 // One table may have blends, classes and edges, as a .pal may.
-TEST(TomlColours, APointMayBlendToAColorOfItsOwn) {
-    const auto table = parse_toml_colours(
+TEST(TomlColors, APointMayBlendToAColorOfItsOwn) {
+    const auto table = parse_toml_colors(
         "moment = \"REF\"\n"
         "[[point]]\nvalue = 10\ncolor = \"#000000\"\nuntil = \"#646464\"\n"
         "[[point]]\nvalue = 20\ncolor = \"#0000c8\"\nuntil = \"#0000c8\"\n"
@@ -206,32 +206,32 @@ TEST(TomlColours, APointMayBlendToAColorOfItsOwn) {
         "t.pal");
     ASSERT_TRUE(pal) << pal.error().message;
     EXPECT_EQ(table->stops, pal->stops);
-    EXPECT_EQ(colour_of(*table, 15), (Rgba8{50, 50, 50, 255}));
-    EXPECT_EQ(colour_of(*table, 29.9F), (Rgba8{0, 0, 200, 255}));
-    const auto stepped = parse_toml_colours(
+    EXPECT_EQ(color_of(*table, 15), (Rgba8{50, 50, 50, 255}));
+    EXPECT_EQ(color_of(*table, 29.9F), (Rgba8{0, 0, 200, 255}));
+    const auto stepped = parse_toml_colors(
         "stepped = true\n[[point]]\nvalue = 1\ncolor = \"#000000\"\nuntil = \"#ffffff\"\n", "t");
     ASSERT_FALSE(stepped);
     EXPECT_EQ(stepped.error().message,
               "t:5: [point] until: has no meaning where colors are stepped");
 }
 
-TEST(TomlColours, ASteppedTableHasClassesAndTheMomentsOpacity) {
-    const auto table = parse_toml_colours(
+TEST(TomlColors, ASteppedTableHasClassesAndTheMomentsOpacity) {
+    const auto table = parse_toml_colors(
         "moment = \"REF\"\nstepped = true\nend = 60\nrange_folded = \"#010203\"\n"
         "[[point]]\nvalue = 10\ncolour = \"#102030\"\n[[point]]\nvalue = 50\ncolour = "
         "\"#405060\"\n",
         "t.toml");
     ASSERT_TRUE(table) << table.error().message;
     EXPECT_TRUE(is_stepped(*table));
-    EXPECT_EQ(colour_of(*table, 49), (Rgba8{0x10, 0x20, 0x30, 255}));
+    EXPECT_EQ(color_of(*table, 49), (Rgba8{0x10, 0x20, 0x30, 255}));
     EXPECT_EQ(table->end, 60);
     EXPECT_EQ(table->range_folded, (Rgba8{1, 2, 3, 255}));
     EXPECT_DOUBLE_EQ(extinction_per_m(*table, 45, 1), extinction_per_m(nws_reflectivity(), 45, 1));
 }
 
-TEST(TomlColours, ErrorsNameLineAndKey) {
+TEST(TomlColors, ErrorsNameLineAndKey) {
     const auto message = [](const std::string& text) {
-        const auto table = parse_toml_colours(text, "t.toml");
+        const auto table = parse_toml_colors(text, "t.toml");
         return table ? std::string{} : table.error().message;
     };
     const std::string two =
@@ -293,7 +293,7 @@ void expect_sound_for_mutations(std::string_view seed, const Parse& parse) {
             ++accepted;
             ASSERT_TRUE(validate(*table)) << text;
             for (float v = -80; v < 120; v += 7.3F) {
-                (void)colour_of(*table, v);
+                (void)color_of(*table, v);
                 ASSERT_GE(extinction_per_m(*table, static_cast<double>(v), 1), 0);
             }
         } else {
@@ -309,40 +309,40 @@ TEST(PalFile, MutationsAreTablesOrErrors) {
     expect_sound_for_mutations(blended, [](const std::string& t) { return parse_pal(t, "m"); });
 }
 
-TEST(TomlColours, MutationsAreTablesOrErrors) {
+TEST(TomlColors, MutationsAreTablesOrErrors) {
     expect_sound_for_mutations(toml_example,
-                               [](const std::string& t) { return parse_toml_colours(t, "m"); });
+                               [](const std::string& t) { return parse_toml_colors(t, "m"); });
 }
 
-TEST(ColoursFrom, TheShippedFilesAreTables) {
+TEST(ColorsFrom, TheShippedFilesAreTables) {
     const auto scenes = testing::source_directory() / "scenes";
-    const auto storm = colours_from(scenes / "storm-colours.toml");
+    const auto storm = colors_from(scenes / "storm-colours.toml");
     ASSERT_TRUE(storm) << storm.error().message;
-    EXPECT_EQ(colour_of(*storm, 52), colour_of(nws_reflectivity(), 52));
-    const auto clear = colours_from(scenes / "clear-air-colours.toml");
+    EXPECT_EQ(color_of(*storm, 52), color_of(nws_reflectivity(), 52));
+    const auto clear = colors_from(scenes / "clear-air-colours.toml");
     ASSERT_TRUE(clear) << clear.error().message;
     EXPECT_EQ(clear->moment, Moment::ref);
     EXPECT_TRUE(is_stepped(*clear));
-    EXPECT_FALSE(colour_of(*clear, -28.5F));
-    EXPECT_EQ(colour_of(*clear, -28), (Rgba8{0x3b, 0x38, 0x42, 255}));
-    EXPECT_EQ(colour_of(*clear, 40), (Rgba8{0xd8, 0x28, 0x2c, 255})) << "the last class is open";
+    EXPECT_FALSE(color_of(*clear, -28.5F));
+    EXPECT_EQ(color_of(*clear, -28), (Rgba8{0x3b, 0x38, 0x42, 255}));
+    EXPECT_EQ(color_of(*clear, 40), (Rgba8{0xd8, 0x28, 0x2c, 255})) << "the last class is open";
 }
 
-TEST(ColoursFrom, TakesANameOrAFile) {
+TEST(ColorsFrom, TakesANameOrAFile) {
     const testing::TemporaryDirectory directory;
     std::ofstream(directory / "mine.PAL") << blended;
     std::ofstream(directory / "wind.toml") << toml_example;
-    EXPECT_EQ(colours_from("safe-velocity")->name, "safe-velocity");
-    EXPECT_EQ(colours_from((directory / "mine.PAL").string())->name, "mine");
-    EXPECT_EQ(colours_from((directory / "wind.toml").string())->name, "mine");
-    const auto unknown = colours_from("rainbow");
+    EXPECT_EQ(colors_from("safe-velocity")->name, "safe-velocity");
+    EXPECT_EQ(colors_from((directory / "mine.PAL").string())->name, "mine");
+    EXPECT_EQ(colors_from((directory / "wind.toml").string())->name, "mine");
+    const auto unknown = colors_from("rainbow");
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ErrorCode::bad_argument);
     EXPECT_THAT(unknown.error().message, ::testing::HasSubstr("safe-velocity"));
-    EXPECT_EQ(colours_from((directory / "none.pal").string()).error().code, ErrorCode::not_found);
-    EXPECT_EQ(read_colour_file(directory / "x.csv").error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(colors_from((directory / "none.pal").string()).error().code, ErrorCode::not_found);
+    EXPECT_EQ(read_color_file(directory / "x.csv").error().code, ErrorCode::bad_argument);
     std::ofstream(directory / "large.pal") << std::string(std::size_t{1} << 21U, '\n');
-    EXPECT_FALSE(colours_from((directory / "large.pal").string()));
+    EXPECT_FALSE(colors_from((directory / "large.pal").string()));
 }
 
 }  // namespace

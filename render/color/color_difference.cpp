@@ -1,4 +1,4 @@
-#include "render/colour/colour_difference.h"
+#include "render/color/color_difference.h"
 
 #include <algorithm>
 #include <array>
@@ -88,8 +88,8 @@ Lab lab_of_linear(double red, double green, double blue) {
     return {116 * fy - 16, 500 * (lab_root(x) - fy), 200 * (fy - lab_root(z))};
 }
 
-Lab lab_of(const Rgba8& colour) {
-    return lab_of_linear(linear_of(colour[0]), linear_of(colour[1]), linear_of(colour[2]));
+Lab lab_of(const Rgba8& color) {
+    return lab_of_linear(linear_of(color[0]), linear_of(color[1]), linear_of(color[2]));
 }
 
 double ciede2000(const Lab& one, const Lab& other) {
@@ -119,7 +119,7 @@ double ciede2000(const Lab& one, const Lab& other) {
     return std::sqrt(std::max(0.0, square));
 }
 
-double colour_difference(const Rgba8& one, const Rgba8& other) {
+double color_difference(const Rgba8& one, const Rgba8& other) {
     return ciede2000(lab_of(one), lab_of(other));
 }
 
@@ -141,7 +141,7 @@ Result<ImageDifference> image_difference(const Image& one, const Image& other) {
         for (std::size_t c = 0; c < 3; ++c)
             key = key << 16U | static_cast<std::uint64_t>(p[c]) << 8U | q[c];
         const auto [place, is_new] = known.try_emplace(key, 0.0);
-        if (is_new) place->second = colour_difference(p, q);
+        if (is_new) place->second = color_difference(p, q);
         differences.push_back(place->second);
     }
     summary.unequal = differences.size();

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/printable.h"
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_file.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_file.h"
 
 namespace stormcellar::render {
 namespace {
@@ -21,7 +21,7 @@ constexpr std::size_t longest_word = 64;
 
 struct Entry {
     double value = 0;
-    Rgba8 colour{};
+    Rgba8 color{};
     std::optional<Rgba8> until;
     bool solid = false;
 };
@@ -115,12 +115,12 @@ class PalReader {
         return take(upper(key_words.front()), words_of(line.substr(colon + 1)));
     }
 
-    Result<ColourTable> finish() {
+    Result<ColorTable> finish() {
         if (entries_.empty()) {
             return fail(ErrorCode::bad_argument,
                         "{}:{}: the file has no Color: or SolidColor:", name_, line_);
         }
-        ColourTable table;
+        ColorTable table;
         const double per_ours = settle_meaning(table);
         settle_order();
         make_stops(table, per_ours);
@@ -132,7 +132,7 @@ class PalReader {
         table.end = last + length;
         if (!(table.end > last)) table.end = std::nextafter(last, 2e9F);
         table.range_folded = folded_.value_or(Rgba8{0x77, 0x00, 0x7D, 255});
-        table.extinction = extinction_of_colours(table, moment_known_);
+        table.extinction = extinction_of_colors(table, moment_known_);
         if (auto valid = validate(table); !valid) {
             return fail(ErrorCode::bad_argument, "{}:{}: the table {} (lowest {})", name_, line_,
                         valid.error().message, lowest);
@@ -158,8 +158,8 @@ class PalReader {
         if (key == "SCALE") return take_number(words, scale_, true);
         if (key == "OFFSET") return take_number(words, offset_, false);
         if (key == "STEP") return take_number(words, step_, true);
-        if (key == "RF") return take_colour(words, &folded_);
-        if (key == "ND") return take_colour(words, nullptr);
+        if (key == "RF") return take_color(words, &folded_);
+        if (key == "ND") return take_color(words, nullptr);
         if (key == "PRODUCT") return take_word(words, product_);
         if (key == "UNITS" || key == "UNIT") return take_word(words, unit_);
         if (key == "DECIMALS" || key == "CATEGORY" || key == "TITLE" || key == "NAME") return {};
@@ -183,26 +183,26 @@ class PalReader {
         return {};
     }
 
-    Result<Rgba8> colour_from(const Words& words, std::size_t first, std::size_t channels) {
-        Rgba8 colour = {0, 0, 0, 255};
+    Result<Rgba8> color_from(const Words& words, std::size_t first, std::size_t channels) {
+        Rgba8 color = {0, 0, 0, 255};
         for (std::size_t c = 0; c < channels; ++c) {
             const auto number = number_of(words[first + c]);
             if (!number || *number < 0 || *number > 255) {
                 return refuse("'{}' is not a color; red, green, blue and alpha are 0 to 255",
                               shown(words[first + c]));
             }
-            colour[c] = static_cast<std::uint8_t>(std::lround(*number));
+            color[c] = static_cast<std::uint8_t>(std::lround(*number));
         }
-        return colour;
+        return color;
     }
 
-    Status take_colour(const Words& words, std::optional<Rgba8>* colour) {
+    Status take_color(const Words& words, std::optional<Rgba8>* color) {
         if (words.size() < 3 || words.size() > 4) {
             return refuse("there must be red, green and blue, not {} numbers", words.size());
         }
-        const auto read = colour_from(words, 0, words.size());
+        const auto read = color_from(words, 0, words.size());
         if (!read) return pass_on(read);
-        if (colour != nullptr) *colour = *read;
+        if (color != nullptr) *color = *read;
         return {};
     }
 
@@ -219,11 +219,11 @@ class PalReader {
         if (!value) return refuse("'{}' is not a number up to a million", shown(words.front()));
         entry.value = *value;
         entry.solid = solid;
-        const auto colour = colour_from(words, 1, channels);
-        if (!colour) return pass_on(colour);
-        entry.colour = *colour;
+        const auto color = color_from(words, 1, channels);
+        if (!color) return pass_on(color);
+        entry.color = *color;
         if (words.size() > 1 + channels) {
-            const auto until = colour_from(words, 1 + channels, channels);
+            const auto until = color_from(words, 1 + channels, channels);
             if (!until) return pass_on(until);
             entry.until = *until;
         }
@@ -231,14 +231,14 @@ class PalReader {
         return {};
     }
 
-    void note_moment(Moment moment, ColourTable& table) {
+    void note_moment(Moment moment, ColorTable& table) {
         moment_known_ = true;
         table.moment = moment;
         table.unit = unit_of(moment);
     }
 
     // Sets moment and unit of the table, and returns how many of the file's units make one of ours.
-    double settle_meaning(ColourTable& table) {
+    double settle_meaning(ColorTable& table) {
         const std::string product = upper(product_);
         if (const auto moment = level2::moment_from_name(product)) {
             note_moment(*moment, table);
@@ -280,23 +280,23 @@ class PalReader {
                          [](const Entry& a, const Entry& b) { return a.value < b.value; });
     }
 
-    void make_stops(ColourTable& table, double per_ours) {
+    void make_stops(ColorTable& table, double per_ours) {
         const double offset = offset_.value_or(0);
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Entry& entry = entries_[i];
             const auto from = static_cast<float>((entry.value - offset) / per_ours);
-            Rgba8 until = entry.colour;
+            Rgba8 until = entry.color;
             if (!entry.solid) {
                 if (entry.until) {
                     until = *entry.until;
                 } else if (i + 1 < entries_.size()) {
-                    until = entries_[i + 1].colour;
+                    until = entries_[i + 1].color;
                 }
             }
             if (!table.stops.empty() && table.stops.back().from >= from) {
-                table.stops.back() = {table.stops.back().from, entry.colour, until};
+                table.stops.back() = {table.stops.back().from, entry.color, until};
             } else {
-                table.stops.push_back({from, entry.colour, until});
+                table.stops.push_back({from, entry.color, until});
             }
         }
     }
@@ -312,7 +312,7 @@ class PalReader {
 
 }  // namespace
 
-Result<ColourTable> parse_pal(std::string_view text, const std::string& name) {
+Result<ColorTable> parse_pal(std::string_view text, const std::string& name) {
     PalReader reader(name);
     while (!text.empty()) {
         const auto end = text.find('\n');

@@ -1,4 +1,4 @@
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ std::uint8_t blend(std::uint8_t from, std::uint8_t to, double share) {
 
 }  // namespace
 
-Status validate(const ColourTable& table) {
+Status validate(const ColorTable& table) {
     const auto refuse = [](std::string_view why) {
         return fail(ErrorCode::bad_argument, "{}", why);
     };
@@ -28,7 +28,7 @@ Status validate(const ColourTable& table) {
         return std::isfinite(after) && std::isgreater(after, before);
     };
     float before = -std::numeric_limits<float>::infinity();
-    for (const ColourStop& stop : table.stops) {
+    for (const ColorStop& stop : table.stops) {
         if (!follows(before, stop.from)) return refuse("has values that do not rise");
         before = stop.from;
     }
@@ -48,25 +48,25 @@ Status validate(const ColourTable& table) {
     return {};
 }
 
-bool is_stepped(const ColourTable& table) {
+bool is_stepped(const ColorTable& table) {
     return std::all_of(table.stops.begin(), table.stops.end(),
-                       [](const ColourStop& stop) { return stop.colour == stop.until; });
+                       [](const ColorStop& stop) { return stop.color == stop.until; });
 }
 
-std::optional<Rgba8> colour_of(const ColourTable& table, float value) {
+std::optional<Rgba8> color_of(const ColorTable& table, float value) {
     if (!std::isgreaterequal(value, table.lowest())) return std::nullopt;
     const auto after = std::upper_bound(table.stops.begin(), table.stops.end(), value,
-                                        [](float v, const ColourStop& s) { return v < s.from; });
-    const ColourStop& stop = *(after - 1);
-    if (after == table.stops.end() || stop.colour == stop.until) return stop.colour;
+                                        [](float v, const ColorStop& s) { return v < s.from; });
+    const ColorStop& stop = *(after - 1);
+    if (after == table.stops.end() || stop.color == stop.until) return stop.color;
     const double share = static_cast<double>(value - stop.from) / (after->from - stop.from);
-    Rgba8 colour{};
-    for (std::size_t c = 0; c < colour.size(); ++c)
-        colour[c] = blend(stop.colour[c], stop.until[c], share);
-    return colour;
+    Rgba8 color{};
+    for (std::size_t c = 0; c < color.size(); ++c)
+        color[c] = blend(stop.color[c], stop.until[c], share);
+    return color;
 }
 
-double extinction_per_m(const ColourTable& table, double value, double opacity) {
+double extinction_per_m(const ColorTable& table, double value, double opacity) {
     const auto& points = table.extinction;
     const bool shown = std::isgreaterequal(value, static_cast<double>(table.lowest())) &&
                        value >= static_cast<double>(points.front().value);

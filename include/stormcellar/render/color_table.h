@@ -1,7 +1,7 @@
-// stormcellar/render/colour_table.h -- what values look like: colors, and how opaque echo is.
+// stormcellar/render/color_table.h -- what values look like: colors, and how opaque echo is.
 //
 // A table is a list of stops that rise in value. From one stop to the next the color goes from
-// `colour` to `until`. In a stepped table, which shows classes, both are the same; in a smooth
+// `color` to `until`. In a stepped table, which shows classes, both are the same; in a smooth
 // table they differ. Colors blend in sRGB, as drawn. A value below the first stop has no color. A
 // value above the last stop has that stop's first color. A class includes its lower bound.
 //
@@ -26,11 +26,11 @@
 
 namespace stormcellar::render {
 
-struct ColourStop {
+struct ColorStop {
     float from = 0;
-    Rgba8 colour{};
+    Rgba8 color{};
     Rgba8 until{};
-    bool operator==(const ColourStop&) const = default;
+    bool operator==(const ColorStop&) const = default;
 };
 
 struct ExtinctionPoint {
@@ -39,19 +39,19 @@ struct ExtinctionPoint {
     bool operator==(const ExtinctionPoint&) const = default;
 };
 
-struct ColourTable {
+struct ColorTable {
     std::string name;  // "nws-reflectivity"
     level2::Moment moment = level2::Moment::ref;
-    std::string unit;               // "dBZ"; empty: no unit
-    std::vector<ColourStop> stops;  // at least one
-    float end = 0;                  // where the last class ends in a color bar; above the last stop
+    std::string unit;              // "dBZ"; empty: no unit
+    std::vector<ColorStop> stops;  // at least one
+    float end = 0;                 // where the last class ends in a color bar; above the last stop
     // Where a color bar begins, if not with the first class, which may reach far down.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly
 
     [[nodiscard]] float lowest() const { return stops.front().from; }
-    bool operator==(const ColourTable&) const = default;
+    bool operator==(const ColorTable&) const = default;
 };
 
 // A table may have no more stops than this. No display shows more apart, and it bounds files.
@@ -60,19 +60,19 @@ inline constexpr std::size_t most_stops = 4096;
 // Checks a table. Returns bad_argument, with a message that follows the name of a table, unless
 // there are 1 to most_stops stops that rise strictly, the ends of the bar enclose them, there are
 // extinction points that rise strictly, all numbers are finite, and no extinction is negative.
-[[nodiscard]] Status validate(const ColourTable& table);
+[[nodiscard]] Status validate(const ColorTable& table);
 
 // Returns true if no color blends, so that the table shows classes.
-[[nodiscard]] bool is_stepped(const ColourTable& table);
+[[nodiscard]] bool is_stepped(const ColorTable& table);
 
 // Returns the color of a value; none below the first stop and for NaN.
-[[nodiscard]] std::optional<Rgba8> colour_of(const ColourTable& table, float value);
+[[nodiscard]] std::optional<Rgba8> color_of(const ColorTable& table, float value);
 // Returns the extinction per meter of the drawn scene, times `opacity`; 0 for a value without a
 // color.
-[[nodiscard]] double extinction_per_m(const ColourTable& table, double value, double opacity);
+[[nodiscard]] double extinction_per_m(const ColorTable& table, double value, double opacity);
 
 // Returns the colors of the National Weather Service for reflectivity
-// (render/colour/built_in_tables.h).
-[[nodiscard]] const ColourTable& nws_reflectivity();
+// (render/color/built_in_tables.h).
+[[nodiscard]] const ColorTable& nws_reflectivity();
 
 }  // namespace stormcellar::render

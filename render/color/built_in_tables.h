@@ -1,4 +1,4 @@
-// render/colour/built_in_tables.h -- the color tables that come with the program.
+// render/color/built_in_tables.h -- the color tables that come with the program.
 //
 //   nws-reflectivity    dBZ     15 classes of 5 dB from 5 dBZ, the last one open above
 //   nws-velocity        m/s     by speed in both directions: green toward the radar, red away from
@@ -15,7 +15,7 @@
 //                               1997), where red begins
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
-//   smooth-...          one table without classes for each moment (render/colour/smooth_tables.h)
+//   smooth-...          one table without classes for each moment (render/color/smooth_tables.h)
 // Range folded is 77007d in all tables. Extinction is that of the moment: default_extinction().
 //
 // In a safe table, neighboring classes differ by at least least_safe_step (CIEDE2000) for normal
@@ -35,7 +35,7 @@
 #include <vector>
 
 #include "stormcellar/base/result.h"
-#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/color_table.h"
 
 namespace stormcellar::render {
 
@@ -43,22 +43,22 @@ inline constexpr double least_safe_step = 6;
 inline constexpr double least_safe_sides = 15;
 
 // Returns the tables in the order above.
-[[nodiscard]] const std::vector<ColourTable>& built_in_tables();
+[[nodiscard]] const std::vector<ColorTable>& built_in_tables();
 // Returns a table by its name. Errors: not_found, naming all tables.
-[[nodiscard]] Result<ColourTable> find_colour_table(std::string_view name);
-[[nodiscard]] const ColourTable& default_colour_table(level2::Moment moment);
-// Returns the table of render/colour/smooth_tables.h.
-[[nodiscard]] const ColourTable& smooth_colour_table(level2::Moment moment);
-[[nodiscard]] const ColourTable& clear_air_colours();
-[[nodiscard]] const ColourTable& echo_top_colours();
-[[nodiscard]] const ColourTable& vil_colours();
-[[nodiscard]] const ColourTable& height_colours();
-[[nodiscard]] const ColourTable& vil_density_colours();
+[[nodiscard]] Result<ColorTable> find_color_table(std::string_view name);
+[[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
+// Returns the table of render/color/smooth_tables.h.
+[[nodiscard]] const ColorTable& smooth_color_table(level2::Moment moment);
+[[nodiscard]] const ColorTable& clear_air_colors();
+[[nodiscard]] const ColorTable& echo_top_colors();
+[[nodiscard]] const ColorTable& vil_colors();
+[[nodiscard]] const ColorTable& height_colors();
+[[nodiscard]] const ColorTable& vil_density_colors();
 
 // Families have a table for each moment: one without classes, and the default one with classes.
-inline constexpr std::array<std::string_view, 2> colour_families{"smooth", "nws"};
+inline constexpr std::array<std::string_view, 2> color_families{"smooth", "nws"};
 // Returns a moment's own table of a family; null for any other name.
-[[nodiscard]] const ColourTable* table_of_family(std::string_view family, level2::Moment moment);
+[[nodiscard]] const ColorTable* table_of_family(std::string_view family, level2::Moment moment);
 
 // The texts of a picture for a moment, and its default colors: render's layer over
 // stormcellar/level2/moment.h.

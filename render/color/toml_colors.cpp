@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/toml_file.h"
-#include "render/colour/built_in_tables.h"
-#include "render/colour/colour_file.h"
+#include "render/color/built_in_tables.h"
+#include "render/color/color_file.h"
 
 namespace stormcellar::render {
 namespace {
@@ -14,48 +14,48 @@ constexpr TomlRange values{-1e6, 1e6};
 constexpr TomlRange opacities_per_km{0, 1e6};
 
 // Parses "#rrggbb" or "#rrggbbaa".
-std::optional<Rgba8> colour_of_text(std::string_view text) {
+std::optional<Rgba8> color_of_text(std::string_view text) {
     if ((text.size() != 7 && text.size() != 9) || text.front() != '#') return std::nullopt;
-    Rgba8 colour = {0, 0, 0, 255};
+    Rgba8 color = {0, 0, 0, 255};
     for (std::size_t c = 0; 1 + 2 * c < text.size(); ++c) {
         const char* digits = text.data() + 1 + 2 * c;
-        const auto [end, error] = std::from_chars(digits, digits + 2, colour[c], 16);
+        const auto [end, error] = std::from_chars(digits, digits + 2, color[c], 16);
         if (error != std::errc{} || end != digits + 2) return std::nullopt;
     }
-    return colour;
+    return color;
 }
 
-std::optional<Rgba8> colour_of_numbers(const std::vector<double>& numbers) {
+std::optional<Rgba8> color_of_numbers(const std::vector<double>& numbers) {
     if (numbers.size() != 3 && numbers.size() != 4) return std::nullopt;
-    Rgba8 colour = {0, 0, 0, 255};
+    Rgba8 color = {0, 0, 0, 255};
     for (std::size_t c = 0; c < numbers.size(); ++c) {
         if (!std::isgreaterequal(numbers[c], 0.0) || !std::islessequal(numbers[c], 255.0)) {
             return std::nullopt;
         }
-        colour[c] = static_cast<std::uint8_t>(std::lround(numbers[c]));
+        color[c] = static_cast<std::uint8_t>(std::lround(numbers[c]));
     }
-    return colour;
+    return color;
 }
 
-std::optional<Rgba8> read_colour(TomlTable& table, std::string_view key) {
-    std::optional<Rgba8> colour;
+std::optional<Rgba8> read_color(TomlTable& table, std::string_view key) {
+    std::optional<Rgba8> color;
     if (table.is_array(key)) {
         const auto numbers = table.numbers(key);
         if (!numbers) return std::nullopt;
-        colour = colour_of_numbers(*numbers);
+        color = color_of_numbers(*numbers);
     } else {
         const auto text = table.text(key);
         if (!text) return std::nullopt;
-        colour = colour_of_text(*text);
+        color = color_of_text(*text);
     }
-    if (!colour) {
+    if (!color) {
         table.complain(key, "must be \"#rrggbb\", \"#rrggbbaa\" or three or four numbers 0 to 255");
     }
-    return colour;
+    return color;
 }
 
 // Reads moment and unit. Returns true if the table is for a moment.
-bool read_meaning(TomlTable& root, ColourTable& table) {
+bool read_meaning(TomlTable& root, ColorTable& table) {
     table.name = root.text("name").value_or("");
     const auto unit = root.text("unit");
     const auto name = root.text("moment");
@@ -79,7 +79,7 @@ std::string_view color_key_of(const TomlTable& point) {
     return point.has("colour") && !point.has("color") ? "colour" : "color";
 }
 
-void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& table) {
+void read_points(std::vector<TomlTable>& points, bool is_stepped, ColorTable& table) {
     std::size_t with_opacity = 0;
     bool blends_to_next = !is_stepped;
     for (TomlTable& point : points) {
@@ -88,18 +88,18 @@ void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& t
             if (!point.has(key)) point.complain(key, "is missing");
         }
         const auto value = point.number("value", values);
-        const Rgba8 colour = read_colour(point, color_key).value_or(Rgba8{});
-        const auto until = read_colour(point, "until");
+        const Rgba8 color = read_color(point, color_key).value_or(Rgba8{});
+        const auto until = read_color(point, "until");
         if (is_stepped && until) point.complain("until", "has no meaning where colors are stepped");
         const auto opacity = point.number("opacity_per_km", opacities_per_km);
         if (!value) continue;
         const auto from = static_cast<float>(*value);
         if (!table.stops.empty()) {
-            ColourStop& before = table.stops.back();
+            ColorStop& before = table.stops.back();
             if (from <= before.from) point.complain("value", "must increase from point to point");
-            if (blends_to_next) before.until = colour;
+            if (blends_to_next) before.until = color;
         }
-        table.stops.push_back({from, colour, until.value_or(colour)});
+        table.stops.push_back({from, color, until.value_or(color)});
         blends_to_next = !is_stepped && !until;
         if (!opacity) continue;
         ++with_opacity;
@@ -112,14 +112,14 @@ void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& t
 
 }  // namespace
 
-Result<ColourTable> parse_toml_colours(std::string_view text, const std::string& name) {
+Result<ColorTable> parse_toml_colors(std::string_view text, const std::string& name) {
     auto file = TomlFile::parse(text, name);
     if (!file) return pass_on(file);
     TomlTable root = file->root();
-    ColourTable table;
+    ColorTable table;
     const bool of_moment = read_meaning(root, table);
     const bool is_stepped = root.flag("stepped").value_or(false);
-    table.range_folded = read_colour(root, "range_folded").value_or(Rgba8{0x77, 0x00, 0x7D, 255});
+    table.range_folded = read_color(root, "range_folded").value_or(Rgba8{0x77, 0x00, 0x7D, 255});
     const auto end = root.number("end", values);
     auto points = root.tables("point");
     const std::size_t least = is_stepped ? 1 : 2;
@@ -136,7 +136,7 @@ Result<ColourTable> parse_toml_colours(std::string_view text, const std::string&
     const auto& stops = table.stops;
     const float length = stops.size() > 1 ? stops.back().from - stops.rbegin()[1].from : 1;
     table.end = end ? static_cast<float>(*end) : stops.back().from + length;
-    if (table.extinction.empty()) table.extinction = extinction_of_colours(table, of_moment);
+    if (table.extinction.empty()) table.extinction = extinction_of_colors(table, of_moment);
     if (auto valid = validate(table); !valid) {
         return fail(ErrorCode::bad_argument, "{}: the table {}", name, valid.error().message);
     }
