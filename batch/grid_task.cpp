@@ -86,7 +86,7 @@ class GridRun {
 
   private:
     fs::path make_directory(const char* name) const {
-        const fs::path path = options_.scratch / name;
+        fs::path path = options_.scratch / name;
         std::error_code ignored;
         fs::create_directories(path, ignored);
         return path;

@@ -44,7 +44,7 @@ Status take_parameter(const render::PictureOption& row, const std::string& name,
     if (names_file(row, text))
         return fail(ErrorCode::bad_argument, "{}: a table is named here, not a file", name);
     const render::PictureSettings to{options, options.scene, nullptr};
-    const Status taken =
+    Status taken =
         std::visit([&](const auto& value) { return take_text(value, name, text, to); }, row.value);
     if (taken) options.typed.push_back(&row);
     return taken;
