@@ -25,7 +25,7 @@ set(STORMCELLAR_COMMON_HEADERS <algorithm> <array> <chrono> <filesystem> <fmt/fo
 
 # Precompiled headers belong to a target, and a target has a source.
 set(STORMCELLAR_NO_SOURCE ${PROJECT_BINARY_DIR}/generated/nothing.cpp)
-file(WRITE ${STORMCELLAR_NO_SOURCE} "int main() {}\n")
+file(CONFIGURE OUTPUT ${STORMCELLAR_NO_SOURCE} CONTENT "int main() {}\n")
 
 # Headers are of use only to what is compiled with their options: rooms, the command line, programs.
 function(stormcellar_common_headers name)

@@ -28,6 +28,10 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
+constexpr std::string_view no_station =
+    "[feed] stations names no station, so there is nothing to follow, and the service will not "
+    "start";
+
 // Tells systemd. Without it, nothing happens.
 void notify(const std::string& state) {
     (void)::sd_notify(0, state.c_str());
@@ -36,9 +40,7 @@ void notify(const std::string& state) {
 Result<FeedConfig> load_with_stations(const std::filesystem::path& file) {
     auto config = load_feed_config(file);
     if (config && config->stations.empty()) {
-        return fail(ErrorCode::bad_argument,
-                    "{}: [feed] stations names no station, so there is nothing to follow",
-                    file.native());
+        return fail(ErrorCode::bad_argument, "{}: {}", file.native(), no_station);
     }
     return config;
 }
@@ -115,6 +117,9 @@ int run(const ServiceArguments& arguments) {
                                         : load_with_stations(*arguments.config);
     if (!config) return complain(program, config.error());
     if (!arguments.check) return feed(*config, *arguments.config);
+    if (config->stations.empty()) {
+        fmt::print(stderr, "note: {}: {}\n", printable(arguments.config->native()), no_station);
+    }
     fmt::print("{}\n{}: ok\n", checked_as(program, program), printable(arguments.config->native()));
     return EXIT_SUCCESS;
 }

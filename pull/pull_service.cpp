@@ -80,9 +80,8 @@ Status PullService::publish() {
     std::string text = status_text(sources, UtcTime{});
     if (text == published_) return {};
     const std::string dated = status_text(sources, now_utc());
-    Status written =
-        write_file_atomically(file_system_, config_.directory / "status.json",
-                              std::as_bytes(std::span(dated.data(), dated.size())));
+    Status written = write_file_atomically(file_system_, config_.directory / "status.json",
+                                           std::as_bytes(std::span(dated.data(), dated.size())));
     if (written) published_ = std::move(text);
     return written;
 }
