@@ -32,13 +32,19 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 # Scenes of pictures, for stormcellar frame and loop.
 install(FILES scenes/picture-midwest.toml scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
-  scenes/fly-supercell.toml scenes/storm-colors.toml scenes/clear-air-colors.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
+  scenes/fly-supercell.toml scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
 # For one release: headers that moved within their room are found at their old place too.
-foreach(moved animation/animation color/color_table products/product volume/integration volume/light)
+foreach(moved animation/animation products/product volume/integration volume/light)
   get_filename_component(name ${moved} NAME)
   file(WRITE ${PROJECT_BINARY_DIR}/old-headers/render/${moved}.h
     "// This header moved to stormcellar/render/${name}.h; this place goes with the next release.\n"
     "#include \"stormcellar/render/${name}.h\"\n")
+endforeach()
+foreach(old colour_table colour/colour_table)
+  file(WRITE ${PROJECT_BINARY_DIR}/old-headers/render/${old}.h
+    "// This header is stormcellar/render/color_table.h now; this name goes with the next release.\n"
+    "#include \"stormcellar/render/color_table.h\"\n"
+    "namespace stormcellar::render { using ColourTable = ColorTable; }\n")
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/old-headers/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar
   COMPONENT development)

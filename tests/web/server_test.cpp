@@ -70,6 +70,23 @@ TEST_F(WebServer, AnswersWithWhatEveryAnswerHas) {
     EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
 }
 
+// 2026-11-29: MHD_quiesce_daemon() ended the program in one of some thousand stops.
+TEST_F(WebServer, StopsWhileClientsComeAndGo) {
+    for (int round = 0; round < 60; ++round) {
+        start();
+        std::atomic<bool> ends{false};
+        std::thread client([&, port = port_] {
+            while (!ends) {
+                const RawClient connected(port);
+                (void)connected;
+            }
+        });
+        server_.reset();
+        ends = true;
+        client.join();
+    }
+}
+
 // A proxy in front of the server refuses without it.
 TEST_F(WebServer, ARefusalOfItsOwnSaysSo) {
     add("/gone", [](const Request&) { return json_error(404, "no such grid"); });

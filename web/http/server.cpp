@@ -12,6 +12,8 @@
 #include <fcntl.h>
 #include <microhttpd.h>
 #include <pthread.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -121,9 +123,11 @@ struct Server::Impl {
     struct Listener {
         MHD_Daemon* daemon = nullptr;
         std::string url;
+        Descriptor silent;  // an eventfd that nobody writes
     };
 
     Status listen(const ListenSocket& socket);
+    static void stop_listening(const Listener& listener);
     MHD_Result handle(MHD_Connection* connection, const char* method, const char* version,
                       Exchange& exchange);
     bool is_refused(MHD_Connection* connection, const char* method, const char* version,
@@ -373,6 +377,8 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
 }
 
 Status Server::Impl::listen(const ListenSocket& socket) {
+    Descriptor silent{::eventfd(0, EFD_CLOEXEC)};
+    if (!silent.is_open()) return system_failure("cannot listen on " + socket.url, errno);
     // libmicrohttpd closes what it is given.
     Descriptor own{::fcntl(socket.socket->number(), F_DUPFD_CLOEXEC, 3)};
     if (!own.is_open()) return system_failure("cannot listen on " + socket.url, errno);
@@ -395,8 +401,26 @@ Status Server::Impl::listen(const ListenSocket& socket) {
         return fail(ErrorCode::io, "libmicrohttpd cannot begin");
     }
     (void)own.release();
-    listeners.push_back({daemon, socket.url});
+    listeners.push_back({daemon, socket.url, std::move(silent)});
     return {};
+}
+
+// MHD_quiesce_daemon() and the daemon's thread may both take the socket out of the epoll set, and
+// the second one ends the program (libmicrohttpd 0.9.75). Instead the daemon's descriptor becomes
+// one at which nothing ever happens.
+void Server::Impl::stop_listening(const Listener& listener) {
+    const auto info = [&](MHD_DaemonInfoType type) {
+        return MHD_get_daemon_info(listener.daemon, type);
+    };
+    const int epoll = info(MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
+    const int listening = info(MHD_DAEMON_INFO_LISTEN_FD)->listen_fd;
+    // At its limit of connections the daemon has taken it out itself, and puts it back later.
+    const bool was_in = ::epoll_ctl(epoll, EPOLL_CTL_DEL, listening, nullptr) == 0;
+    ::dup3(listener.silent.number(), listening, O_CLOEXEC);
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.ptr = listener.daemon;
+    if (was_in) ::epoll_ctl(epoll, EPOLL_CTL_ADD, listening, &event);
 }
 
 void Server::Impl::wait_until_idle(std::chrono::milliseconds most) const {
@@ -408,10 +432,8 @@ void Server::Impl::wait_until_idle(std::chrono::milliseconds most) const {
 // libmicrohttpd must not be stopped while a connection is held still.
 void Server::Impl::stop() {
     is_stopping = true;
-    for (const Listener& listener : listeners) {
-        const int socket = MHD_quiesce_daemon(listener.daemon);
-        if (socket >= 0) ::close(socket);
-    }
+    for (const Listener& listener : listeners)
+        stop_listening(listener);
     {
         const std::scoped_lock lock(feeds_mutex);
         for (const auto& feed : feeds)
