@@ -1,8 +1,10 @@
 // Comments read as sentences: they begin with a subject and fit into the width of their language.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>

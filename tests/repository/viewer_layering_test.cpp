@@ -1,5 +1,6 @@
 // The folders of the viewer's source import one way, as the rooms of C++ include
 // (layering_test.cpp).
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 #include <set>
