@@ -2,7 +2,7 @@
 //
 // A cache is often a mount. Where it is mounted or unmounted while a task runs, a part of the
 // task's grids is in the directory beneath. The directory is held open meanwhile, so that an
-// automounter keeps it.
+// automounter keeps it. A mount that goes and comes back within one task is not noticed.
 //
 // Threads   One thread at a time.
 // Errors    io.
@@ -17,7 +17,7 @@ namespace stormcellar::batch {
 
 class HeldCache {
   public:
-    // A directory that is not there is told by check().
+    // Opens the directory. If it is not there, check() fails.
     explicit HeldCache(const std::filesystem::path& cache);
 
     // Returns ok if the path still leads to the directory to which it led before.

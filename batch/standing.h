@@ -32,9 +32,9 @@ struct StandingGrid {
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
 
-// Returns ok if the cache has the grids that a task made, by its record. A damaged one is there,
-// and of a day that another plan has grids of, too, only their number is compared. Errors: also io
-// if there are fewer or others, as where a cache is not mounted.
+// Returns ok if the cache has the grids that a task made, by its record. Damaged grids count as
+// there. If another plan added grids of the same day, only the number is compared. Errors: also io
+// if there are fewer grids or others, for example because the cache is not mounted.
 [[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
                                   const Task& task, const Record& record);
 

@@ -115,7 +115,8 @@ TEST(Prose, TheCheckSeesWhatItLooksFor) {
     EXPECT_THAT(found.wide, ElementsAre(1U));
 }
 
-// Where the history is there: an archive of the sources has none.
+// Counts the commits of the checkout. An archive of the sources has no history, so nothing is
+// counted.
 TEST(Prose, SubjectsOfCommitsAreShort) {
     constexpr std::size_t width = 72, allowed_before = 490;
     const std::string command =

@@ -87,7 +87,7 @@ TEST_F(WebServer, StopsWhileClientsComeAndGo) {
     }
 }
 
-// A proxy in front of the server refuses without it.
+// The page takes a refusal without this header for that of a proxy whose server is gone.
 TEST_F(WebServer, ARefusalOfItsOwnSaysSo) {
     add("/gone", [](const Request&) { return json_error(404, "no such grid"); });
     add("/there", [](const Request&) { return text_answer(200, "image/png", "a tile"); });

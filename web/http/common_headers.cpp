@@ -38,7 +38,7 @@ const Fields& headers_of_pages() {
 
 void add_common_headers(Answer& answer, const Request& request, bool any_origin) {
     answer.with("X-Content-Type-Options", "nosniff");
-    // A proxy's refusal is told from ours by it.
+    // The page tells our refusals by this header from those of a proxy.
     if (answer.status >= 400) answer.with("Stormcellar-Status", std::to_string(answer.status));
     if (!is_data(answer)) {
         for (const auto& [name, value] : headers_of_pages())
