@@ -42,7 +42,10 @@ export const projections = {
 // Colors behind the echo, of the dark theme: red, green, blue and, for lines and the halo, alpha to 255.
 export const dark = {
     page: [11, 14, 19],
-    seen: [40, 44, 50], seenAloft: [29, 32, 37], notSeen: [23, 25, 29], beyond: [25, 28, 33],
+    seen: [40, 44, 50],
+    seenAloft: [29, 32, 37],
+    notSeen: [23, 25, 29],
+    beyond: [25, 28, 33],
     water: { seen: [22, 31, 46], seenAloft: [17, 24, 36], notSeen: [15, 20, 28], beyond: [14, 19, 29] },
     hatch: [78, 82, 92],
     haze: [104, 110, 122],

@@ -53,15 +53,22 @@ async function begin(): Promise<void> {
     keys.add('Escape', () => pointers.use(null));
     // Panels leave room for the head, however many lines it has.
     const head = element('head');
-    new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(head);
+    new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(
+        head,
+    );
     pointers.begin();
     keys.begin();
     window.addEventListener('hashchange', ({ newURL }) => app.takeAddress(new URL(newURL).hash));
     // The stream is there before the lists, so that nothing is lost between them.
-    void new Live(app, app.begin().catch(error => app.fail(error))).hear();
+    void new Live(
+        app,
+        app.begin().catch((error) => app.fail(error)),
+    ).hear();
 }
 
-begin().catch(error => {
+begin().catch((error) => {
     const isWithout = error instanceof Error && error.message === 'webgl2';
-    element('state').textContent = isWithout ? texts.noWebgl : texts.failed(error instanceof Error ? error.message : String(error));
+    element('state').textContent = isWithout
+        ? texts.noWebgl
+        : texts.failed(error instanceof Error ? error.message : String(error));
 });

@@ -22,7 +22,7 @@ test('each sample finds the eight cells about it in one brick of the atlas', () 
     for (let x = 0; x < made.nx - 1; ++x)
         for (let y = 0; y < made.ny - 1; ++y)
             for (let z = 0; z < made.nz - 1; ++z) {
-                const brick = [x, y, z].map(n => Math.floor(n / 16)) as [number, number, number];
+                const brick = [x, y, z].map((n) => Math.floor(n / 16)) as [number, number, number];
                 const entry = atlas.indirection[(brick[2] * atlas.bricks[1] + brick[1]) * atlas.bricks[0] + brick[0]]!;
                 for (const [dx, dy, dz] of [
                     [0, 0, 0],
@@ -37,7 +37,8 @@ test('each sample finds the eight cells about it in one brick of the atlas', () 
                     }
                     const found = texel(atlas, slotOf(entry), (x % 16) + dx + 1, (y % 16) + dy + 1, (z % 16) + dz + 1);
                     const expected = code < 3 ? [0, 0] : [code, 255];
-                    if (found[0] !== expected[0] || found[1] !== expected[1]) assert.deepEqual(found, expected, `${x} ${y} ${z}`);
+                    if (found[0] !== expected[0] || found[1] !== expected[1])
+                        assert.deepEqual(found, expected, `${x} ${y} ${z}`);
                     if (code >= 3) assert(entry >>> 24 >= code, 'the greatest code of a brick is known');
                     ++checked;
                 }

@@ -23,5 +23,8 @@ test('what is known to be missing is left out, and without volumes there are non
 });
 
 test('a volume at a whole multiple is not made again', () => {
-    assert.deepEqual(instantsBetween(['2016-06-01T16:00:00Z', '2016-06-01T16:01:00Z'], 60, new Set()), ['2016-06-01T16:00:00Z', '2016-06-01T16:01:00Z']);
+    assert.deepEqual(instantsBetween(['2016-06-01T16:00:00Z', '2016-06-01T16:01:00Z'], 60, new Set()), [
+        '2016-06-01T16:00:00Z',
+        '2016-06-01T16:01:00Z',
+    ]);
 });

@@ -4,15 +4,25 @@ import { namedView, orbited, panned, zoomed } from '../src/camera/controls';
 import { Camera, ViewGeometry, heightRange, usualCamera } from '../src/camera/geometry';
 
 const box = { halfXM: 230e3, halfYM: 200e3, bottomM: 250, topM: 16250 };
-const view = (camera: Partial<Camera>, width = 796, height = 532) => new ViewGeometry(box, { ...usualCamera, ...camera }, 5, width, height);
-const cameras: Partial<Camera>[] = [{}, { tiltDeg: 0 }, { azimuthDeg: 37, tiltDeg: 80, fieldOfViewDeg: 40 }, { zoom: 3, lookAtM: [20e3, -50e3, 3000], fieldOfViewDeg: 60 }];
+const view = (camera: Partial<Camera>, width = 796, height = 532) =>
+    new ViewGeometry(box, { ...usualCamera, ...camera }, 5, width, height);
+const cameras: Partial<Camera>[] = [
+    {},
+    { tiltDeg: 0 },
+    { azimuthDeg: 37, tiltDeg: 80, fieldOfViewDeg: 40 },
+    { zoom: 3, lookAtM: [20e3, -50e3, 3000], fieldOfViewDeg: 60 },
+];
 
 test('the box just fits the picture at zoom 1', () => {
     for (const fieldOfViewDeg of [0, 40]) {
         const geometry = view({ fieldOfViewDeg });
         let most = 0;
         for (let i = 0; i < 8; ++i) {
-            const corner = [i & 1 ? 230e3 : -230e3, i & 2 ? 200e3 : -200e3, (i & 4 ? 16250 : 0) * 5] as [number, number, number];
+            const corner = [i & 1 ? 230e3 : -230e3, i & 2 ? 200e3 : -200e3, (i & 4 ? 16250 : 0) * 5] as [
+                number,
+                number,
+                number,
+            ];
             const [x, y] = geometry.project(corner)!;
             most = Math.max(most, Math.abs(x - 398) / 398, Math.abs(y - 266) / 266);
         }

@@ -37,7 +37,10 @@ test('zooming is bounded', () => {
 });
 
 test('moving takes what was under the pointer along', () => {
-    for (const camera of [{ ...usualCamera, tiltDeg: 0 }, { ...usualCamera, azimuthDeg: 120 }]) {
+    for (const camera of [
+        { ...usualCamera, tiltDeg: 0 },
+        { ...usualCamera, azimuthDeg: 120 },
+    ]) {
         const before = geometryOf(camera);
         const place = before.ground(400, 300)!;
         const after = geometryOf(panned(camera, before, 60, -40));
@@ -66,7 +69,7 @@ test('Top is a map: things aloft are drawn above their places, with north up (20
         const ground = geometry.project([x, y, 0])!;
         assert(Math.hypot(aloft[0] - ground[0], aloft[1] - ground[1]) * geometry.metersPerPixel < 1, `${azimuth}`);
     }
-    const [south, north] = [-100000, 100000].map(y => geometry.project([0, y, 0])!);
+    const [south, north] = [-100000, 100000].map((y) => geometry.project([0, y, 0])!);
     assert(north![1] < south![1] && Math.abs(north![0] - south![0]) < 1e-6);
 });
 

@@ -3,7 +3,15 @@ import test from 'node:test';
 
 import { colorOf, extinctionPerM } from '../src/tables/color_table';
 import { Draft, draftOf, fileOf, perKmAt, tableForPal, tableOf } from '../src/tables/draft';
-import { withColor, withColorAdded, withColorMoved, withColorRemoved, withOpacityAdded, withOpacityMoved, withOpacityRemoved } from '../src/tables/draft_edits';
+import {
+    withColor,
+    withColorAdded,
+    withColorMoved,
+    withColorRemoved,
+    withOpacityAdded,
+    withOpacityMoved,
+    withOpacityRemoved,
+} from '../src/tables/draft_edits';
 import { draftOfText, textOfDraft } from '../src/tables/draft_text';
 import { History } from '../src/tables/history';
 import { readPal, writePal } from '../src/tables/pal_file';
@@ -32,18 +40,29 @@ const edged: Draft = {
 };
 
 test('a table becomes few points that look alike', () => {
-    assert.deepEqual(draft.colors.map(point => point.value), [5, 35, 65], 'the point on the line is left out');
+    assert.deepEqual(
+        draft.colors.map((point) => point.value),
+        [5, 35, 65],
+        'the point on the line is left out',
+    );
     assert.equal(draft.opacity, null, 'the opacity is the usual one');
     const table = tableOf(draft, usual);
     for (let value = 5; value < 80; ++value) {
         assert(colorOf(table, value)!.every((c, k) => Math.abs(c - colorOf(smooth, value)![k]!) < 4));
         assert.equal(extinctionPerM(table, value, 1), extinctionPerM(smooth, value, 1));
     }
-    assert.deepEqual(cornersToKeep(5, 0.5, (first, last, i) => (first === 0 && last === 4 && i === 2 ? 1 : 0)), [0, 2, 4]);
+    assert.deepEqual(
+        cornersToKeep(5, 0.5, (first, last, i) => (first === 0 && last === 4 && i === 2 ? 1 : 0)),
+        [0, 2, 4],
+    );
 });
 
 test('another opacity becomes points within a few percent', () => {
-    const own = draftOf({ ...smooth, extinction: smooth.extinction.map(point => ({ ...point, per_km: 2 * point.per_km })) }, 'REF', usual);
+    const own = draftOf(
+        { ...smooth, extinction: smooth.extinction.map((point) => ({ ...point, per_km: 2 * point.per_km })) },
+        'REF',
+        usual,
+    );
     assert(own.opacity !== null && own.opacity.length < 40);
     for (let value = 5; value < 80; value += 0.5) {
         const wanted = 2000 * extinctionPerM(smooth, value, 1);
@@ -80,7 +99,10 @@ test('edges go through addresses and back', () => {
     assert.deepEqual(colorOf(table, 30), [0, 0, 200, 255]);
     assert(colorOf(table, 29.99)!.every((c, k) => Math.abs(c - [100, 100, 100, 255][k]!) < 1));
     assert.deepEqual(draftOfText(textOfDraft(edged)), edged);
-    assert.deepEqual(withColorMoved(edged, 1, 40).colors.map(point => point.value), [5, 40, 40, 60]);
+    assert.deepEqual(
+        withColorMoved(edged, 1, 40).colors.map((point) => point.value),
+        [5, 40, 40, 60],
+    );
 });
 
 test('a .pal has opacity as alpha, and says where it cannot', () => {
@@ -94,12 +116,17 @@ test('a .pal has opacity as alpha, and says where it cannot', () => {
     const { table, isWhole } = tableForPal(thin, usual, null);
     assert(isWhole);
     const back = readPal(writePal(table), 'a.pal', usual);
-    for (const value of [5, 35, 65]) assert(Math.abs(extinctionPerM(back, value, 1) * 1000 - 0.0005) < 0.002 * 1.1 ** (value - 5) * 0.005 + 1e-6, `${value}`);
+    for (const value of [5, 35, 65])
+        assert(
+            Math.abs(extinctionPerM(back, value, 1) * 1000 - 0.0005) < 0.002 * 1.1 ** (value - 5) * 0.005 + 1e-6,
+            `${value}`,
+        );
     assert.equal(tableForPal(opaque, usual, null).isWhole, false);
 });
 
 test('an address holds a draft; nonsense is none', () => {
-    for (const one of [draft, opaque, { ...draft, isStepped: true }]) assert.deepEqual(draftOfText(textOfDraft(one)), one);
+    for (const one of [draft, opaque, { ...draft, isStepped: true }])
+        assert.deepEqual(draftOfText(textOfDraft(one)), one);
     const text = textOfDraft(opaque);
     assert(text.length < 200 && encodeURIComponent(text) === text, text);
     for (const bad of [
@@ -122,11 +149,18 @@ test('an address holds a draft; nonsense is none', () => {
 });
 
 test('points are moved between their neighbors, added where there is room, and removed to the last two', () => {
-    assert.deepEqual(withColorMoved(draft, 1, 90).colors.map(point => point.value), [5, 64.85, 65]);
+    assert.deepEqual(
+        withColorMoved(draft, 1, 90).colors.map((point) => point.value),
+        [5, 64.85, 65],
+    );
     assert.deepEqual(withColorMoved(draft, 0, -20).colors[0]!.value, -20);
     const [added, at] = withColorAdded(draft, 20);
     assert.equal(at, 1);
-    assert.deepEqual(added.colors[1]!.color, colorOf(tableOf(draft, usual), 20)!.map(Math.round), 'a new point changes nothing');
+    assert.deepEqual(
+        added.colors[1]!.color,
+        colorOf(tableOf(draft, usual), 20)!.map(Math.round),
+        'a new point changes nothing',
+    );
     assert.equal(withColorAdded(draft, 35.01)[1], -1);
     assert.deepEqual(withColorRemoved(added, 1).colors, draft.colors);
     assert.equal(withColorRemoved(withColorRemoved(draft, 1), 0).colors.length, 2);

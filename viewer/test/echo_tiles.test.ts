@@ -20,15 +20,28 @@ const grid = readPackedGrid(packedGrid(made));
 const atlas = makeAtlas(grid, 2048);
 const exaggeration = 3;
 
-function viewOf(azimuthDeg: number, tiltDeg: number, zoom: number, fieldOfViewDeg: number, lookAtM: [number, number, number] | null = null): ViewGeometry {
-    return new ViewGeometry(boxOf(grid), { ...usualCamera, azimuthDeg, tiltDeg, zoom, fieldOfViewDeg, lookAtM }, exaggeration, 411, 273);
+function viewOf(
+    azimuthDeg: number,
+    tiltDeg: number,
+    zoom: number,
+    fieldOfViewDeg: number,
+    lookAtM: [number, number, number] | null = null,
+): ViewGeometry {
+    return new ViewGeometry(
+        boxOf(grid),
+        { ...usualCamera, azimuthDeg, tiltDeg, zoom, fieldOfViewDeg, lookAtM },
+        exaggeration,
+        411,
+        273,
+    );
 }
 
 // The greatest code of a value that a ray's sample uses; 0 without one, and outside of the box.
 function codeAt(view: ViewGeometry, x: number, y: number, depth: number): number {
     const [px, py, pz] = view.point(x, y, depth);
     const { halfXM, halfYM, bottomM, topM } = view.box;
-    if (Math.abs(px) > halfXM || Math.abs(py) > halfYM || pz < bottomM * exaggeration || pz > topM * exaggeration) return 0;
+    if (Math.abs(px) > halfXM || Math.abs(py) > halfYM || pz < bottomM * exaggeration || pz > topM * exaggeration)
+        return 0;
     const level = (pz / exaggeration - grid.levelsM[0]!) / (grid.levelsM[1]! - grid.levelsM[0]!);
     const place = [px / 1000 + 0.5 * (grid.nx - 1), py / 1000 + 0.5 * (grid.ny - 1), level];
     let greatest = 0;
@@ -44,7 +57,10 @@ function codeAt(view: ViewGeometry, x: number, y: number, depth: number): number
 }
 
 const views = [
-    viewOf(180, 55, 1, 40), viewOf(30, 80, 2, 40), viewOf(200, 0, 1, 0), viewOf(100, 60, 3, 0, [-40e3, -5e3, 3e3]),
+    viewOf(180, 55, 1, 40),
+    viewOf(30, 80, 2, 40),
+    viewOf(200, 0, 1, 0),
+    viewOf(100, 60, 3, 0, [-40e3, -5e3, 3e3]),
     viewOf(250, 85, 12, 60, [-42e3, -5e3, 5e3]), // within the box, some of which is behind the camera
 ];
 
@@ -88,7 +104,13 @@ test('most of a picture with little echo has no tiles', () => {
 test('all of a small picture of the same view is in tiles if the whole picture is', () => {
     const full = readPackedGrid(packedGrid({ ...made, codeOf: () => 90 }));
     const view = viewOf(180, 0, 4, 0);
-    const small = { ...view, width: view.width / 5, height: view.height / 5, metersPerPixel: view.metersPerPixel * 5, isPerspective: false };
+    const small = {
+        ...view,
+        width: view.width / 5,
+        height: view.height / 5,
+        metersPerPixel: view.metersPerPixel * 5,
+        isPerspective: false,
+    };
     const { columns, rows, points } = tilesOf(small, makeAtlas(full, 2048), blockEnds(full, view), 1);
     assert.equal(points.length / 4, columns * rows);
     assert.equal(columns, Math.ceil(411 / 5 / 16));
@@ -101,5 +123,8 @@ test('each segment of a line has four corners that know both of its ends, and tw
     const triangles = [...trianglesOf(2)];
     assert.equal(triangles.length, 12);
     for (const [i, corner] of triangles.entries()) assert.equal(Math.floor(corner / 4), Math.floor(i / 6));
-    assert.deepEqual([...new Set(triangles)].sort((a, b) => a - b), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert.deepEqual(
+        [...new Set(triangles)].sort((a, b) => a - b),
+        [0, 1, 2, 3, 4, 5, 6, 7],
+    );
 });

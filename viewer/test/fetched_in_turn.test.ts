@@ -10,15 +10,15 @@ function slow() {
     const fetch = (key: string) => () =>
         new Promise<string>((done, failed) => {
             begun.push(key);
-            ends.set(key, value => (value instanceof Error ? failed(value) : done(value)));
+            ends.set(key, (value) => (value instanceof Error ? failed(value) : done(value)));
         });
     return { begun, ends, fetch };
 }
-const rest = () => new Promise(done => setTimeout(done, 0));
+const rest = () => new Promise((done) => setTimeout(done, 0));
 
 test('one is fetched at a time, what is wanted now before what is fetched ahead (2026-11-28: a loop of sweeps filled the server)', async () => {
     const { begun, ends, fetch } = slow();
-    const store = new FetchedInTurn<string>(1000, value => value.length);
+    const store = new FetchedInTurn<string>(1000, (value) => value.length);
     for (const key of ['a', 'b', 'c']) void store.take(key, fetch(key), true);
     void store.take('c', fetch('c'), false);
     void store.take('d', fetch('d'), false);
@@ -28,20 +28,30 @@ test('one is fetched at a time, what is wanted now before what is fetched ahead 
         await rest();
     }
     assert.deepEqual(begun, ['a', 'd', 'c', 'b']);
-    assert.deepEqual(['a', 'b', 'c', 'd'].map(key => store.find(key)), ['a', 'b', 'c', 'd']);
+    assert.deepEqual(
+        ['a', 'b', 'c', 'd'].map((key) => store.find(key)),
+        ['a', 'b', 'c', 'd'],
+    );
 });
 
 test('several are kept, within their bytes, and those that were used last', async () => {
-    const store = new FetchedInTurn<string>(10, value => value.length);
+    const store = new FetchedInTurn<string>(10, (value) => value.length);
     for (const key of ['a', 'b']) await store.take(key, async () => 'x'.repeat(4), true);
     assert.equal(store.isSettled('a'), true);
     await store.take('c', async () => 'x'.repeat(4), true);
-    assert.deepEqual(['a', 'b', 'c'].map(key => store.isSettled(key)), [true, false, true]);
+    assert.deepEqual(
+        ['a', 'b', 'c'].map((key) => store.isSettled(key)),
+        [true, false, true],
+    );
 });
 
 test('what failed is settled, and asked for again later', async () => {
     let [now, tries] = [0, 0];
-    const store = new FetchedInTurn<string>(10, value => value.length, () => now);
+    const store = new FetchedInTurn<string>(
+        10,
+        (value) => value.length,
+        () => now,
+    );
     const fetch = async (): Promise<string> => {
         if (++tries === 1) throw new Error('gone');
         return 'here';

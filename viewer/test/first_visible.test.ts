@@ -41,7 +41,7 @@ test('what is not visible, or lies outside of the box, is passed', () => {
         for (let x = 10; x < 400; x += 13) {
             for (let y = 10; y < 400; y += 13) {
                 const seen = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, all);
-                const strong = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, value => value >= least);
+                const strong = firstVisible({ grid, middle: [0, 0] }, geometry, box, x, y, (value) => value >= least);
                 if (strong) assert.ok(strong.value >= least);
                 if (strong && seen && strong.at[0] !== seen.at[0]) ++passed;
                 const west = firstVisible({ grid, middle: [0, 0] }, geometry, half, x, y, all);
@@ -63,15 +63,27 @@ test('of a volume the cell is read that contributes most (2026-11-28: the first 
     for (let x = 1; x < grid.nx; x += 3) {
         for (let y = 1; y < grid.ny; y += 3) {
             const pixel = geometry.project([(x + 0.5 - grid.nx / 2) * width, (y + 0.5 - grid.ny / 2) * height, 0])!;
-            const { cell, share, through } = mostVisible({ grid, middle: [0, 0] }, geometry, box, ...pixel, Infinity, perM);
+            const { cell, share, through } = mostVisible(
+                { grid, middle: [0, 0] },
+                geometry,
+                box,
+                ...pixel,
+                Infinity,
+                perM,
+            );
             const column = Array.from({ length: grid.nz }, (_, z) => codeAt(grid, x, y, z));
-            const top = column.map((code, z) => (code >= firstValueCode && valueOf(grid, code) >= strong ? z : -1)).reduce((a, b) => Math.max(a, b), -1);
+            const top = column
+                .map((code, z) => (code >= firstValueCode && valueOf(grid, code) >= strong ? z : -1))
+                .reduce((a, b) => Math.max(a, b), -1);
             if (top < 0) continue;
             assert.equal(cell?.value, valueOf(grid, column[top]!));
             assert.equal(cell?.heightM, grid.levelsM[top]);
             // A cell of 500 m, twice as high, lets exp(-1) through.
-            assert.ok(Math.abs(share - (1 - Math.exp(-1))) < 0.15 && through <= 1 - share + 1e-9, `${share} ${through}`);
-            if (column.slice(top + 1).some(code => code >= firstValueCode)) ++below;
+            assert.ok(
+                Math.abs(share - (1 - Math.exp(-1))) < 0.15 && through <= 1 - share + 1e-9,
+                `${share} ${through}`,
+            );
+            if (column.slice(top + 1).some((code) => code >= firstValueCode)) ++below;
         }
     }
     assert.ok(below > 5);

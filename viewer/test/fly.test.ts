@@ -4,7 +4,12 @@ import test from 'node:test';
 import { Window, flown, speedOf, takenOff, turned, withEye } from '../src/camera/fly';
 import { Camera, Vec3, ViewGeometry, dot, minus, usualCamera } from '../src/camera/geometry';
 
-const view: Window = { box: { halfXM: 230000, halfYM: 200000, bottomM: 250, topM: 16000 }, exaggeration: 3, width: 796, height: 532 };
+const view: Window = {
+    box: { halfXM: 230000, halfYM: 200000, bottomM: 250, topM: 16000 },
+    exaggeration: 3,
+    width: 796,
+    height: 532,
+};
 const geometryOf = (camera: Camera) => new ViewGeometry(view.box, camera, view.exaggeration, view.width, view.height);
 const apart = (a: Vec3, b: Vec3) => Math.hypot(...minus(a, b));
 const camera: Camera = { azimuthDeg: 200, tiltDeg: 70, zoom: 1, fieldOfViewDeg: 60, lookAtM: [12000, -5000, 3000] };
@@ -30,12 +35,18 @@ test('moving goes along the view, and never below the ground', () => {
 });
 
 test('a flight begins where the picture seems to be seen from', () => {
-    for (const from of [usualCamera, { ...camera, zoom: 6 }, { ...usualCamera, zoom: 4, lookAtM: [30000, 20000, 5000] as Vec3 }]) {
+    for (const from of [
+        usualCamera,
+        { ...camera, zoom: 6 },
+        { ...usualCamera, zoom: 4, lookAtM: [30000, 20000, 5000] as Vec3 },
+    ]) {
         const off = takenOff(from, view);
         assert.ok(off.fieldOfViewDeg > 0 && off.zoom === 1);
         const [before, after] = [geometryOf(from), geometryOf(off)];
         // The point in the middle stays there, and what surrounds it is as large.
-        const target: Vec3 = from.lookAtM ? [from.lookAtM[0], from.lookAtM[1], from.lookAtM[2] * view.exaggeration] : before.middle;
+        const target: Vec3 = from.lookAtM
+            ? [from.lookAtM[0], from.lookAtM[1], from.lookAtM[2] * view.exaggeration]
+            : before.middle;
         const pixel = after.project(target)!;
         assert.ok(Math.abs(pixel[0] - 398) < 0.01 && Math.abs(pixel[1] - 266) < 0.01);
         const aside = after.project([target[0] + 100 * before.right[0], target[1] + 100 * before.right[1], target[2]])!;

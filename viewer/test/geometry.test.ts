@@ -17,7 +17,11 @@ const cameras: Camera[] = [
 test('a point that a ray passes through is drawn at the pixel of the ray', () => {
     for (const camera of cameras) {
         const geometry = new ViewGeometry(box, camera, 3, 796, 532);
-        for (const [x, y] of [[0.5, 0.5], [398, 266], [700.25, 31]] as const) {
+        for (const [x, y] of [
+            [0.5, 0.5],
+            [398, 266],
+            [700.25, 31],
+        ] as const) {
             for (const depth of [geometry.nearM, (geometry.nearM + geometry.farM) / 2, geometry.farM]) {
                 const pixel = geometry.project(geometry.point(x, y, depth))!;
                 assert(near(pixel[0], x, 1e-6) && near(pixel[1], y, 1e-6), `${JSON.stringify(camera)} ${pixel}`);
@@ -35,11 +39,15 @@ test('from the south, east is right and north is up', () => {
 });
 
 test('at zoom 1 the box just fits, for each camera that looks from outside', () => {
-    for (const camera of cameras.filter(one => one.zoom === 1)) {
+    for (const camera of cameras.filter((one) => one.zoom === 1)) {
         const geometry = new ViewGeometry(box, camera, 5, 796, 532);
         let [across, down] = [0, 0];
         for (let i = 0; i < 8; ++i) {
-            const corner: Vec3 = [i & 1 ? box.halfXM : -box.halfXM, i & 2 ? box.halfYM : -box.halfYM, i & 4 ? box.topM * 5 : 0];
+            const corner: Vec3 = [
+                i & 1 ? box.halfXM : -box.halfXM,
+                i & 2 ? box.halfYM : -box.halfYM,
+                i & 4 ? box.topM * 5 : 0,
+            ];
             const pixel = geometry.project(corner)!;
             across = Math.max(across, Math.abs(pixel[0] - 398) / 398);
             down = Math.max(down, Math.abs(pixel[1] - 266) / 266);
@@ -80,7 +88,13 @@ test('cells end half a level beyond the first and the last', () => {
 test('the depths that the picture shows hold every place of the box in it, and not much more', () => {
     const box: Box = { halfXM: 2e6, halfYM: 1e6, bottomM: 500, topM: 19000 };
     for (const camera of [
-        { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40, zoom: 16, lookAtM: [3e5, 1e5, 5000] as [number, number, number] },
+        {
+            ...usualCamera,
+            tiltDeg: 60,
+            fieldOfViewDeg: 40,
+            zoom: 16,
+            lookAtM: [3e5, 1e5, 5000] as [number, number, number],
+        },
         { ...usualCamera, tiltDeg: 20, fieldOfViewDeg: 0, zoom: 8, lookAtM: [0, 0, 5000] as [number, number, number] },
         { ...usualCamera, tiltDeg: 88, fieldOfViewDeg: 40, zoom: 2, lookAtM: null },
     ]) {
@@ -93,7 +107,10 @@ test('the depths that the picture shows hold every place of the box in it, and n
                     const pixel = geometry.project(place);
                     if (!pixel || pixel[0] < 0 || pixel[1] < 0 || pixel[0] > 300 || pixel[1] > 200) continue;
                     const depth = geometry.depthOf(place);
-                    assert(depth < geometry.nearM || (depth >= near - 1 && depth <= far + 1), `${depth} in ${near} to ${far}`);
+                    assert(
+                        depth < geometry.nearM || (depth >= near - 1 && depth <= far + 1),
+                        `${depth} in ${near} to ${far}`,
+                    );
                 }
         if (camera.zoom === 16) assert(far - near < 0.4 * (geometry.farM - geometry.nearM));
     }

@@ -4,7 +4,15 @@ import test from 'node:test';
 import { Governor } from '../src/renderer/governor';
 import { Rung, rungs } from '../src/renderer/ladder';
 
-const rung = (name: string, cost: number, dE: number): Rung => ({ name, slices: 1, grain: 1, isNearest: false, halvings: 0, cost, dE });
+const rung = (name: string, cost: number, dE: number): Rung => ({
+    name,
+    slices: 1,
+    grain: 1,
+    isNearest: false,
+    halvings: 0,
+    cost,
+    dE,
+});
 const three = [rung('exact', 1, 0.5), rung('middle', 0.5, 2), rung('fast', 0.1, 6)];
 
 test('a picture that stands still is exact, however long it takes', () => {

@@ -22,7 +22,11 @@ test('each value of the grid is counted once, in its column', () => {
     assert(slow.size > 1);
     for (const [code, count] of slow) assert.equal(counts[code], count);
     const all = [...slow.values()].reduce((a, b) => a + b, 0);
-    assert.equal(counts.reduce((a, b) => a + b, 0), all, 'states are not counted');
+    assert.equal(
+        counts.reduce((a, b) => a + b, 0),
+        all,
+        'states are not counted',
+    );
     const first = Math.min(...slow.keys());
     const low = valueOf(grid, first);
     const histogram = histogramOf(grid, counts, low, low + 10 * grid.step, 8);
@@ -39,7 +43,11 @@ test('without its codes a grid has the histogram of what is shown', () => {
         const shown = countCodes({ ...grid, codes: new Uint8Array(0) }, atlas);
         const sum = (counts: Uint32Array) => counts.reduce((a, b) => a + b, 0);
         assert.equal(sum(shown), sum(exact));
-        const middle = (counts: Uint32Array) => counts.reduce((all, count, code) => all + count * code, 0) / sum(counts);
-        assert(Math.abs(middle(shown) - middle(exact)) <= (codeBytes === 1 ? 0 : 0.5 * atlas.codeScale), `${middle(shown)} ${middle(exact)}`);
+        const middle = (counts: Uint32Array) =>
+            counts.reduce((all, count, code) => all + count * code, 0) / sum(counts);
+        assert(
+            Math.abs(middle(shown) - middle(exact)) <= (codeBytes === 1 ? 0 : 0.5 * atlas.codeScale),
+            `${middle(shown)} ${middle(exact)}`,
+        );
     }
 });

@@ -2,7 +2,17 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { exposureOf } from '../src/renderer/exposure';
-import { AirVariant, SurfaceVariant, airFragment, airName, drapeFragment, fieldFragment, surfaceFragment, surfaceName, sweepFragment } from '../src/renderer/layer_shaders';
+import {
+    AirVariant,
+    SurfaceVariant,
+    airFragment,
+    airName,
+    drapeFragment,
+    fieldFragment,
+    surfaceFragment,
+    surfaceName,
+    sweepFragment,
+} from '../src/renderer/layer_shaders';
 import { VolumeVariant, variantName, volumeFragment } from '../src/renderer/shaders';
 import { lookCount, lookOver, looksOf } from '../src/tables/looks';
 import { ColorTable } from '../src/wire/color_tables';
@@ -11,13 +21,23 @@ const either = [false, true];
 const plain: VolumeVariant = { isPerspective: true, hasUnevenLevels: false };
 
 test('each variant of the volume, of a surface and of veils has a name and a program of its own', () => {
-    const volumes: VolumeVariant[] = either.flatMap(isPerspective =>
-        either.flatMap(hasUnevenLevels => either.flatMap(endsAtSolids => either.map(isLit => ({ isPerspective, hasUnevenLevels, endsAtSolids, isLit })))),
+    const volumes: VolumeVariant[] = either.flatMap((isPerspective) =>
+        either.flatMap((hasUnevenLevels) =>
+            either.flatMap((endsAtSolids) =>
+                either.map((isLit) => ({ isPerspective, hasUnevenLevels, endsAtSolids, isLit })),
+            ),
+        ),
     );
-    const surfaces: SurfaceVariant[] = either.flatMap(isPerspective =>
-        either.flatMap(hasHalved => either.flatMap(isBelow => either.map(hasOther => ({ isPerspective, hasUnevenLevels: false, hasHalved, isBelow, hasOther })))),
+    const surfaces: SurfaceVariant[] = either.flatMap((isPerspective) =>
+        either.flatMap((hasHalved) =>
+            either.flatMap((isBelow) =>
+                either.map((hasOther) => ({ isPerspective, hasUnevenLevels: false, hasHalved, isBelow, hasOther })),
+            ),
+        ),
     );
-    const veils: AirVariant[] = either.flatMap(hasHaze => either.map(hasFolded => ({ isPerspective: true, hasUnevenLevels: false, hasHaze, hasFolded })));
+    const veils: AirVariant[] = either.flatMap((hasHaze) =>
+        either.map((hasFolded) => ({ isPerspective: true, hasUnevenLevels: false, hasHaze, hasFolded })),
+    );
     for (const [names, programs] of [
         [volumes.map(variantName), volumes.map(volumeFragment)],
         [surfaces.map(surfaceName), surfaces.map(surfaceFragment)],
@@ -30,7 +50,8 @@ test('each variant of the volume, of a surface and of veils has a name and a pro
 
 test('what is off is not in the program of the volume', () => {
     const usual = volumeFragment(plain);
-    for (const word of ['solidDepth', 'litColor', 'falls', 'exposure', 'lit ', 'frontLight']) assert(!usual.includes(word), word);
+    for (const word of ['solidDepth', 'litColor', 'falls', 'exposure', 'lit ', 'frontLight'])
+        assert(!usual.includes(word), word);
     assert(volumeFragment({ ...plain, endsAtSolids: true }).includes('solidDepth'));
     assert(!volumeFragment({ ...plain, endsAtSolids: true }).includes('falls'));
     assert(volumeFragment({ ...plain, isLit: true }).includes('falls'));
@@ -38,12 +59,18 @@ test('what is off is not in the program of the volume', () => {
 });
 
 test('programs say their version first, as WebGL 2 wants it', () => {
-    const texts = [fieldFragment(true), sweepFragment(false), drapeFragment(true), surfaceFragment({ ...plain, isBelow: true, hasOther: true })];
+    const texts = [
+        fieldFragment(true),
+        sweepFragment(false),
+        drapeFragment(true),
+        surfaceFragment({ ...plain, isBelow: true, hasOther: true }),
+    ];
     for (const text of texts) assert(text.startsWith('#version 300 es\n'));
 });
 
 test('the exposure keeps the mean lightness', () => {
-    const pixels = (factor: number) => new Uint8Array(Array.from({ length: 50 }, (_, i) => [100 + i, Math.round(127.5 * factor), 200, 255]).flat());
+    const pixels = (factor: number) =>
+        new Uint8Array(Array.from({ length: 50 }, (_, i) => [100 + i, Math.round(127.5 * factor), 200, 255]).flat());
     assert(Math.abs(exposureOf(pixels(1)) - 1) < 0.01);
     assert(Math.abs(exposureOf(pixels(0.8)) * 0.8 - 1) < 0.01);
     assert.equal(exposureOf(new Uint8Array(80)), 1);
@@ -51,8 +78,17 @@ test('the exposure keeps the mean lightness', () => {
 
 test('looks are the colors of values, clear below the table and the threshold', () => {
     const table: ColorTable = {
-        name: 'two', moment: 'REF', unit: 'dBZ', bar_begin: 0, end: 20, range_folded: [1, 2, 3, 255], extinction: [],
-        stops: [{ from: 5, color: [255, 0, 0, 255], until: [255, 0, 0, 255] }, { from: 10, color: [0, 0, 255, 51], until: [0, 0, 255, 51] }],
+        name: 'two',
+        moment: 'REF',
+        unit: 'dBZ',
+        bar_begin: 0,
+        end: 20,
+        range_folded: [1, 2, 3, 255],
+        extinction: [],
+        stops: [
+            { from: 5, color: [255, 0, 0, 255], until: [255, 0, 0, 255] },
+            { from: 10, color: [0, 0, 255, 51], until: [0, 0, 255, 51] },
+        ],
     };
     const looks = looksOf(table, -100);
     assert.equal(looks.rgba.length, 4 * lookCount);

@@ -11,14 +11,26 @@ import { planeOf } from '../src/earth/projection';
 import { codeAt, readPackedGrid } from '../src/wire/packed_grid';
 import { evenLevels, packedGrid, scrambled } from './written_grid';
 
-const grid = readPackedGrid(packedGrid({ nx: 100, ny: 80, levelsM: evenLevels(18), codeOf: (x, y, z) => (x < 30 ? scrambled(x, y, z) % 200 : x < 60 ? (y + z) % 3 : 1) }));
+const grid = readPackedGrid(
+    packedGrid({
+        nx: 100,
+        ny: 80,
+        levelsM: evenLevels(18),
+        codeOf: (x, y, z) => (x < 30 ? scrambled(x, y, z) % 200 : x < 60 ? (y + z) % 3 : 1),
+    }),
+);
 const plane = planeOf(grid);
 // Seen from above, so that a pixel is a place on the ground.
 const geometry = new ViewGeometry(boxOf(grid), { ...usualCamera, tiltDeg: 0 }, 3, 400, 300);
 
 Object.assign(globalThis, { window: { devicePixelRatio: 1 } });
 function madeApp() {
-    const app = { state: { layers: { ...usualLayers } }, shown: { loaded: { grid } }, changes: 0, changed: () => void ++app.changes };
+    const app = {
+        state: { layers: { ...usualLayers } },
+        shown: { loaded: { grid } },
+        changes: 0,
+        changed: () => void ++app.changes,
+    };
     return app;
 }
 type Args = ConstructorParameters<typeof SectionTool>;
@@ -34,7 +46,7 @@ test('a section goes from where it was pressed to where it was let go, and its e
     tool.drag(300, 200);
     tool.release();
     assert.equal(done, 1);
-    const ends = () => app.state.layers.section!.map(place => plane.toPlane(place)!);
+    const ends = () => app.state.layers.section!.map((place) => plane.toPlane(place)!);
     assert(isNear(ends()[0]!, geometry.ground(100, 100)!) && isNear(ends()[1]!, geometry.ground(300, 200)!));
     tool.press(102, 98); // near A
     tool.drag(50, 250);
@@ -53,7 +65,9 @@ test('a press that does not travel is no section', () => {
 });
 
 test('a section across the view lies along the picture', () => {
-    const [a, b] = acrossView(madeApp() as unknown as Args[0], geometry)!.map(place => geometry.project([...plane.toPlane(place)!, 0])!);
+    const [a, b] = acrossView(madeApp() as unknown as Args[0], geometry)!.map((place) =>
+        geometry.project([...plane.toPlane(place)!, 0])!,
+    );
     assert(Math.abs(a![1] - b![1]) < 0.1 && Math.abs(b![0] - a![0] - 0.6 * 400) < 0.1);
 });
 
@@ -70,13 +84,16 @@ test('a box has its corners where the pointer was', () => {
 test('the codes of a level are those of its cells', () => {
     for (const z of [0, 15, 16, 17]) {
         const codes = levelCodes(grid, z);
-        for (let y = 0; y < grid.ny; ++y) for (let x = 0; x < grid.nx; ++x) assert.equal(codes[y * grid.nx + x], codeAt(grid, x, y, z));
+        for (let y = 0; y < grid.ny; ++y)
+            for (let x = 0; x < grid.nx; ++x) assert.equal(codes[y * grid.nx + x], codeAt(grid, x, y, z));
     }
 });
 
 test('textures are made once, and given back when a picture did without them', () => {
     const deleted: unknown[] = [];
-    const shelf = new TextureShelf({ deleteTexture: (one: unknown) => deleted.push(one) } as unknown as WebGL2RenderingContext);
+    const shelf = new TextureShelf({
+        deleteTexture: (one: unknown) => deleted.push(one),
+    } as unknown as WebGL2RenderingContext);
     const [a, b] = [{}, {}];
     let made = 0;
     const make = () => ++made as unknown as WebGLTexture;

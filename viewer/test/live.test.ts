@@ -5,11 +5,19 @@ import test from 'node:test';
 import type { App } from '../src/page/app';
 import { ServerState } from '../src/page/server_state';
 
-const server = { isUp: true, isHanging: false, waits: new Map<number, number>(), streams: new Set<ReadableStreamDefaultController<Uint8Array>>() };
+const server = {
+    isUp: true,
+    isHanging: false,
+    waits: new Map<number, number>(),
+    streams: new Set<ReadableStreamDefaultController<Uint8Array>>(),
+};
 // Timers and channels of pages do not keep the test from ending.
 const unref = <Waits>(waits: Waits): Waits => ((waits as unknown as { unref: () => void }).unref(), waits);
 Object.assign(globalThis, {
-    window: { setTimeout: (act: () => void, ms: number) => unref(setTimeout(act, server.waits.get(ms) ?? ms)), clearTimeout },
+    window: {
+        setTimeout: (act: () => void, ms: number) => unref(setTimeout(act, server.waits.get(ms) ?? ms)),
+        clearTimeout,
+    },
     BroadcastChannel: class extends BroadcastChannel {
         constructor(name: string) {
             super(name);
@@ -19,8 +27,14 @@ Object.assign(globalThis, {
     document: { baseURI: 'http://localhost/view/' },
     fetch: (url: string, options: RequestInit): Promise<Response> => {
         if (!server.isUp) return Promise.reject(new TypeError('no answer'));
-        if (server.isHanging) return new Promise((_, failed) => options?.signal?.addEventListener('abort', () => failed(new TypeError('aborted'))));
-        if (!String(url).includes('events')) return Promise.resolve(new Response('{"stations":[]}', { headers: { Date: new Date(Date.now() + 3600e3).toUTCString() } }));
+        if (server.isHanging)
+            return new Promise((_, failed) =>
+                options?.signal?.addEventListener('abort', () => failed(new TypeError('aborted'))),
+            );
+        if (!String(url).includes('events'))
+            return Promise.resolve(
+                new Response('{"stations":[]}', { headers: { Date: new Date(Date.now() + 3600e3).toUTCString() } }),
+            );
         const body = new ReadableStream<Uint8Array>({
             start(stream) {
                 server.streams.add(stream);
@@ -33,7 +47,7 @@ Object.assign(globalThis, {
     },
 });
 
-const pause = (ms: number): Promise<void> => new Promise(done => setTimeout(done, ms));
+const pause = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 async function open(): Promise<{ server: ServerState; asked: () => number }> {
     const { Live } = await import('../src/page/live');
     let asked = 0;
@@ -55,23 +69,23 @@ test('three pages of a browser listen, and the others ask for lists', async () =
     const pages = [first, ...(await Promise.all([open(), open(), open(), open()]))]; // as a browser opens those of a folder
     await pause(1500);
     assert.equal(server.streams.size, 3);
-    const withPlace = pages.filter(page => page.asked() === 0);
+    const withPlace = pages.filter((page) => page.asked() === 0);
     assert.equal(withPlace.length, 3);
     assert.equal(withPlace.includes(first), true);
     // 2026-11-28: they told ages by the clock of the browser.
     assert.equal(
-        pages.every(page => page.server.nowMs > Date.now() + 3500e3),
+        pages.every((page) => page.server.nowMs > Date.now() + 3500e3),
         true,
     );
     assert.equal(
-        pages.some(page => page.server.isCutOff),
+        pages.some((page) => page.server.isCutOff),
         false,
     );
     server.isUp = false;
     for (const stream of server.streams) stream.error(new TypeError('gone'));
     await pause(100);
     assert.equal(
-        withPlace.every(page => page.server.isCutOff),
+        withPlace.every((page) => page.server.isCutOff),
         true,
     );
 });
@@ -83,7 +97,7 @@ test('a page without a stream tells that the server hangs', async () => {
     server.waits.set(30_000, 500);
     const pages = await Promise.all([open(), open(), open(), open()]);
     await pause(1400);
-    const without = pages.find(page => page.asked() > 0)!;
+    const without = pages.find((page) => page.asked() > 0)!;
     assert.equal(without.server.isCutOff, false);
     server.isHanging = true;
     server.waits.set(40_000, 1300); // longer than it takes to find that there is no place

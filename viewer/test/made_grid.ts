@@ -23,7 +23,7 @@ export function makeGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 
         const own = madeCode(x, y, z);
         return own < 3 ? own : own * scale;
     };
-    const bricks = [nx, ny, nz].map(n => Math.ceil(n / edge)) as [number, number, number];
+    const bricks = [nx, ny, nz].map((n) => Math.ceil(n / edge)) as [number, number, number];
     const table: number[][] = [];
     const states: number[][] = [];
     const codes: number[][] = [];
@@ -33,12 +33,13 @@ export function makeGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 
                 const cells: number[] = [];
                 for (let x = bx * edge; x < (bx + 1) * edge; ++x)
                     for (let y = by * edge; y < (by + 1) * edge; ++y)
-                        for (let z = bz * edge; z < (bz + 1) * edge; ++z) cells.push(x < nx && y < ny && z < nz ? code(x, y, z) : 0);
-                const values = cells.filter(one => one >= 3);
+                        for (let z = bz * edge; z < (bz + 1) * edge; ++z)
+                            cells.push(x < nx && y < ny && z < nz ? code(x, y, z) : 0);
+                const values = cells.filter((one) => one >= 3);
                 if (values.length > 0) {
                     table.push([2, 0, values.length, Math.min(...values), Math.max(...values), codes.length]);
                     codes.push(cells);
-                } else if (cells.every(one => one === cells[0])) {
+                } else if (cells.every((one) => one === cells[0])) {
                     table.push([0, cells[0]!, 0, 0, 0, 0]);
                 } else {
                     table.push([1, 0, 0, 0, 0, states.length]);
@@ -57,8 +58,10 @@ export function makeGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 
     const bytes = new Uint8Array(size);
     const view = new DataView(bytes.buffer);
     bytes.set([0x89, 0x53, 0x43, 0x50, 0x0d, 0x0a, 0x1a, 0x0a]);
-    const u32 = (at: number, ...values: number[]) => values.forEach((value, i) => view.setUint32(at + 4 * i, value, true));
-    const f64 = (at: number, ...values: number[]) => values.forEach((value, i) => view.setFloat64(at + 8 * i, value, true));
+    const u32 = (at: number, ...values: number[]) =>
+        values.forEach((value, i) => view.setUint32(at + 4 * i, value, true));
+    const f64 = (at: number, ...values: number[]) =>
+        values.forEach((value, i) => view.setFloat64(at + 8 * i, value, true));
     u32(8, 1, 256);
     view.setBigUint64(16, BigInt(size), true);
     view.setBigUint64(24, 0x0123456789abcdefn, true);
@@ -71,7 +74,9 @@ export function makeGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 
     view.setBigInt64(136, 1_000_000n, true);
     u32(188, states.length);
     u32(196, codes.length, 1, table.length);
-    [levelsAt, sitesAt, tableAt, statesAt, codesAt].forEach((at, i) => view.setBigUint64(208 + 8 * i, BigInt(at), true));
+    [levelsAt, sitesAt, tableAt, statesAt, codesAt].forEach((at, i) =>
+        view.setBigUint64(208 + 8 * i, BigInt(at), true),
+    );
     for (let z = 0; z < nz; ++z) f64(levelsAt + 8 * z, 500 * (z + 1));
     f64(sitesAt, 35.3, -97.3, 400);
     bytes.set([75, 84, 76, 88], sitesAt + 24);
@@ -84,9 +89,15 @@ export function makeGrid(nx: number, ny: number, nz: number, codeBytes: 1 | 2 = 
         view.setUint16(at + 6, greatest!, true);
         u32(at + 8, block!);
     });
-    states.forEach((cells, b) => cells.forEach((one, i) => (bytes[statesAt + (b * cellCount + i) / 4 | 0]! |= one << (2 * (i & 3)))));
+    states.forEach((cells, b) =>
+        cells.forEach((one, i) => (bytes[(statesAt + (b * cellCount + i) / 4) | 0]! |= one << (2 * (i & 3)))),
+    );
     codes.forEach((cells, b) =>
-        cells.forEach((one, i) => (codeBytes === 1 ? (bytes[codesAt + b * cellCount + i] = one) : view.setUint16(codesAt + 2 * (b * cellCount + i), one, true))),
+        cells.forEach((one, i) =>
+            codeBytes === 1
+                ? (bytes[codesAt + b * cellCount + i] = one)
+                : view.setUint16(codesAt + 2 * (b * cellCount + i), one, true),
+        ),
     );
     return { bytes, code, nx, ny, nz };
 }

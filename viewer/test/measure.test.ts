@@ -33,7 +33,7 @@ test('an area is that of the ellipsoid', () => {
 
 test('neither the turn of the corners nor the antimeridian matters', () => {
     const corners = [place(10, 179), place(10, -179), place(12, -179), place(12, 179)];
-    const shifted = corners.map(one => place(one.latitudeDeg, one.longitudeDeg - 100));
+    const shifted = corners.map((one) => place(one.latitudeDeg, one.longitudeDeg - 100));
     assert.ok(Math.abs(areaM2(corners) / areaM2(shifted) - 1) < 1e-9);
     assert.ok(Math.abs(areaM2([...corners].reverse()) / areaM2(corners) - 1) < 1e-9);
     assert.equal(areaM2(corners.slice(0, 2)), 0);

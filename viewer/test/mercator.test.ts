@@ -1,7 +1,23 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { MapView, boxAbout, boxBetween, draggedMap, fittedMap, grownBox, holdsBox, isInBox, mapPoint, pixelOf, placeOfPoint, pointAt, reaches, scaledMap, tilesOf } from '../src/map/mercator';
+import {
+    MapView,
+    boxAbout,
+    boxBetween,
+    draggedMap,
+    fittedMap,
+    grownBox,
+    holdsBox,
+    isInBox,
+    mapPoint,
+    pixelOf,
+    placeOfPoint,
+    pointAt,
+    reaches,
+    scaledMap,
+    tilesOf,
+} from '../src/map/mercator';
 
 const view: MapView = { center: [0.25, 0.4], scale: 4096, width: 800, height: 600 };
 const place = (latitudeDeg: number, longitudeDeg: number) => ({ latitudeDeg, longitudeDeg });
@@ -14,7 +30,10 @@ test('places are where the tiles have them', () => {
     assert.deepEqual(mapPoint(place(0, 0)), [0.5, 0.5]);
     for (const one of [place(35.333, -97.278), place(-14.3, 170.7), place(64.5, -165.3)]) {
         const back = placeOfPoint(mapPoint(one));
-        assert.ok(Math.abs(back.latitudeDeg - one.latitudeDeg) < 1e-9 && Math.abs(back.longitudeDeg - one.longitudeDeg) < 1e-9);
+        assert.ok(
+            Math.abs(back.latitudeDeg - one.latitudeDeg) < 1e-9 &&
+                Math.abs(back.longitudeDeg - one.longitudeDeg) < 1e-9,
+        );
     }
 });
 
@@ -35,7 +54,11 @@ test('the map cannot be lost', () => {
 });
 
 test('a fit shows every point beside what the page covers, across the antimeridian too', () => {
-    for (const places of [[place(35, -97), place(47, -122), place(25, -80)], [place(13.5, 144.8), place(21.9, -159.6)], [place(35, -97)]]) {
+    for (const places of [
+        [place(35, -97), place(47, -122), place(25, -80)],
+        [place(13.5, 144.8), place(21.9, -159.6)],
+        [place(35, -97)],
+    ]) {
         const fitted = fittedMap(places.map(mapPoint), 800, 600, [300, 60, 20, 20]);
         for (const one of places) {
             const [x, y] = pixelOf(fitted, mapPoint(one));
@@ -93,7 +116,12 @@ test('the box about a longitude is no wider than its places', () => {
 });
 
 test('a radar is of the view if its circle meets it (2026-11-28: of nearer views, radars beside them were forgotten)', () => {
-    const view: MapView = { center: mapPoint({ latitudeDeg: 40, longitudeDeg: -100 }), scale: 256 * 2 ** 10, width: 700, height: 400 };
+    const view: MapView = {
+        center: mapPoint({ latitudeDeg: 40, longitudeDeg: -100 }),
+        scale: 256 * 2 ** 10,
+        width: 700,
+        height: 400,
+    };
     assert.equal(reaches(view, { latitudeDeg: 40, longitudeDeg: -97 }, 230_000), true); // 256 km away, the view is 82 km wide
     assert.equal(reaches(view, { latitudeDeg: 40, longitudeDeg: -96 }, 230_000), false);
     assert.equal(reaches(view, { latitudeDeg: 40, longitudeDeg: -100 }, 230_000), true);

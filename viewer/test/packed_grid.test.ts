@@ -20,12 +20,15 @@ test('every cell comes back, in bricks of each kind', () => {
     for (const codeBytes of [1, 2] as const) {
         const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes }));
         assert.deepEqual([...new Set(grid.kind)].sort(), [0, 1, 2]);
-        for (let x = 0; x < 49; ++x) for (let y = 0; y < 21; ++y) for (let z = 0; z < 18; ++z) assert.equal(codeAt(grid, x, y, z), mixed.codeOf(x, y, z), `${x} ${y} ${z}`);
+        for (let x = 0; x < 49; ++x)
+            for (let y = 0; y < 21; ++y)
+                for (let z = 0; z < 18; ++z)
+                    assert.equal(codeAt(grid, x, y, z), mixed.codeOf(x, y, z), `${x} ${y} ${z}`);
     }
 });
 
 test('codes of two bytes reach beyond 255', () => {
-    const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes: 2, codeOf: x => 300 + x }));
+    const grid = readPackedGrid(packedGrid({ ...mixed, codeBytes: 2, codeOf: (x) => 300 + x }));
     assert.equal(codeAt(grid, 48, 3, 3), 348);
 });
 
@@ -42,14 +45,23 @@ test('the header says what and where the grid is', () => {
 test('where a grid is stands in its header, before it is decoded', () => {
     const bytes = packedGrid({ ...mixed, spacing: 500 });
     const place = readPlace(bytes);
-    assert.deepEqual(place, { projection: 0, nx: 49, ny: 21, centerDeg: [35.3331, -97.2777], spacing: 500, parallelsDeg: [0, 0], offsetCells: [0, 0] });
+    assert.deepEqual(place, {
+        projection: 0,
+        nx: 49,
+        ny: 21,
+        centerDeg: [35.3331, -97.2777],
+        spacing: 500,
+        parallelsDeg: [0, 0],
+        offsetCells: [0, 0],
+    });
     const grid: Record<string, unknown> = { ...readPackedGrid(bytes) };
     for (const [name, value] of Object.entries(place)) assert.deepEqual(grid[name], value, name);
 });
 
 test('a form that is cut or is something else is refused, wherever it is cut', () => {
     const whole = packedGrid(mixed);
-    for (const size of [0, 8, 255, 256, 300, 800, whole.length - 1]) assert.throws(() => readPackedGrid(whole.slice(0, size)), PackedError, String(size));
+    for (const size of [0, 8, 255, 256, 300, 800, whole.length - 1])
+        assert.throws(() => readPackedGrid(whole.slice(0, size)), PackedError, String(size));
     const other = whole.slice();
     other[1] = 0x54;
     assert.throws(() => readPackedGrid(other), PackedError);

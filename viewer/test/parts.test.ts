@@ -8,7 +8,16 @@ import { BrickStore, brickTexelBytes } from '../src/atlas/brick_store';
 import { paintPages } from '../src/atlas/page_table';
 import { Pyramid, bricksShown, levelWithin, pyramidOf } from '../src/atlas/pyramid';
 import { SlotPool, columnKey } from '../src/atlas/slot_pool';
-import { BrickKind, PackedBricks, PackedGrid, codeAt, readGridOrTable, readPackedBricks, readPackedGrid, withBricks } from '../src/wire/packed_grid';
+import {
+    BrickKind,
+    PackedBricks,
+    PackedGrid,
+    codeAt,
+    readGridOrTable,
+    readPackedBricks,
+    readPackedGrid,
+    withBricks,
+} from '../src/wire/packed_grid';
 import { rangesOf } from '../src/wire/ranges';
 import { Made, evenLevels, packedGrid, scrambled } from './written_grid';
 
@@ -24,9 +33,18 @@ const tableOf = (grid: PackedGrid): PackedGrid => ({ ...grid, codes: new Uint8Ar
 
 // The bricks of columns [first, end), as the server sends them.
 function bricksOf(grid: PackedGrid, first: number, end: number): PackedBricks {
-    const stored = (until: number) => grid.kind.subarray(0, until).filter(kind => kind === BrickKind.codes).length;
+    const stored = (until: number) => grid.kind.subarray(0, until).filter((kind) => kind === BrickKind.codes).length;
     const [from, to] = [stored(first * layers), stored(end * layers)];
-    return { id: grid.id, halvings: grid.halvings, first: first * layers, end: end * layers, firstBlock: from, codes: grid.codes.slice(from * 4096, to * 4096), firstStates: 0, states: grid.states };
+    return {
+        id: grid.id,
+        halvings: grid.halvings,
+        first: first * layers,
+        end: end * layers,
+        firstBlock: from,
+        codes: grid.codes.slice(from * 4096, to * 4096),
+        firstStates: 0,
+        states: grid.states,
+    };
 }
 function storeOf(grid: PackedGrid): BrickStore {
     const store = new BrickStore(shownCodes(grid, ...rangeOfCodes(grid)));
@@ -58,17 +76,25 @@ function valuesAlone(bytes: Uint8Array): Uint8Array {
     const states: number[] = [];
     const values: number[] = [];
     grid.kind.forEach((kind, i) => {
-        if (kind === BrickKind.states) states.push(...grid.states.subarray(grid.block[i]! * 1024, (grid.block[i]! + 1) * 1024));
+        if (kind === BrickKind.states)
+            states.push(...grid.states.subarray(grid.block[i]! * 1024, (grid.block[i]! + 1) * 1024));
         if (kind !== BrickKind.codes) return;
         const codes = [...grid.codes.subarray(grid.block[i]! * 4096, (grid.block[i]! + 1) * 4096)];
-        for (let c = 0; c < 4096; c += 4) states.push([0, 1, 2, 3].reduce((bits, n) => bits | (Math.min(3, codes[c + n]!) << (2 * n)), 0));
-        values.push(...codes.filter(code => code >= 3));
+        for (let c = 0; c < 4096; c += 4)
+            states.push([0, 1, 2, 3].reduce((bits, n) => bits | (Math.min(3, codes[c + n]!) << (2 * n)), 0));
+        values.push(...codes.filter((code) => code >= 3));
     });
     const statesAt = Number(view.getBigUint64(232, true));
     const made = new Uint8Array(statesAt + states.length + values.length * grid.codeBytes);
     made.set(bytes.subarray(0, statesAt));
     made.set(states, statesAt);
-    made.set(new Uint8Array((grid.codeBytes === 1 ? Uint8Array : Uint16Array).from(values.map((code, i) => code - (values[i - 1] ?? 0))).buffer), statesAt + states.length);
+    made.set(
+        new Uint8Array(
+            (grid.codeBytes === 1 ? Uint8Array : Uint16Array).from(values.map((code, i) => code - (values[i - 1] ?? 0)))
+                .buffer,
+        ),
+        statesAt + states.length,
+    );
     const header = new DataView(made.buffer);
     header.setBigUint64(16, BigInt(made.length), true);
     header.setUint32(172, 4, true);
@@ -104,10 +130,14 @@ test('a range of bricks is read', () => {
 });
 
 test('cells of a range of bricks are those of the whole grid', () => {
-    const states = (until: number) => whole.kind.subarray(0, until).filter(kind => kind === BrickKind.states).length;
+    const states = (until: number) => whole.kind.subarray(0, until).filter((kind) => kind === BrickKind.states).length;
     for (const column of [0, 7, 13]) {
         const firstStates = states(column * layers);
-        const bricks = { ...bricksOf(whole, column, column + 1), firstStates, states: whole.states.slice(firstStates * 1024) };
+        const bricks = {
+            ...bricksOf(whole, column, column + 1),
+            firstStates,
+            states: whole.states.slice(firstStates * 1024),
+        };
         const grid = withBricks(tableOf(whole), bricks);
         const [x, y] = [16 * Math.floor(column / columnsY), 16 * (column % columnsY)];
         for (let i = 0; i < 16 * 33; ++i) {
@@ -120,7 +150,8 @@ test('cells of a range of bricks are those of the whole grid', () => {
 test('columns that come one by one make the texels of the whole grid', () => {
     const atlas = makeAtlas(whole, 2048);
     const store = storeOf(whole);
-    for (let column = whole.bricks[0] * columnsY - 1; column >= 0; --column) store.addBricks(bricksOf(whole, column, column + 1));
+    for (let column = whole.bricks[0] * columnsY - 1; column >= 0; --column)
+        store.addBricks(bricksOf(whole, column, column + 1));
     let compared = 0;
     for (let x = 0; x < whole.bricks[0]; ++x) {
         for (let y = 0; y < columnsY; ++y) {
@@ -133,9 +164,14 @@ test('columns that come one by one make the texels of the whole grid', () => {
                 if (slotOf(entry) < 0) continue; // values below it alone, which no sample in it uses
                 const [px, py, pz] = placeOfSlot(slotOf(entry), atlas.slots);
                 for (let row = 0; row < paddedEdge ** 2; ++row) {
-                    const at = 2 * (((pz + Math.floor(row / paddedEdge)) * atlas.size[1] + py + (row % paddedEdge)) * atlas.size[0] + px);
+                    const at =
+                        2 *
+                        (((pz + Math.floor(row / paddedEdge)) * atlas.size[1] + py + (row % paddedEdge)) *
+                            atlas.size[0] +
+                            px);
                     const here = one.subarray(2 * row * paddedEdge, 2 * (row + 1) * paddedEdge);
-                    if (!here.every((texel, i) => texel === atlas.texels[at + i])) assert.ok(false, `${x} ${y} ${z}, row ${row}`);
+                    if (!here.every((texel, i) => texel === atlas.texels[at + i]))
+                        assert.ok(false, `${x} ${y} ${z}, row ${row}`);
                 }
                 ++compared;
             }
@@ -146,7 +182,7 @@ test('columns that come one by one make the texels of the whole grid', () => {
 
 test('a neighbor that is not there lends no values, and one that is dropped neither', () => {
     const store = storeOf(whole);
-    const valued = [...whole.kind.keys()].find(i => whole.kind[i] === BrickKind.codes)!;
+    const valued = [...whole.kind.keys()].find((i) => whole.kind[i] === BrickKind.codes)!;
     const column = Math.floor(valued / layers);
     const place = [Math.floor(column / columnsY), column % columnsY] as const;
     assert.equal(store.make(0, ...place).texels.length, 0);
@@ -178,9 +214,22 @@ test('a brick of the grid has the finest column that is there', () => {
     const entries = new Uint32Array(whole.kind.length);
     const shownOf = Uint8Array.from({ length: 65536 }, (_, code) => Math.min(code, 255));
     const slots = (first: number) => Int32Array.from({ length: layers }, (_, z) => first + z);
-    paintPages(entries, pyramid, [{ level: 0, x: 0, y: 0, slots: slots(100) }, { level: 1, x: 0, y: 0, slots: slots(7) }], shownOf);
+    paintPages(
+        entries,
+        pyramid,
+        [
+            { level: 0, x: 0, y: 0, slots: slots(100) },
+            { level: 1, x: 0, y: 0, slots: slots(7) },
+        ],
+        shownOf,
+    );
     const entryAt = (x: number, y: number, z: number) => entries[(z * columnsY + y) * whole.bricks[0] + x]!;
-    for (const [x, y, slot, level] of [[0, 0, 100, 0], [1, 0, 7, 1], [0, 1, 7, 1], [1, 1, 7, 1]] as const) {
+    for (const [x, y, slot, level] of [
+        [0, 0, 100, 0],
+        [1, 0, 7, 1],
+        [0, 1, 7, 1],
+        [1, 1, 7, 1],
+    ] as const) {
         const entry = entryAt(x, y, 0);
         if (pyramid.levels[0]!.about[(x * columnsY + y) * layers] === 0) continue;
         assert.deepEqual([slotOf(entry), (entry >> 21) & 7], [slot, level], `${x} ${y}`);
@@ -195,18 +244,25 @@ test('slots of what was used longest ago are given to what is wanted', () => {
     pool.pin(columnKey(0, 0, 0));
     pool.use(columnKey(0, 1, 0));
     const fourth = pool.take(0, 3, 0, [true, false], new Set());
-    assert.deepEqual([...fourth!.slots].map(slot => slot >= 0), [true, false]);
+    assert.deepEqual(
+        [...fourth!.slots].map((slot) => slot >= 0),
+        [true, false],
+    );
     assert(pool.has(columnKey(0, 0, 0)) && pool.has(columnKey(0, 1, 0)) && !pool.has(columnKey(0, 2, 0)));
     assert.equal(pool.freeCount, 1);
-    assert.equal(pool.take(0, 4, 0, all, new Set([columnKey(0, 1, 0), columnKey(0, 3, 0)])), null, 'what is wanted stays');
-    const held = [...pool.columns].flatMap(({ slots }) => [...slots]).filter(slot => slot >= 0);
+    assert.equal(
+        pool.take(0, 4, 0, all, new Set([columnKey(0, 1, 0), columnKey(0, 3, 0)])),
+        null,
+        'what is wanted stays',
+    );
+    const held = [...pool.columns].flatMap(({ slots }) => [...slots]).filter((slot) => slot >= 0);
     assert.equal(new Set(held).size, held.length, 'no slot is given twice');
 });
 
 test('columns are asked for in few ranges, and not more between them than is worth it', () => {
     const weights = [10, 10, 0, 0, 10, 90, 10, 10];
     const ranges = (columns: number[], skipped: number, most: number) =>
-        rangesOf(columns, 3, column => weights[column]!, skipped, most).map(({ first, end }) => `${first}-${end}`);
+        rangesOf(columns, 3, (column) => weights[column]!, skipped, most).map(({ first, end }) => `${first}-${end}`);
     assert.deepEqual(ranges([1, 0], 0, 100), ['0-6']);
     assert.deepEqual(ranges([0, 1, 4], 0, 100), ['0-15'], 'what is between has nothing in it');
     assert.deepEqual(ranges([4, 6], 50, 500), ['12-15', '18-21'], 'what is between is too much');

@@ -6,7 +6,14 @@ import { isInside, nearestPixel, pixelToward, search, stationPlaces } from '../s
 import { geodesic } from '../src/earth/projection';
 import { City, GridFacts, Station } from '../src/wire/api';
 
-const made = (station: string, name: string, state: string, latitude_deg: number, longitude_deg: number, moments = ['REF']): Station => ({
+const made = (
+    station: string,
+    name: string,
+    state: string,
+    latitude_deg: number,
+    longitude_deg: number,
+    moments = ['REF'],
+): Station => ({
     station,
     name,
     state,
@@ -26,7 +33,7 @@ const cities: City[] = [
     { name: 'Norman', population: 110000, place: [-97.44, 35.22] },
     { name: 'San José', population: 340000, place: [-84.08, 9.93] },
 ];
-const names = (text: string): string[] => search(stations, cities, text).map(one => one.station.icao);
+const names = (text: string): string[] => search(stations, cities, text).map((one) => one.station.icao);
 
 test('what the server says of stations becomes places; without a place there is none', () => {
     assert.equal(stationPlaces([{ station: 'XXXX', newest_volume: null, newest_grid: null, moments: [] }]).length, 0);
@@ -46,13 +53,22 @@ test('a word finds an ICAO, a town, and the stations near a city', () => {
 });
 
 test('a pointer means the nearest station within reach', () => {
-    const pixels: [number, number][] = [[10, 10], [50, 10], [10, 60]];
+    const pixels: [number, number][] = [
+        [10, 10],
+        [50, 10],
+        [10, 60],
+    ];
     assert.equal(nearestPixel(pixels, 40, 12, 30), 1);
     assert.equal(nearestPixel(pixels, 200, 200, 30), -1);
 });
 
 test('an arrow leads to the next station in its direction', () => {
-    const pixels: [number, number][] = [[10, 10], [50, 14], [90, 10], [12, 60]];
+    const pixels: [number, number][] = [
+        [10, 10],
+        [50, 14],
+        [90, 10],
+        [12, 60],
+    ];
     assert.equal(pixelToward(pixels, pixels[0]!, [1, 0]), 1);
     assert.equal(pixelToward(pixels, pixels[1]!, [1, 0]), 2);
     assert.equal(pixelToward(pixels, pixels[0]!, [0, 1]), 3);
@@ -77,12 +93,13 @@ test('outlines lie where the grid ends', () => {
     for (const place of circleOf(facts)) assert.ok(Math.abs(geodesic(center, place).distanceM - 200000) < 1);
     const corners = outlineOf(facts).filter((_, i) => i % 16 === 0);
     assert.equal(corners.length, 4);
-    for (const place of corners) assert.ok(Math.abs(geodesic(center, place).distanceM - Math.hypot(230000, 200000)) < 1);
+    for (const place of corners)
+        assert.ok(Math.abs(geodesic(center, place).distanceM - Math.hypot(230000, 200000)) < 1);
     const degrees: GridFacts = { ...facts, projection: 'latitude_longitude', spacing_deg: 0.01, nx: 200, ny: 100 };
     delete degrees.spacing_m;
     const box = outlineOf(degrees);
-    assert.ok(Math.abs(Math.min(...box.map(one => one.longitudeDeg)) + 98) < 1e-9);
-    assert.ok(Math.abs(Math.max(...box.map(one => one.latitudeDeg)) - 35.5) < 1e-9);
-    const polygon = box.map(one => [one.longitudeDeg, one.latitudeDeg] as [number, number]);
+    assert.ok(Math.abs(Math.min(...box.map((one) => one.longitudeDeg)) + 98) < 1e-9);
+    assert.ok(Math.abs(Math.max(...box.map((one) => one.latitudeDeg)) - 35.5) < 1e-9);
+    const polygon = box.map((one) => [one.longitudeDeg, one.latitudeDeg] as [number, number]);
     assert.ok(isInside(polygon, -97.5, 35.2) && !isInside(polygon, -99, 35.2));
 });

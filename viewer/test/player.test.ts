@@ -24,7 +24,7 @@ test('playback waits for a time that is not loaded, and says for which', () => {
     const player = { ...at(withTimes(stopped, times), 0), isPlaying: true };
     const waiting = advanced(player, () => false);
     assert.deepEqual([waiting.player.at, waiting.waitsFor], [0, 'b']);
-    assert.equal(advanced(player, time => time === 'b').player.at, 1);
+    assert.equal(advanced(player, (time) => time === 'b').player.at, 1);
 });
 
 test('playback begins again after the last time, and a step ends it', () => {
@@ -61,6 +61,13 @@ test('an end of a loop takes the other along, and a loop of one time does not pl
 
 test('a link to a time that is not there shows the nearest one (2026-11-28: it was the next, and was called the nearest)', () => {
     const all = ['2010-09-11T01:10:00Z', '2010-09-11T01:20:00Z', '2010-09-11T01:35:00Z'];
-    for (const [wanted, index] of [['01:25', 1], ['01:28', 2], ['00:00', 0], ['09:00', 2], ['01:20', 1]] as const) assert.equal(nearestTime(all, `2010-09-11T${wanted}:00Z`), index, wanted);
+    for (const [wanted, index] of [
+        ['01:25', 1],
+        ['01:28', 2],
+        ['00:00', 0],
+        ['09:00', 2],
+        ['01:20', 1],
+    ] as const)
+        assert.equal(nearestTime(all, `2010-09-11T${wanted}:00Z`), index, wanted);
     assert.equal(nearestTime([], all[0]!), -1);
 });

@@ -6,7 +6,13 @@ import { ServerState } from '../src/page/server_state';
 
 test('a station of which the server cannot say whether it is silent stays as it was', () => {
     const server = new ServerState(() => undefined);
-    server.takeSilences([['KBGM', 900], ['KENX', 900]]);
-    server.takeSilences([['KBGM', undefined], ['KTLX', undefined]]);
+    server.takeSilences([
+        ['KBGM', 900],
+        ['KENX', 900],
+    ]);
+    server.takeSilences([
+        ['KBGM', undefined],
+        ['KTLX', undefined],
+    ]);
     assert.deepEqual([...server.silentSince.keys()], ['KBGM']);
 });

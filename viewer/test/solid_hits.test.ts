@@ -15,7 +15,11 @@ import { makeGrid } from './made_grid';
 const grid = readPackedGrid(makeGrid(40, 36, 20).bytes);
 const box = boxOf(grid);
 const { halfXM, halfYM } = box;
-const cameras = [usualCamera, { ...usualCamera, tiltDeg: 0 }, { ...usualCamera, fieldOfViewDeg: 40, tiltDeg: 70, azimuthDeg: 30 }];
+const cameras = [
+    usualCamera,
+    { ...usualCamera, tiltDeg: 0 },
+    { ...usualCamera, fieldOfViewDeg: 40, tiltDeg: 70, azimuthDeg: 30 },
+];
 const extent = { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM };
 
 test('a plane is read where the pixel shows it (2026-11-28: the ground behind it was)', () => {
@@ -25,7 +29,9 @@ test('a plane is read where the pixel shows it (2026-11-28: the ground behind it
     for (const camera of cameras) {
         const geometry = new ViewGeometry(box, camera, 2, 400, 400);
         for (let i = 0; i < 12; ++i) {
-            const at: [number, number] = [((i % 4) + 0.5) / 4, (Math.floor(i / 4) + 0.5) / 3].map((share, k) => (2 * share - 1) * [halfXM, halfYM][k]!) as [number, number];
+            const at: [number, number] = [((i % 4) + 0.5) / 4, (Math.floor(i / 4) + 0.5) / 3].map(
+                (share, k) => (2 * share - 1) * [halfXM, halfYM][k]!,
+            ) as [number, number];
             const hit = levelHit(geometry, { field, extent }, 3000, ...geometry.project([at[0], at[1], 6000])!, false)!;
             assert.equal(hit.value, 10 * i);
             assert.ok(Math.hypot(hit.at[0] - at[0], hit.at[1] - at[1]) < 1e-3);
@@ -47,16 +53,28 @@ test('between places a field is read as it is drawn', () => {
 
 test('a section is read where the ray meets it', () => {
     const plane = planeOf(grid);
-    const section = cutSection(grid, 'REF', plane.toPlace([-0.8 * halfXM, 1000]), plane.toPlace([0.8 * halfXM, -2000]), 100, 50);
+    const section = cutSection(
+        grid,
+        'REF',
+        plane.toPlace([-0.8 * halfXM, 1000]),
+        plane.toPlace([0.8 * halfXM, -2000]),
+        100,
+        50,
+    );
     const geometry = new ViewGeometry(box, cameras[2]!, 2, 400, 400);
     let read = 0;
     for (const column of [10, 33, 70]) {
-        const [x, y] = [0, 1].map(axis => 0.5 * (section.ends[column]![axis]! + section.ends[column + 1]![axis]!)) as [number, number];
+        const [x, y] = [0, 1].map(
+            (axis) => 0.5 * (section.ends[column]![axis]! + section.ends[column + 1]![axis]!),
+        ) as [number, number];
         for (const row of [5, 25, 44]) {
             const heightM = section.bottomM + ((row + 0.5) / 50) * (section.topM - section.bottomM);
             const hit = sectionHit(geometry, section, ...geometry.project([x, y, 2 * heightM])!, false)!;
             assert.ok(Math.abs(hit.heightM - heightM) < 1e-3 && Math.hypot(hit.at[0] - x, hit.at[1] - y) < 1e-3);
-            assert.deepEqual([hit.state, hit.value], [section.field.states[row * 100 + column]!, section.field.values[row * 100 + column]!]);
+            assert.deepEqual(
+                [hit.state, hit.value],
+                [section.field.states[row * 100 + column]!, section.field.values[row * 100 + column]!],
+            );
             if (hit.state === CellState.value) ++read;
         }
     }
@@ -67,7 +85,15 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
     const [count, gates] = [360, 60];
     const site = { latitudeDeg: 35.3, longitudeDeg: -97.3, altitudeM: 400 };
     const sweep: PackedSweep = {
-        ...site, sweep: 0, elevationDeg: 4, firstGateM: 1000, gateSpacingM: 250, firstValueCode: 2, scale: 1, offset: 0, gateStride: gates,
+        ...site,
+        sweep: 0,
+        elevationDeg: 4,
+        firstGateM: 1000,
+        gateSpacingM: 250,
+        firstValueCode: 2,
+        scale: 1,
+        offset: 0,
+        gateStride: gates,
         azimuthsDeg: Float32Array.from({ length: count }, (_, i) => i + 0.5),
         elevationsDeg: new Float32Array(count).fill(4),
         gateCounts: new Uint32Array(count).fill(gates),
@@ -85,10 +111,25 @@ test('a gate of a sweep is read with its azimuth, range, tilt and time', () => {
                 const rangeM = 1000 + 250 * gate;
                 const { arcM, heightM } = beamAt(site, 4, rangeM);
                 const [x, y] = plane.toPlane(destination(site, ((radial + 0.5) * Math.PI) / 180, arcM))!;
-                const hit = sweepHit(geometry, { station: 'KTLX', gates: sweep, radials }, plane, ...geometry.project([x, y, 2 * heightM])!, () => true);
-                assert.ok(hit && Math.abs(hit.rangeM - rangeM) < 1 && Math.abs(hit.azimuthDeg - radial - 0.5) < 0.01 && Math.abs(hit.heightM - heightM) < 1, JSON.stringify(hit));
+                const hit = sweepHit(
+                    geometry,
+                    { station: 'KTLX', gates: sweep, radials },
+                    plane,
+                    ...geometry.project([x, y, 2 * heightM])!,
+                    () => true,
+                );
+                assert.ok(
+                    hit &&
+                        Math.abs(hit.rangeM - rangeM) < 1 &&
+                        Math.abs(hit.azimuthDeg - radial - 0.5) < 0.01 &&
+                        Math.abs(hit.heightM - heightM) < 1,
+                    JSON.stringify(hit),
+                );
                 const code = sweep.codes[radial * gates + gate]!;
-                assert.equal(hit.state, code >= 2 ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho);
+                assert.equal(
+                    hit.state,
+                    code >= 2 ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho,
+                );
                 if (code >= 2) assert.equal(hit.value, code);
                 assert.deepEqual([hit.timeMs, hit.elevationDeg], [50 * radial, 4]);
                 ++read;
@@ -102,11 +143,24 @@ test('through clear gates of the near side of a sweep the far side is read, whic
     const site = { latitudeDeg: 35.3, longitudeDeg: -97.3, altitudeM: 400 };
     const [count, gates] = [360, 60];
     const sweep: PackedSweep = {
-        ...site, sweep: 0, elevationDeg: 20, firstGateM: 0, gateSpacingM: 250, firstValueCode: 2, scale: 1, offset: 0, gateStride: gates,
-        azimuthsDeg: Float32Array.from({ length: count }, (_, i) => i + 0.5), elevationsDeg: new Float32Array(count).fill(20),
-        gateCounts: new Uint32Array(count).fill(gates), startMs: 0, timesMs: new Float64Array(count),
+        ...site,
+        sweep: 0,
+        elevationDeg: 20,
+        firstGateM: 0,
+        gateSpacingM: 250,
+        firstValueCode: 2,
+        scale: 1,
+        offset: 0,
+        gateStride: gates,
+        azimuthsDeg: Float32Array.from({ length: count }, (_, i) => i + 0.5),
+        elevationsDeg: new Float32Array(count).fill(20),
+        gateCounts: new Uint32Array(count).fill(gates),
+        startMs: 0,
+        timesMs: new Float64Array(count),
         // Echo is only north of the radar.
-        codes: Uint16Array.from({ length: count * gates }, (_, i) => (Math.abs(Math.floor(i / gates) - 180) > 90 ? 50 : 0)),
+        codes: Uint16Array.from({ length: count * gates }, (_, i) =>
+            Math.abs(Math.floor(i / gates) - 180) > 90 ? 50 : 0,
+        ),
     };
     const radials = radialsByAzimuth(sweep);
     const plane = planeOf(grid);
@@ -115,8 +169,9 @@ test('through clear gates of the near side of a sweep the far side is read, whic
     // From the south, along the ground.
     const geometry = new ViewGeometry(box, { ...usualCamera, tiltDeg: 90 }, 1, 400, 400);
     const pixel = geometry.project([north[0], north[1], heightM])!;
-    const read = (isShown: (hit: { state: CellState }) => boolean) => sweepHit(geometry, { station: 'KTLX', gates: sweep, radials }, plane, ...pixel, isShown)!;
-    const seen = read(hit => hit.state === CellState.value);
+    const read = (isShown: (hit: { state: CellState }) => boolean) =>
+        sweepHit(geometry, { station: 'KTLX', gates: sweep, radials }, plane, ...pixel, isShown)!;
+    const seen = read((hit) => hit.state === CellState.value);
     assert.deepEqual([seen.state, seen.value, seen.station], [CellState.value, 50, 'KTLX']);
     assert.ok(seen.at[1] > 0 && Math.abs(seen.rangeM - 10_000) < 5, `${seen.rangeM}`);
     const clear = read(() => false);

@@ -52,9 +52,14 @@ test('a .pal may fall, have edges, other units and alpha', () => {
     const edge = pal('Color: 0 0 0 0\nColor: 10 100 100 100\nColor: 10 0 0 200\nColor: 20 0 0 0\n');
     assert.deepEqual(colorOf(edge, 5), [50, 50, 50, 255]);
     assert.deepEqual(colorOf(edge, 10), [0, 0, 200, 255]);
-    const scaled = pal('Product: BV\nUnits: KTS\nScale: 2\nOffset: 1\nSolidColor: -39 0 255 0\nSolidColor: 41 255 0 0\n');
+    const scaled = pal(
+        'Product: BV\nUnits: KTS\nScale: 2\nOffset: 1\nSolidColor: -39 0 255 0\nSolidColor: 41 255 0 0\n',
+    );
     assert.equal(scaled.moment, 'VEL');
-    assert.deepEqual(scaled.stops.map(stop => stop.from), [-20, 20]);
+    assert.deepEqual(
+        scaled.stops.map((stop) => stop.from),
+        [-20, 20],
+    );
     const knots = pal('Units: KT\nColor: 0 0 0 0\nColor: 100 255 0 0\n');
     assert.equal(knots.moment, 'VEL');
     assert(Math.abs(knots.stops[1]!.from - 51.4444) < 1e-4, '1 kt = 1852 m / 3600 s');
@@ -74,7 +79,10 @@ test('errors of a .pal name the line', () => {
         ['Color: 1e9 2 3 4\n', "t.pal:1: '1e9'"],
         ['Scale: 0\n', 't.pal:1: the number must be above 0'],
         ['RF: 1\n', 't.pal:1: there must be red'],
-        [Array.from({ length: 5000 }, (_, i) => `Color: ${i} 0 0 0`).join('\n'), 't.pal:4097: there are more than 4096'],
+        [
+            Array.from({ length: 5000 }, (_, i) => `Color: ${i} 0 0 0`).join('\n'),
+            't.pal:4097: there are more than 4096',
+        ],
         ['Color: 1 2 3 4\n\x1b[31mX: 1\n', "t.pal:2: unknown key '?[31MX'"],
     ] as const)
         assert(message(pal, text).startsWith(wanted), `${message(pal, text)} for ${text.slice(0, 40)}`);
@@ -115,7 +123,9 @@ test('a point of TOML may blend to a color of its own, as in a .pal', () => {
         'moment = "REF"\n[[point]]\nvalue = 10\ncolor = "#000000"\nuntil = "#646464"\n[[point]]\nvalue = 20\ncolor = "#0000c8"\nuntil = "#0000c8"\n' +
             '[[point]]\nvalue = 30\ncolor = "#c80000"\n[[point]]\nvalue = 40\ncolor = "#ffffff"\n',
     );
-    const same = pal('Product: BR\nColor: 10 0 0 0 100 100 100\nSolidColor: 20 0 0 200\nColor: 30 200 0 0\nColor: 40 255 255 255\n');
+    const same = pal(
+        'Product: BR\nColor: 10 0 0 0 100 100 100\nSolidColor: 20 0 0 200\nColor: 30 200 0 0\nColor: 40 255 255 255\n',
+    );
     assert.deepEqual(table.stops, same.stops);
     assert.deepEqual(table.extinction, same.extinction);
 });
@@ -185,16 +195,27 @@ test('changed files are tables or errors', () => {
             let changed: string = text;
             for (let change = random(4); change < 4; ++change) {
                 const at = random(changed.length + 1);
-                const put = random(3) === 0 ? changed.slice(random(changed.length + 1)).slice(0, random(30)) : spice[random(spice.length)]!;
+                const put =
+                    random(3) === 0
+                        ? changed.slice(random(changed.length + 1)).slice(0, random(30))
+                        : spice[random(spice.length)]!;
                 changed = changed.slice(0, at) + put + changed.slice(at + random(4));
             }
             try {
                 const table = read(changed);
                 ++accepted;
-                assert(table.stops.every((stop, i) => Number.isFinite(stop.from) && (i === 0 || stop.from > table.stops[i - 1]!.from)), changed);
+                assert(
+                    table.stops.every(
+                        (stop, i) => Number.isFinite(stop.from) && (i === 0 || stop.from > table.stops[i - 1]!.from),
+                    ),
+                    changed,
+                );
                 for (let value = -80; value < 120; value += 7.3) assert(extinctionPerM(table, value, 1) >= 0, changed);
             } catch (error) {
-                assert(error instanceof TableError && !error.message.includes('\n') && error.message.startsWith('t.'), `${String(error)} for ${changed}`);
+                assert(
+                    error instanceof TableError && !error.message.includes('\n') && error.message.startsWith('t.'),
+                    `${String(error)} for ${changed}`,
+                );
             }
         }
         assert(accepted > 20, 'changes that always fail test little');

@@ -70,7 +70,8 @@ test('a step between two values shows all of them in their order', () => {
         const entry = 4 * (binOf(from) * binCount + binOf(to));
         const alpha = -Math.expm1(-transfer.entries[entry + 3]!);
         assert(Math.abs(alpha - (1 - through)) < 0.01, `${from} ${to}`);
-        for (let c = 0; c < 3; ++c) assert(Math.abs(alpha * transfer.entries[entry + c]! - sum[c]!) < 0.01, `${from} ${to} ${c}`);
+        for (let c = 0; c < 3; ++c)
+            assert(Math.abs(alpha * transfer.entries[entry + c]! - sum[c]!) < 0.01, `${from} ${to} ${c}`);
     }
 });
 
@@ -80,7 +81,7 @@ test('playback waits for what is not loaded', () => {
     const waiting = advanced(player, () => false);
     assert.equal(waiting.waitsFor, 'b');
     assert.equal(waiting.player.at, 0);
-    player = advanced(player, time => time === 'b').player;
+    player = advanced(player, (time) => time === 'b').player;
     assert.equal(player.at, 1);
     player = advanced({ ...player, at: 2 }, () => true).player;
     assert.equal(player.at, 0, 'it is a loop');

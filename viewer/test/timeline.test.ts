@@ -6,7 +6,11 @@ import { Timeline } from '../src/time/timeline';
 
 const at = (time: string): string => `2026-11-28T${time}Z`;
 function made(stored: string[], betweenS = 0, follows = false, believed = '23:59:59'): Timeline {
-    const timeline = new Timeline(follows, () => betweenS, () => Date.parse(at(believed)));
+    const timeline = new Timeline(
+        follows,
+        () => betweenS,
+        () => Date.parse(at(believed)),
+    );
     timeline.take(stored.map(at));
     return timeline;
 }
@@ -14,7 +18,10 @@ function made(stored: string[], betweenS = 0, follows = false, believed = '23:59
 test('frames between volumes have their places, and those that there are not leave them', () => {
     const timeline = made(['10:00:30', '10:03:10'], 60);
     assert.deepEqual(timeline.player.times, ['10:00:30', '10:01:00', '10:02:00', '10:03:00', '10:03:10'].map(at));
-    assert.deepEqual([at('10:00:30'), at('10:01:00')].map(time => timeline.isBetween(time)), [false, true]);
+    assert.deepEqual(
+        [at('10:00:30'), at('10:01:00')].map((time) => timeline.isBetween(time)),
+        [false, true],
+    );
     assert.equal(timeline.leaveOut(at('10:02:00')), true);
     assert.deepEqual(timeline.player.times, ['10:00:30', '10:01:00', '10:03:00', '10:03:10'].map(at));
     timeline.forget();

@@ -5,7 +5,11 @@ import { colorOf, extinctionPerM } from '../src/tables/color_table';
 import { ColorTable } from '../src/wire/color_tables';
 import { binCount, chooseBins, makeTransfer } from '../src/tables/transfer';
 
-const stop = (from: number, r: number, g: number) => ({ from, color: [r, g, 0, 255] as [number, number, number, number], until: [r, g, 0, 255] as [number, number, number, number] });
+const stop = (from: number, r: number, g: number) => ({
+    from,
+    color: [r, g, 0, 255] as [number, number, number, number],
+    until: [r, g, 0, 255] as [number, number, number, number],
+});
 const stepped: ColorTable = {
     name: 'stepped',
     moment: 'REF',
@@ -23,7 +27,9 @@ const quantization = { firstValue: -32, step: 0.5 };
 const opacity = 1.5;
 const stepM = 700;
 const made = makeTransfer(stepped, quantization, { opacity, least: -Infinity }, stepM);
-const entry = (front: number, back: number) => [...made.entries.subarray(4 * (front * binCount + back), 4 * (front * binCount + back) + 4)];
+const entry = (front: number, back: number) => [
+    ...made.entries.subarray(4 * (front * binCount + back), 4 * (front * binCount + back) + 4),
+];
 const binOf = (code: number) => Math.min(255, Math.max(0, Math.floor(made.binOffset + made.binSlope * code)));
 const codeOf = (value: number) => (value - quantization.firstValue) / quantization.step + 3;
 
@@ -72,7 +78,14 @@ function layered(front: number, back: number): { color: [number, number]; depth:
 }
 
 test('a step over many values shows them in their order, as thin layers do', () => {
-    for (const [front, back] of [[10, 200], [200, 10], [0, 90], [90, 0], [40, 41], [250, 3]] as const) {
+    for (const [front, back] of [
+        [10, 200],
+        [200, 10],
+        [0, 90],
+        [90, 0],
+        [40, 41],
+        [250, 3],
+    ] as const) {
         const want = layered(front, back);
         const [r, g, , depth] = entry(front, back) as [number, number, number, number];
         assert(Math.abs(r - want.color[0]) < 2e-3 && Math.abs(g - want.color[1]) < 2e-3, `${front} to ${back}`);

@@ -1,7 +1,17 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { distanceText, heightText, knownUnits, namesOf, ringSpacingM, shownUnit, unitsOf, usualUnits, valueText } from '../src/tables/units';
+import {
+    distanceText,
+    heightText,
+    knownUnits,
+    namesOf,
+    ringSpacingM,
+    shownUnit,
+    unitsOf,
+    usualUnits,
+    valueText,
+} from '../src/tables/units';
 
 const american = unitsOf('kft,knots,miles');
 
@@ -16,7 +26,8 @@ test('units are named in any order, and what has no sense is left', () => {
 test('every choice of units comes back from its names', () => {
     for (const speed of knownUnits.speed) {
         for (const distance of knownUnits.distance) {
-            for (const height of knownUnits.height) assert.deepEqual(unitsOf(namesOf({ speed, distance, height })), { speed, distance, height });
+            for (const height of knownUnits.height)
+                assert.deepEqual(unitsOf(namesOf({ speed, distance, height })), { speed, distance, height });
         }
     }
     assert.equal(namesOf(usualUnits), '', 'the usual units need no name');

@@ -14,14 +14,24 @@ const pyramid: Pyramid = pyramidOf(grid);
 
 function placed(zoom: number, fieldOfViewDeg = 0, tiltDeg = 0): Placed {
     const box = { halfXM: 500 * nx, halfYM: 500 * ny, ...heightRange(levelsM) };
-    const camera = { ...usualCamera, azimuthDeg: 180, tiltDeg, zoom, fieldOfViewDeg, lookAtM: [0, 0, 1000] as [number, number, number] };
+    const camera = {
+        ...usualCamera,
+        azimuthDeg: 180,
+        tiltDeg,
+        zoom,
+        fieldOfViewDeg,
+        lookAtM: [0, 0, 1000] as [number, number, number],
+    };
     return { geometry: new ViewGeometry(box, camera, 1, 200, 160), edge: 16, cellSizeM: [1000, 1000] };
 }
 
 test('a view of the whole takes cells about as wide as a pixel', () => {
     const wanted = wantedColumns(placed(1), pyramid, [0, 3], 1e6);
     assert(wanted.every(({ level }) => level === 0 || level === 1));
-    assert(wanted.some(({ level }) => level === 0) !== wanted.some(({ level }) => level === 1), 'seen from the top all cells are as far');
+    assert(
+        wanted.some(({ level }) => level === 0) !== wanted.some(({ level }) => level === 1),
+        'seen from the top all cells are as far',
+    );
 });
 
 test('a view of a part takes the grid itself, where it looks, from the middle outward', () => {
@@ -40,7 +50,7 @@ test('what is far in a perspective is coarser than what is near', () => {
     const mean = (list: number[]) => list.reduce((sum, one) => sum + one, 0) / list.length;
     const levels = [...new Set(wanted.map(({ level }) => level))].sort();
     assert(levels.length > 1);
-    const south = (level: number) => mean(wanted.filter(one => one.level === level).map(middleOf));
+    const south = (level: number) => mean(wanted.filter((one) => one.level === level).map(middleOf));
     assert(south(levels[0]!) < south(levels[levels.length - 1]!), 'it looks from the south');
 });
 
@@ -61,7 +71,11 @@ test('no more is wanted than there is room for', () => {
     for (const room of [300, 60, 10, 0]) {
         const bricks = wantedColumns(placed(2), pyramid, [0, 3], room)
             .filter(({ level }) => level < 3)
-            .reduce((sum, { level, x, y }) => sum + pyramid.levels[level]!.shown[x * pyramid.levels[level]!.columns[1] + y]!, 0);
+            .reduce(
+                (sum, { level, x, y }) =>
+                    sum + pyramid.levels[level]!.shown[x * pyramid.levels[level]!.columns[1] + y]!,
+                0,
+            );
         assert(bricks <= room);
     }
 });
@@ -71,7 +85,9 @@ test('nothing finer is wanted than is allowed', () => {
 });
 
 test('columns without values are not wanted', () => {
-    const empty = pyramidOf(readPackedGrid(packedGrid({ nx: 64, ny: 64, levelsM, codeOf: (x, y) => (x < 3 && y < 3 ? 9 : 1) })));
+    const empty = pyramidOf(
+        readPackedGrid(packedGrid({ nx: 64, ny: 64, levelsM, codeOf: (x, y) => (x < 3 && y < 3 ? 9 : 1) })),
+    );
     const box = { halfXM: 32000, halfYM: 32000, ...heightRange(levelsM) };
     const geometry = new ViewGeometry(box, { ...usualCamera, tiltDeg: 0 }, 1, 800, 800);
     const wanted = wantedColumns({ geometry, edge: 16, cellSizeM: [1000, 1000] }, empty, [0, 2], 1e6);

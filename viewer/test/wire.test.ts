@@ -16,7 +16,10 @@ test('every cell of a packed grid is the one that was packed', () => {
                     if (code >= 3) ++values;
                 }
         assert(values > 1000);
-        assert([...grid.kind].includes(0) && [...grid.kind].includes(1) && [...grid.kind].includes(2), 'all kinds of bricks');
+        assert(
+            [...grid.kind].includes(0) && [...grid.kind].includes(1) && [...grid.kind].includes(2),
+            'all kinds of bricks',
+        );
     }
 });
 
@@ -33,7 +36,8 @@ test('the header says where and when', () => {
 
 test('what is cut or is no packed grid is refused', () => {
     const { bytes } = makeGrid(20, 20, 20);
-    for (const length of [0, 7, 255, 300, bytes.length - 1]) assert.throws(() => readPackedGrid(bytes.slice(0, length)), PackedError);
+    for (const length of [0, 7, 255, 300, bytes.length - 1])
+        assert.throws(() => readPackedGrid(bytes.slice(0, length)), PackedError);
     const other = bytes.slice();
     other[1] = 0x54;
     assert.throws(() => readPackedGrid(other), PackedError);

@@ -29,17 +29,21 @@ interface Brick {
 function brickOf(made: Made, bx: number, by: number, bz: number): Brick {
     const brick: Brick = { kind: 0, state: 0, count: 0, least: 0, greatest: 0, codes: [] };
     for (let i = 0; i < cells; ++i) {
-        const [x, y, z] = [bx * edge + Math.floor(i / 256), by * edge + (Math.floor(i / 16) % 16), bz * edge + (i % 16)];
+        const [x, y, z] = [
+            bx * edge + Math.floor(i / 256),
+            by * edge + (Math.floor(i / 16) % 16),
+            bz * edge + (i % 16),
+        ];
         const inside = x < made.nx && y < made.ny && z < made.levelsM.length;
         brick.codes.push(inside ? made.codeOf(x, y, z) : 0);
     }
-    const values = brick.codes.filter(code => code >= 3);
+    const values = brick.codes.filter((code) => code >= 3);
     brick.count = values.length;
     if (values.length > 0) {
         brick.kind = 2;
         brick.least = Math.min(...values);
         brick.greatest = Math.max(...values);
-    } else if (brick.codes.some(code => code !== brick.codes[0])) brick.kind = 1;
+    } else if (brick.codes.some((code) => code !== brick.codes[0])) brick.kind = 1;
     else brick.state = brick.codes[0]!;
     return brick;
 }
@@ -48,11 +52,12 @@ export function packedGrid(made: Made): Uint8Array {
     const { nx, ny, levelsM } = made;
     const nz = levelsM.length;
     const codeBytes = made.codeBytes ?? 1;
-    const counts = [nx, ny, nz].map(n => Math.ceil(n / edge)) as [number, number, number];
+    const counts = [nx, ny, nz].map((n) => Math.ceil(n / edge)) as [number, number, number];
     const bricks: Brick[] = [];
-    for (let x = 0; x < counts[0]; ++x) for (let y = 0; y < counts[1]; ++y) for (let z = 0; z < counts[2]; ++z) bricks.push(brickOf(made, x, y, z));
-    const stateBlocks = bricks.filter(brick => brick.kind === 1);
-    const codeBlocks = bricks.filter(brick => brick.kind === 2);
+    for (let x = 0; x < counts[0]; ++x)
+        for (let y = 0; y < counts[1]; ++y) for (let z = 0; z < counts[2]; ++z) bricks.push(brickOf(made, x, y, z));
+    const stateBlocks = bricks.filter((brick) => brick.kind === 1);
+    const codeBlocks = bricks.filter((brick) => brick.kind === 2);
     const levelsAt = 256;
     const sitesAt = levelsAt + 8 * nz;
     const tableAt = sitesAt + 32;

@@ -30,11 +30,17 @@ export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [num
     const take = (x: number, y: number, ways: readonly [number, number][]) => {
         for (const [dx, dy] of ways) {
             const [nx, ny] = [x + dx, y + dy];
-            if (nx >= 0 && ny >= 0 && nx < bx && ny < by) reach[y * bx + x] = Math.min(reach[y * bx + x]!, reach[ny * bx + nx]! + 1);
+            if (nx >= 0 && ny >= 0 && nx < bx && ny < by)
+                reach[y * bx + x] = Math.min(reach[y * bx + x]!, reach[ny * bx + nx]! + 1);
         }
     };
     // The first pass looks at the neighbors before each column in the order of rows, the second at those behind.
-    const before = [[-1, 0], [-1, -1], [0, -1], [1, -1]] as [number, number][];
+    const before = [
+        [-1, 0],
+        [-1, -1],
+        [0, -1],
+        [1, -1],
+    ] as [number, number][];
     const behind = before.map(([dx, dy]) => [-dx, -dy] as [number, number]);
     for (let y = 0; y < by; ++y) for (let x = 0; x < bx; ++x) take(x, y, before);
     for (let y = by - 1; y >= 0; --y) for (let x = bx - 1; x >= 0; --x) take(x, y, behind);
@@ -48,7 +54,11 @@ export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [num
 // The first texel of a slot.
 export function placeOfSlot(slot: number, slots: readonly [number, number, number]): [number, number, number] {
     const [sx, sy] = slots;
-    return [(slot % sx) * paddedEdge, (Math.floor(slot / sx) % sy) * paddedEdge, Math.floor(slot / (sx * sy)) * paddedEdge];
+    return [
+        (slot % sx) * paddedEdge,
+        (Math.floor(slot / sx) % sy) * paddedEdge,
+        Math.floor(slot / (sx * sy)) * paddedEdge,
+    ];
 }
 
 export interface Atlas {
@@ -84,14 +94,20 @@ const firstBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.ma
 const lastBlock = Uint8Array.from({ length: paddedEdge }, (_, texel) => Math.min(blocksAlong - 1, (texel - 1) >> 2));
 
 // Puts the greatest shown codes of the blocks of a slot whose first texel is `corner` into `blocks`, from `to` on.
-export function measureBlocks({ texels, width, height }: Pick<Filling, 'texels' | 'width' | 'height'>, corner: number, blocks: Uint8Array, to: number): void {
+export function measureBlocks(
+    { texels, width, height }: Pick<Filling, 'texels' | 'width' | 'height'>,
+    corner: number,
+    blocks: Uint8Array,
+    to: number,
+): void {
     for (let z = 1; z < paddedEdge; ++z) {
         for (let y = 1; y < paddedEdge; ++y) {
             const row = corner + 2 * (z * height + y) * width;
             for (let block = 0; block < blocksAlong; ++block) {
                 let greatest = 0;
                 const end = row + 2 * (blockEdge * block + blockEdge + 1);
-                for (let at = end - 2 * blockEdge; at <= end; at += 2) if (texels[at]! > greatest) greatest = texels[at]!;
+                for (let at = end - 2 * blockEdge; at <= end; at += 2)
+                    if (texels[at]! > greatest) greatest = texels[at]!;
                 if (greatest === 0) continue;
                 for (let bz = firstBlock[z]!; bz <= lastBlock[z]!; ++bz) {
                     for (let by = firstBlock[y]!; by <= lastBlock[y]!; ++by) {
@@ -182,7 +198,12 @@ function runsAlong(b: number, edge: number, cells: number): Run[] {
 
 // Copies what a slot takes from one brick with values. `corner` is the slot's first texel. Returns
 // whether there was any value in it.
-function copyRuns(filling: Filling, cells: { codes: Uint8Array | Uint16Array; from: number }, corner: number, rows: [Run, Run, Run]): boolean {
+function copyRuns(
+    filling: Filling,
+    cells: { codes: Uint8Array | Uint16Array; from: number },
+    corner: number,
+    rows: [Run, Run, Run],
+): boolean {
     const { grid, shownOf, texels, width, height } = filling;
     const [xs, ys, zs] = rows;
     const edge = grid.brickEdge;
@@ -269,7 +290,7 @@ export function makeAtlas(grid: PackedGrid, mostTexels: number): Atlas {
         }
     }
     const slots = slotsFor(wanted.length, mostTexels);
-    const size = slots.map(n => n * paddedEdge) as [number, number, number];
+    const size = slots.map((n) => n * paddedEdge) as [number, number, number];
     if (size[2] > mostTexels) throw new RangeError('the grid has more bricks than a texture of this device holds');
     const atlas: Atlas = {
         size,
@@ -286,8 +307,16 @@ export function makeAtlas(grid: PackedGrid, mostTexels: number): Atlas {
         blocks: new Uint8Array(blocksABrick * wanted.length),
     };
     const cellCount = grid.brickEdge ** 3;
-    const cellsOf: CellsOf = brick => (grid.kind[brick] === BrickKind.codes ? { codes: grid.codes, from: grid.block[brick]! * cellCount } : null);
-    const filling: Filling = { grid, cellsOf, shownOf: shown.table, texels: atlas.texels, width: size[0], height: size[1] };
+    const cellsOf: CellsOf = (brick) =>
+        grid.kind[brick] === BrickKind.codes ? { codes: grid.codes, from: grid.block[brick]! * cellCount } : null;
+    const filling: Filling = {
+        grid,
+        cellsOf,
+        shownOf: shown.table,
+        texels: atlas.texels,
+        width: size[0],
+        height: size[1],
+    };
     wanted.forEach(([x, y, z], slot) => {
         const [px, py, pz] = placeOfSlot(slot, slots);
         const corner = 2 * ((pz * size[1] + py) * size[0] + px);
@@ -323,7 +352,8 @@ function lowerByBrick(grid: PackedGrid, bx: number, by: number, bz: number, lowe
             const from = block + (x * edge + y) * edge;
             let z = 0;
             if (kind === BrickKind.codes) while (z < depth && grid.codes[from + z] === 0) ++z;
-            else if (kind === BrickKind.states) while (z < depth && ((grid.states[(from + z) >> 2]! >> (2 * ((from + z) & 3))) & 3) === 0) ++z;
+            else if (kind === BrickKind.states)
+                while (z < depth && ((grid.states[(from + z) >> 2]! >> (2 * ((from + z) & 3))) & 3) === 0) ++z;
             if (z < depth) lowest[column] = Math.min(lowest[column]!, bz * edge + z);
         }
     }

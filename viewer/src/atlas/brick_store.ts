@@ -53,7 +53,11 @@ export class BrickStore {
         for (let column = first / layers; column < end / layers; ++column) {
             const from = block;
             for (let z = 0; z < layers; ++z) if (grid.kind[column * layers + z] === BrickKind.codes) ++block;
-            if (block > from) columns.set(column, { codes: codes.slice((from - firstBlock) * cells, (block - firstBlock) * cells), firstBlock: from });
+            if (block > from)
+                columns.set(column, {
+                    codes: codes.slice((from - firstBlock) * cells, (block - firstBlock) * cells),
+                    firstBlock: from,
+                });
         }
     }
 
@@ -69,7 +73,7 @@ export class BrickStore {
         const cells = grid.brickEdge ** 3;
         const filling: Filling = {
             grid,
-            cellsOf: brick => {
+            cellsOf: (brick) => {
                 if (grid.kind[brick] !== BrickKind.codes) return null;
                 const column = columns.get(Math.floor(brick / layers));
                 return column ? { codes: column.codes, from: (grid.block[brick]! - column.firstBlock) * cells } : null;

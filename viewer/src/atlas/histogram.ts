@@ -5,10 +5,15 @@ import { Atlas } from './atlas';
 import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
 
 // Counts the cells of each code of a value. Cells of a brick beyond the grid have no values.
-export function countCodes(grid: PackedGrid, atlas: Pick<Atlas, 'histogram' | 'codeOffset' | 'codeScale'>): Uint32Array {
+export function countCodes(
+    grid: PackedGrid,
+    atlas: Pick<Atlas, 'histogram' | 'codeOffset' | 'codeScale'>,
+): Uint32Array {
     const counts = new Uint32Array(grid.codeBytes === 1 ? 256 : 65536);
     if (grid.codes.length === 0) {
-        atlas.histogram.forEach((count, shown) => (counts[Math.round(atlas.codeOffset + atlas.codeScale * shown)]! += count));
+        atlas.histogram.forEach(
+            (count, shown) => (counts[Math.round(atlas.codeOffset + atlas.codeScale * shown)]! += count),
+        );
         counts.fill(0, 0, firstValueCode);
         return counts;
     }
@@ -24,7 +29,13 @@ export function countCodes(grid: PackedGrid, atlas: Pick<Atlas, 'histogram' | 'c
 
 // Counts in at most `most` columns of equal width from `low` to `high`, each with as many codes as the others;
 // values beyond are left out.
-export function histogramOf(grid: PackedGrid, counts: Uint32Array, low: number, high: number, most: number): Uint32Array {
+export function histogramOf(
+    grid: PackedGrid,
+    counts: Uint32Array,
+    low: number,
+    high: number,
+    most: number,
+): Uint32Array {
     const codes = Math.max(1, (high - low) / grid.step);
     const columns = Math.ceil(codes / Math.ceil(codes / most) - 1e-6);
     const histogram = new Uint32Array(columns);

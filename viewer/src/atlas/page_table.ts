@@ -17,7 +17,12 @@ export interface ResidentColumn {
 const finerBy = 3;
 
 // Fills `entries`, x fastest. `shownOf`: the shown code of each code.
-export function paintPages(entries: Uint32Array, pyramid: Pyramid, columns: Iterable<ResidentColumn>, shownOf: Uint8Array): void {
+export function paintPages(
+    entries: Uint32Array,
+    pyramid: Pyramid,
+    columns: Iterable<ResidentColumn>,
+    shownOf: Uint8Array,
+): void {
     const [bx, by] = pyramid.levels[0]!.columns;
     const { layers } = pyramid;
     entries.fill(0);
@@ -32,7 +37,8 @@ export function paintPages(entries: Uint32Array, pyramid: Pyramid, columns: Iter
                 for (let z = 0; z < layers; ++z) {
                     const greatest = about[from + z]!;
                     const slot = slots[z]!;
-                    entries[(z * by + fy) * bx + fx] = greatest === 0 || slot < 0 ? 0 : pageEntry(slot, shownOf[greatest]!, level);
+                    entries[(z * by + fy) * bx + fx] =
+                        greatest === 0 || slot < 0 ? 0 : pageEntry(slot, shownOf[greatest]!, level);
                 }
             }
         }

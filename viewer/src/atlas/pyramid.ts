@@ -72,6 +72,6 @@ export function bricksShown(level: Level): number {
 
 // Finds the finest level with at most `mostBricks` bricks that can show anything; the coarsest if there is none.
 export function levelWithin(pyramid: Pyramid, mostBricks: number): number {
-    const found = pyramid.levels.findIndex(level => bricksShown(level) <= mostBricks);
+    const found = pyramid.levels.findIndex((level) => bricksShown(level) <= mostBricks);
     return found < 0 ? mostHalvings : found;
 }

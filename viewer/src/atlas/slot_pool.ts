@@ -35,7 +35,13 @@ export class SlotPool {
 
     // Gives a slot to each brick whose `hasValues` is true. Columns of `wanted` do not give way either.
     // Returns null if there is no room.
-    take(level: number, x: number, y: number, hasValues: readonly boolean[], wanted: ReadonlySet<string>): ResidentColumn | null {
+    take(
+        level: number,
+        x: number,
+        y: number,
+        hasValues: readonly boolean[],
+        wanted: ReadonlySet<string>,
+    ): ResidentColumn | null {
         const key = columnKey(level, x, y);
         this.release(key);
         const needed = hasValues.filter(Boolean).length;
@@ -44,7 +50,7 @@ export class SlotPool {
             if (!wanted.has(old) && !this.pinned.has(old)) this.release(old);
         }
         if (this.free.length < needed) return null;
-        const slots = Int32Array.from(hasValues, has => (has ? this.free.pop()! : -1));
+        const slots = Int32Array.from(hasValues, (has) => (has ? this.free.pop()! : -1));
         const column = { level, x, y, slots };
         this.held.set(key, column);
         return column;

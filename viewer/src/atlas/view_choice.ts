@@ -32,12 +32,21 @@ interface Extent {
 function extentOf(placed: Placed, level: number, x: number, y: number): Extent {
     const { geometry, edge, cellSizeM } = placed;
     const { box, exaggeration, width, height } = geometry;
-    const low = [x, y].map((n, axis) => n * edge * 2 ** level * cellSizeM[axis]! - [box.halfXM, box.halfYM][axis]!) as [number, number];
-    const high = [0, 1].map(axis => Math.min([box.halfXM, box.halfYM][axis]!, low[axis]! + edge * 2 ** level * cellSizeM[axis]!)) as [number, number];
+    const low = [x, y].map((n, axis) => n * edge * 2 ** level * cellSizeM[axis]! - [box.halfXM, box.halfYM][axis]!) as [
+        number,
+        number,
+    ];
+    const high = [0, 1].map((axis) =>
+        Math.min([box.halfXM, box.halfYM][axis]!, low[axis]! + edge * 2 ** level * cellSizeM[axis]!),
+    ) as [number, number];
     let [left, right, top, bottom, nearest] = [Infinity, -Infinity, Infinity, -Infinity, Infinity];
     let isBehind = false;
     for (let i = 0; i < 8; ++i) {
-        const corner: Vec3 = [i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], (i & 4 ? box.topM : box.bottomM) * exaggeration];
+        const corner: Vec3 = [
+            i & 1 ? high[0] : low[0],
+            i & 2 ? high[1] : low[1],
+            (i & 4 ? box.topM : box.bottomM) * exaggeration,
+        ];
         const depth = geometry.depthOf(corner);
         nearest = Math.min(nearest, depth);
         const pixel = geometry.project(corner);
@@ -50,12 +59,20 @@ function extentOf(placed: Placed, level: number, x: number, y: number): Extent {
     }
     // A box that reaches behind the camera may be anywhere in the picture, unless it is there as a whole.
     const isSeen = left <= right && (isBehind || (right >= 0 && left <= width && bottom >= 0 && top <= height));
-    const metersPerPixel = geometry.isPerspective ? Math.max(nearest, geometry.nearM) / geometry.focalPixels : geometry.metersPerPixel;
+    const metersPerPixel = geometry.isPerspective
+        ? Math.max(nearest, geometry.nearM) / geometry.focalPixels
+        : geometry.metersPerPixel;
     const away = isSeen && !isBehind ? Math.hypot((left + right - width) / 2, (top + bottom - height) / 2) : 0;
     return { isSeen, pixelsACell: Math.max(...cellSizeM) / metersPerPixel, away };
 }
 
-function collect(placed: Placed, pyramid: Pyramid, [finest, coarsest]: [number, number], mostPixels: number, isWanted: (level: number, x: number, y: number) => boolean): WantedColumn[] {
+function collect(
+    placed: Placed,
+    pyramid: Pyramid,
+    [finest, coarsest]: [number, number],
+    mostPixels: number,
+    isWanted: (level: number, x: number, y: number) => boolean,
+): WantedColumn[] {
     const found: WantedColumn[] = [];
     const visit = (level: number, x: number, y: number): void => {
         const { columns } = pyramid.levels[level]!;
@@ -76,7 +93,12 @@ function collect(placed: Placed, pyramid: Pyramid, [finest, coarsest]: [number, 
 // Returns the columns that the view needs, of the levels from the finest to the coarsest, sorted from the
 // middle of the picture outward. At most `room` of their bricks are finer than the coarsest level: takes
 // coarser cells until they fit.
-export function wantedColumns(placed: Placed, pyramid: Pyramid, levels: [number, number], room: number): WantedColumn[] {
+export function wantedColumns(
+    placed: Placed,
+    pyramid: Pyramid,
+    levels: [number, number],
+    room: number,
+): WantedColumn[] {
     const coarsest = levels[1];
     const hasShown = (level: number, x: number, y: number): boolean => {
         const { columns, shown } = pyramid.levels[level]!;

@@ -24,13 +24,14 @@ export interface WindowLimits {
 const mostBricks = 16384;
 const statesBlockBytes = 1024;
 
-const clipped = (from: number, to: number, count: number): [number, number] | null => (to < 0 || from >= count ? null : [Math.max(0, from), Math.min(count - 1, to)]);
+const clipped = (from: number, to: number, count: number): [number, number] | null =>
+    to < 0 || from >= count ? null : [Math.max(0, from), Math.min(count - 1, to)];
 
 // The columns about points of the plane; null if all lie beyond one side of the grid.
 export function boundsAbout(points: readonly Plane[], grid: PackedGrid): Bounds | null {
     const size = cellSizeM(grid);
     const along = (axis: 0 | 1, count: number) => {
-        const all = points.map(point => Math.floor(point[axis] / size[axis] + 0.5 * count)).filter(Number.isFinite);
+        const all = points.map((point) => Math.floor(point[axis] / size[axis] + 0.5 * count)).filter(Number.isFinite);
         return all.length > 0 ? clipped(Math.min(...all), Math.max(...all), count) : null;
     };
     const [x, y] = [along(0, grid.nx), along(1, grid.ny)];
@@ -50,7 +51,12 @@ function windowOf(bounds: Bounds, level: number, more: number, pyramid: Pyramid,
     return { level, x: along(0, bounds.x), y: along(1, bounds.y) };
 }
 
-function fits({ level, x, y }: BrickWindow, pyramid: Pyramid, { brickEdge, codeBytes }: Table, limits: WindowLimits): boolean {
+function fits(
+    { level, x, y }: BrickWindow,
+    pyramid: Pyramid,
+    { brickEdge, codeBytes }: Table,
+    limits: WindowLimits,
+): boolean {
     const { layers, levels } = pyramid;
     const { columns, greatest } = levels[level]!;
     const count = (x[1] - x[0] + 1) * (y[1] - y[0] + 1);
@@ -65,7 +71,14 @@ function fits({ level, x, y }: BrickWindow, pyramid: Pyramid, { brickEdge, codeB
 }
 
 // `finest` is the level of the finest grid that is worth it. If no level fits, returns the coarsest all the same.
-export function windowAbout(bounds: Bounds, finest: number, more: number, pyramid: Pyramid, table: Table, limits: WindowLimits): BrickWindow {
+export function windowAbout(
+    bounds: Bounds,
+    finest: number,
+    more: number,
+    pyramid: Pyramid,
+    table: Table,
+    limits: WindowLimits,
+): BrickWindow {
     for (let level = finest; ; ++level) {
         const window = windowOf(bounds, level, more, pyramid, table);
         if (level >= mostHalvings || fits(window, pyramid, table, limits)) return window;

@@ -61,7 +61,12 @@ function takeLevel(store: BrickStore, bytes: ArrayBuffer): WorkerAnswer {
             if (column.texels.length > 0) columns.push(column);
         }
     }
-    return { columns, coverage: coverageOf(grid), histogram: histogramOf(grid, store.shown.table), isClear: isClearAir(grid) };
+    return {
+        columns,
+        coverage: coverageOf(grid),
+        histogram: histogramOf(grid, store.shown.table),
+        isClear: isClearAir(grid),
+    };
 }
 
 function answerTo(request: WorkerRequest): WorkerAnswer {
@@ -88,11 +93,11 @@ function answerTo(request: WorkerRequest): WorkerAnswer {
 
 // Returns the buffers that go to the page without a copy. Codes and states may share one.
 function buffersOf(answer: WorkerAnswer): ArrayBufferLike[] {
-    const arrays: Uint8Array[] = (answer.columns ?? []).map(column => column.texels);
+    const arrays: Uint8Array[] = (answer.columns ?? []).map((column) => column.texels);
     if (answer.atlas) arrays.push(answer.atlas.texels);
     if (answer.grid) arrays.push(answer.grid.states, answer.grid.codes as Uint8Array);
     if (answer.coverage) arrays.push(answer.coverage);
-    return [...new Set(arrays.map(array => array.buffer))];
+    return [...new Set(arrays.map((array) => array.buffer))];
 }
 
 self.onmessage = (event: MessageEvent<Numbered<WorkerRequest>>) => {
@@ -101,6 +106,9 @@ self.onmessage = (event: MessageEvent<Numbered<WorkerRequest>>) => {
         const answer = answerTo(event.data);
         (self as unknown as Worker).postMessage({ number, ...answer }, buffersOf(answer) as ArrayBuffer[]);
     } catch (error) {
-        (self as unknown as Worker).postMessage({ number, error: error instanceof Error ? error.message : String(error) });
+        (self as unknown as Worker).postMessage({
+            number,
+            error: error instanceof Error ? error.message : String(error),
+        });
     }
 };

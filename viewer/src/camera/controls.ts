@@ -30,7 +30,11 @@ export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: n
     const at = lookAtOf(camera, geometry);
     const scale = geometry.metersPerPixel;
     // Along the ground, ahead of the camera; looked at from the side, a pixel upward is farther.
-    const ahead: Vec3 = [-Math.sin((camera.azimuthDeg * Math.PI) / 180), -Math.cos((camera.azimuthDeg * Math.PI) / 180), 0];
+    const ahead: Vec3 = [
+        -Math.sin((camera.azimuthDeg * Math.PI) / 180),
+        -Math.cos((camera.azimuthDeg * Math.PI) / 180),
+        0,
+    ];
     const foreshortened = Math.max(0.2, Math.cos((camera.tiltDeg * Math.PI) / 180));
     return { ...camera, lookAtM: plus(plus(at, -dx * scale, geometry.right), (dy * scale) / foreshortened, ahead) };
 }
@@ -43,7 +47,14 @@ export function isMap(camera: Camera): boolean {
 
 // Applies a plain drag, or one with Shift or the right button (`isOther`). A plain drag moves a map and turns
 // every other view; the other drag does the opposite.
-export function dragged(camera: Camera, geometry: ViewGeometry, dx: number, dy: number, ratio: number, isOther: boolean): Camera {
+export function dragged(
+    camera: Camera,
+    geometry: ViewGeometry,
+    dx: number,
+    dy: number,
+    ratio: number,
+    isOther: boolean,
+): Camera {
     return isMap(camera) !== isOther ? panned(camera, geometry, dx * ratio, dy * ratio) : orbited(camera, dx, dy);
 }
 
@@ -55,7 +66,11 @@ export function zoomed(camera: Camera, geometry: ViewGeometry, factor: number, x
     if (!under || !center) return { ...camera, zoom };
     // The place under the pointer stays there.
     const share = 1 - camera.zoom / zoom;
-    return { ...camera, zoom, lookAtM: [at[0] + share * (under[0] - center[0]), at[1] + share * (under[1] - center[1]), at[2]] };
+    return {
+        ...camera,
+        zoom,
+        lookAtM: [at[0] + share * (under[0] - center[0]), at[1] + share * (under[1] - center[1]), at[2]],
+    };
 }
 
 export type NamedView = 'top' | 'south' | 'east' | 'north' | 'west' | 'oblique';

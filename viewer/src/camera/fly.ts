@@ -37,7 +37,11 @@ export function takenOff(camera: Camera, window: Window): Camera {
 export function turned(camera: Camera, window: Window, rightDeg: number, upDeg: number): Camera {
     const { eye } = geometryOf(camera, window);
     const azimuth = camera.azimuthDeg + rightDeg;
-    const next: Camera = { ...camera, azimuthDeg: ((azimuth % 360) + 360) % 360, tiltDeg: Math.min(90, Math.max(0, camera.tiltDeg + upDeg)) };
+    const next: Camera = {
+        ...camera,
+        azimuthDeg: ((azimuth % 360) + 360) % 360,
+        tiltDeg: Math.min(90, Math.max(0, camera.tiltDeg + upDeg)),
+    };
     return withEye(next, window, eye);
 }
 

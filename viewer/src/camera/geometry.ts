@@ -151,7 +151,12 @@ export class ViewGeometry {
     // The depths between which the picture shows the box: less than all of it where it shows a part. Depths
     // at which rays meet a plane are least and greatest in corners of the picture.
     get shownDepths(): [number, number] {
-        const corners: [number, number][] = [[0, 0], [this.width, 0], [0, this.height], [this.width, this.height]];
+        const corners: [number, number][] = [
+            [0, 0],
+            [this.width, 0],
+            [0, this.height],
+            [this.width, this.height],
+        ];
         const depthsAt = (heightM: number, beyond: number) =>
             corners.map(([x, y]) => {
                 const step = this.along(x, y)[2];

@@ -51,7 +51,8 @@ export function geodesic(from: Place, to: Place): Geodesic {
         cos2Alpha = 1 - sinAlpha * sinAlpha;
         cosM = cos2Alpha > 0 ? cosSigma - (2 * s1 * s2) / cos2Alpha : 0;
         const c = (f / 16) * cos2Alpha * (4 + f * (4 - 3 * cos2Alpha));
-        const next = l + (1 - c) * f * sinAlpha * (sigma + c * sinSigma * (cosM + c * cosSigma * (2 * cosM * cosM - 1)));
+        const next =
+            l + (1 - c) * f * sinAlpha * (sigma + c * sinSigma * (cosM + c * cosSigma * (2 * cosM * cosM - 1)));
         const isSettled = Math.abs(next - lambda) < 1e-12;
         lambda = next;
         if (isSettled) break;
@@ -60,7 +61,12 @@ export function geodesic(from: Place, to: Place): Geodesic {
     const aa = 1 + (uu / 16384) * (4096 + uu * (-768 + uu * (320 - 175 * uu)));
     const bb = (uu / 1024) * (256 + uu * (-128 + uu * (74 - 47 * uu)));
     const correction =
-        bb * sinSigma * (cosM + (bb / 4) * (cosSigma * (2 * cosM * cosM - 1) - (bb / 6) * cosM * (4 * sinSigma * sinSigma - 3) * (4 * cosM * cosM - 3)));
+        bb *
+        sinSigma *
+        (cosM +
+            (bb / 4) *
+                (cosSigma * (2 * cosM * cosM - 1) -
+                    (bb / 6) * cosM * (4 * sinSigma * sinSigma - 3) * (4 * cosM * cosM - 3)));
     return {
         distanceM: b * aa * (sigma - correction),
         azimuth: Math.atan2(c2 * Math.sin(lambda), c1 * s2 - s1 * c2 * Math.cos(lambda)),
@@ -84,7 +90,10 @@ export function destination(from: Place, azimuth: number, distanceM: number): Pl
         cosM = Math.cos(2 * sigma1 + sigma);
         const [ss, cs] = [Math.sin(sigma), Math.cos(sigma)];
         const change =
-            bb * ss * (cosM + (bb / 4) * (cs * (2 * cosM * cosM - 1) - (bb / 6) * cosM * (4 * ss * ss - 3) * (4 * cosM * cosM - 3)));
+            bb *
+            ss *
+            (cosM +
+                (bb / 4) * (cs * (2 * cosM * cosM - 1) - (bb / 6) * cosM * (4 * ss * ss - 3) * (4 * cosM * cosM - 3)));
         const next = distanceM / (b * aa) + change;
         const isSettled = Math.abs(next - sigma) < 1e-13;
         sigma = next;
@@ -120,8 +129,14 @@ function metersOfADegree(latitudeDeg: number): [number, number] {
 function latitudeLongitude(center: Place): GridPlane {
     const [east, north] = metersOfADegree(center.latitudeDeg);
     return {
-        toPlane: place => [wrapped(place.longitudeDeg - center.longitudeDeg) * east, (place.latitudeDeg - center.latitudeDeg) * north],
-        toPlace: ([x, y]) => ({ latitudeDeg: center.latitudeDeg + y / north, longitudeDeg: wrapped(center.longitudeDeg + x / east) }),
+        toPlane: (place) => [
+            wrapped(place.longitudeDeg - center.longitudeDeg) * east,
+            (place.latitudeDeg - center.latitudeDeg) * north,
+        ],
+        toPlace: ([x, y]) => ({
+            latitudeDeg: center.latitudeDeg + y / north,
+            longitudeDeg: wrapped(center.longitudeDeg + x / east),
+        }),
     };
 }
 
@@ -129,7 +144,7 @@ function lambert(center: Place, parallelsDeg: [number, number]): GridPlane {
     const t = (latitude: number) =>
         Math.tan(Math.PI / 4 - latitude / 2) / ((1 - e * Math.sin(latitude)) / (1 + e * Math.sin(latitude))) ** (e / 2);
     const m = (latitude: number) => Math.cos(latitude) / Math.sqrt(1 - e2 * Math.sin(latitude) ** 2);
-    const [p1, p2] = parallelsDeg.map(degrees => degrees * radians) as [number, number];
+    const [p1, p2] = parallelsDeg.map((degrees) => degrees * radians) as [number, number];
     const n = Math.abs(p1 - p2) < 1e-9 ? Math.sin(p1) : Math.log(m(p1) / m(p2)) / Math.log(t(p1) / t(p2));
     const scale = (a * m(p1)) / (n * t(p1) ** n);
     const rho = (latitude: number) => scale * t(latitude) ** n;
@@ -149,7 +164,10 @@ function lambert(center: Place, parallelsDeg: [number, number]): GridPlane {
                 const es = e * Math.sin(latitude);
                 latitude = Math.PI / 2 - 2 * Math.atan(tt * ((1 - es) / (1 + es)) ** (e / 2));
             }
-            return { latitudeDeg: latitude / radians, longitudeDeg: wrapped(center.longitudeDeg + theta / n / radians) };
+            return {
+                latitudeDeg: latitude / radians,
+                longitudeDeg: wrapped(center.longitudeDeg + theta / n / radians),
+            };
         },
     };
 }
@@ -198,5 +216,8 @@ export function planeOf(grid: GridPlace): GridPlane {
 // Where the middle of a grid is on the plane of another one with the same center, as of a window of a grid.
 export function middleOn(plane: GridPlace, grid: GridPlace): Plane {
     const [whole, own] = [cellSizeM(plane), cellSizeM(grid)];
-    return [grid.offsetCells[0] * own[0] - plane.offsetCells[0] * whole[0], grid.offsetCells[1] * own[1] - plane.offsetCells[1] * whole[1]];
+    return [
+        grid.offsetCells[0] * own[0] - plane.offsetCells[0] * whole[0],
+        grid.offsetCells[1] * own[1] - plane.offsetCells[1] * whole[1],
+    ];
 }

@@ -15,7 +15,11 @@ export interface Air {
 }
 
 export function airOf(grid: PackedGrid): Air {
-    const size: Air['size'] = [Math.ceil(grid.nx / airCellsAcross), Math.ceil(grid.ny / airCellsAcross), Math.ceil(grid.nz / airCellsUp)];
+    const size: Air['size'] = [
+        Math.ceil(grid.nx / airCellsAcross),
+        Math.ceil(grid.ny / airCellsAcross),
+        Math.ceil(grid.nz / airCellsUp),
+    ];
     const air: Air = { size, shares: new Uint8Array(2 * size[0] * size[1] * size[2]), hasFolded: false };
     const layer = size[0] * size[1];
     const codes = new Uint16Array(grid.nx * grid.ny);
@@ -34,7 +38,8 @@ export function airOf(grid: PackedGrid): Air {
             }
         }
         for (let i = 0; i < layer; ++i) {
-            for (let kind = 0; kind < 2; ++kind) air.shares[2 * (z * layer + i) + kind] = Math.round((255 * counts[3 * i + kind]!) / counts[3 * i + 2]!);
+            for (let kind = 0; kind < 2; ++kind)
+                air.shares[2 * (z * layer + i) + kind] = Math.round((255 * counts[3 * i + kind]!) / counts[3 * i + 2]!);
             air.hasFolded ||= counts[3 * i + 1]! > 0;
         }
     }

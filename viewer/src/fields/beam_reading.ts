@@ -25,20 +25,29 @@ export const beamWidthM = (icao: string, rangeM: number): number => rangeM * bea
 function nearest(sweeps: SweepTime[], elevationDeg: number): SweepTime | null {
     let best: SweepTime | null = null;
     for (const sweep of sweeps) {
-        if (!best || Math.abs(sweep.elevation_deg - elevationDeg) < Math.abs(best.elevation_deg - elevationDeg)) best = sweep;
+        if (!best || Math.abs(sweep.elevation_deg - elevationDeg) < Math.abs(best.elevation_deg - elevationDeg))
+            best = sweep;
     }
     return best;
 }
 
 function timeOf(sweep: SweepTime, azimuthDeg: number): number | null {
     if (!(Math.abs(sweep.degrees_per_s) > 0)) return null;
-    const turned = sweep.degrees_per_s > 0 ? azimuthDeg - sweep.first_azimuth_deg : sweep.first_azimuth_deg - azimuthDeg;
+    const turned =
+        sweep.degrees_per_s > 0 ? azimuthDeg - sweep.first_azimuth_deg : sweep.first_azimuth_deg - azimuthDeg;
     return Date.parse(sweep.start) + (1000 * (((turned % 360) + 360) % 360)) / Math.abs(sweep.degrees_per_s);
 }
 
 // The site that is nearest to a place, and the way from it; null without sites.
-export function nearestTo(sites: Site[], place: Place): { site: Site; way: { distanceM: number; azimuth: number } } | null {
-    return sites.map(site => ({ site, way: geodesic(site, place) })).sort((a, b) => a.way.distanceM - b.way.distanceM)[0] ?? null;
+export function nearestTo(
+    sites: Site[],
+    place: Place,
+): { site: Site; way: { distanceM: number; azimuth: number } } | null {
+    return (
+        sites
+            .map((site) => ({ site, way: geodesic(site, place) }))
+            .sort((a, b) => a.way.distanceM - b.way.distanceM)[0] ?? null
+    );
 }
 
 // Reads the beam of the site that is nearest to the point; null without sites. `facts` may still be on their way.
@@ -49,8 +58,12 @@ export function beamReading(sites: Site[], facts: GridFacts | null, place: Place
     const { elevationDeg, rangeM } = beamTo(site, way.distanceM, heightM);
     const sweep = nearest(facts?.provenance.sweeps ?? [], elevationDeg);
     const azimuthDeg = (way.azimuth / radians + 360) % 360;
-    const rows = (facts?.audit?.rows ?? []).filter(row => row.count > 0 && rangeM >= row.range_from_m && rangeM < (row.range_to_m ?? Infinity));
-    const row = rows.sort((a, b) => Math.abs(a.elevation_deg - elevationDeg) - Math.abs(b.elevation_deg - elevationDeg))[0];
+    const rows = (facts?.audit?.rows ?? []).filter(
+        (row) => row.count > 0 && rangeM >= row.range_from_m && rangeM < (row.range_to_m ?? Infinity),
+    );
+    const row = rows.sort(
+        (a, b) => Math.abs(a.elevation_deg - elevationDeg) - Math.abs(b.elevation_deg - elevationDeg),
+    )[0];
     return {
         icao: site.icao,
         rangeM,

@@ -15,7 +15,9 @@ export function isClearAir(grid: PackedGrid): boolean {
     const [width, height] = cellSizeM(grid);
     const cellKm2 = (width * height) / 1e6 / 2 ** grid.halvings;
     const edge = grid.brickEdge;
-    const leastCodes = limits.map(({ dbz }) => firstValueCode + Math.ceil((dbz - valueOf(grid, firstValueCode)) / grid.step));
+    const leastCodes = limits.map(
+        ({ dbz }) => firstValueCode + Math.ceil((dbz - valueOf(grid, firstValueCode)) / grid.step),
+    );
     const reached = new Uint8Array(grid.nx * grid.ny); // how many of the limits a column reaches
     const km2 = [0, 0];
     let hasEcho = false;

@@ -28,13 +28,21 @@ function valuesOfCodes(grid: PackedGrid, moment: string, lowestColor: number): F
     const values = new Float32Array(grid.codeBytes === 1 ? 256 : 65536);
     const zero = Math.min(0, lowestColor);
     for (let code = firstValueCode; code < values.length; ++code) {
-        values[code] = moment === 'REF' ? Math.min(highest - zero, Math.max(0, valueOf(grid, code) - zero)) : valueOfOthers;
+        values[code] =
+            moment === 'REF' ? Math.min(highest - zero, Math.max(0, valueOf(grid, code) - zero)) : valueOfOthers;
     }
     return values;
 }
 
 // Adds a column of the grid to the sums and counts of its coarse column, level by level.
-function addColumn(grid: PackedGrid, values: Float32Array, x: number, y: number, sums: Float32Array, counts: Float32Array): void {
+function addColumn(
+    grid: PackedGrid,
+    values: Float32Array,
+    x: number,
+    y: number,
+    sums: Float32Array,
+    counts: Float32Array,
+): void {
     const edge = grid.brickEdge;
     for (let bz = 0; bz < grid.bricks[2]; ++bz) {
         const brick = (Math.floor(x / edge) * grid.bricks[1] + Math.floor(y / edge)) * grid.bricks[2] + bz;
@@ -54,26 +62,39 @@ function addColumn(grid: PackedGrid, values: Float32Array, x: number, y: number,
 }
 
 function fillHoles(means: Float32Array, counts: Float32Array): void {
-    const first = counts.findIndex(count => count > 0);
+    const first = counts.findIndex((count) => count > 0);
     if (first < 0) return;
     means.fill(means[first]!, 0, first);
     for (let z = first + 1; z < means.length; ++z) if (counts[z] === 0) means[z] = means[z - 1]!;
 }
 
 // Smooths rows of `count` numbers that are `stride` apart, one after the other from `starts`.
-function smooth(values: Float32Array, count: number, stride: number, starts: (visit: (from: number) => void) => void): void {
+function smooth(
+    values: Float32Array,
+    count: number,
+    stride: number,
+    starts: (visit: (from: number) => void) => void,
+): void {
     const row = new Float32Array(count + 4);
-    starts(from => {
+    starts((from) => {
         for (let i = 0; i < count; ++i) row[i + 2] = values[from + i * stride]!;
         row[0] = row[1] = row[2]!;
         row[count + 2] = row[count + 3] = row[count + 1]!;
         for (let i = 0; i < count; ++i) {
-            values[from + i * stride] = weights[0] * (row[i]! + row[i + 4]!) + weights[1] * (row[i + 1]! + row[i + 3]!) + weights[2] * row[i + 2]!;
+            values[from + i * stride] =
+                weights[0] * (row[i]! + row[i + 4]!) +
+                weights[1] * (row[i + 1]! + row[i + 3]!) +
+                weights[2] * row[i + 2]!;
         }
     });
 }
 
-function smoothedValues(grid: PackedGrid, moment: string, lowestColor: number, [nx, ny, nz]: Falls['size']): Float32Array {
+function smoothedValues(
+    grid: PackedGrid,
+    moment: string,
+    lowestColor: number,
+    [nx, ny, nz]: Falls['size'],
+): Float32Array {
     const ofCode = valuesOfCodes(grid, moment, lowestColor);
     const values = new Float32Array(nx * ny * nz);
     const counts = new Float32Array(nz);
@@ -82,19 +103,20 @@ function smoothedValues(grid: PackedGrid, moment: string, lowestColor: number, [
             const sums = values.subarray((x * ny + y) * nz, (x * ny + y + 1) * nz);
             counts.fill(0);
             for (let ix = 2 * x; ix < Math.min(2 * x + 2, grid.nx); ++ix) {
-                for (let iy = 2 * y; iy < Math.min(2 * y + 2, grid.ny); ++iy) addColumn(grid, ofCode, ix, iy, sums, counts);
+                for (let iy = 2 * y; iy < Math.min(2 * y + 2, grid.ny); ++iy)
+                    addColumn(grid, ofCode, ix, iy, sums, counts);
             }
             for (let z = 0; z < nz; ++z) sums[z] = sums[z]! / Math.max(1, counts[z]!);
             fillHoles(sums, counts);
         }
     }
-    smooth(values, nz, 1, visit => {
+    smooth(values, nz, 1, (visit) => {
         for (let at = 0; at < values.length; at += nz) visit(at);
     });
-    smooth(values, ny, nz, visit => {
+    smooth(values, ny, nz, (visit) => {
         for (let x = 0; x < nx; ++x) for (let z = 0; z < nz; ++z) visit(x * ny * nz + z);
     });
-    smooth(values, nx, ny * nz, visit => {
+    smooth(values, nx, ny * nz, (visit) => {
         for (let at = 0; at < ny * nz; ++at) visit(at);
     });
     return values;
@@ -115,10 +137,17 @@ export function fallsOf(grid: PackedGrid, moment: string, lowestColor: number): 
     const [nx, ny, nz] = size;
     const values = smoothedValues(grid, moment, lowestColor, size);
     const bytes = new Uint8Array(4 * values.length).fill(128);
-    const column = (x: number, y: number) => (Math.min(nx - 1, Math.max(0, x)) * ny + Math.min(ny - 1, Math.max(0, y))) * nz;
+    const column = (x: number, y: number) =>
+        (Math.min(nx - 1, Math.max(0, x)) * ny + Math.min(ny - 1, Math.max(0, y))) * nz;
     for (let x = 0; x < nx; ++x) {
         for (let y = 0; y < ny; ++y) {
-            const [here, west, east, south, north] = [column(x, y), column(x - 1, y), column(x + 1, y), column(x, y - 1), column(x, y + 1)];
+            const [here, west, east, south, north] = [
+                column(x, y),
+                column(x - 1, y),
+                column(x + 1, y),
+                column(x, y - 1),
+                column(x, y + 1),
+            ];
             for (let z = 0; z < nz; ++z) {
                 const at = 4 * (here + z);
                 const hasEcho = values[here + z]! > 0;

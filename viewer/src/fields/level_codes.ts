@@ -18,7 +18,10 @@ export function levelCodes(grid: PackedGrid, level: number, codes = new Uint16Ar
                 }
                 let from = grid.block[brick]! * edge ** 3 + y * edge + z;
                 for (let x = 0; x < lastX; ++x, from += edge * edge) {
-                    codes[to + x] = kind === BrickKind.codes ? grid.codes[from]! : (grid.states[from >> 2]! >> (2 * (from & 3))) & 3;
+                    codes[to + x] =
+                        kind === BrickKind.codes
+                            ? grid.codes[from]!
+                            : (grid.states[from >> 2]! >> (2 * (from & 3))) & 3;
                 }
             }
         }

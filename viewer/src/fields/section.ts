@@ -44,7 +44,14 @@ function cornersAt(grid: PackedGrid, across: [number, number, number], along: [n
     return { codes, weights };
 }
 
-function fillColumn(grid: PackedGrid, field: FlatField, column: number, rows: (LevelPair | null)[], corners: Corners, mixer: Mixer): void {
+function fillColumn(
+    grid: PackedGrid,
+    field: FlatField,
+    column: number,
+    rows: (LevelPair | null)[],
+    corners: Corners,
+    mixer: Mixer,
+): void {
     for (let row = 0; row < field.height; ++row) {
         const levels = rows[row];
         if (!levels) continue;
@@ -60,7 +67,14 @@ function fillColumn(grid: PackedGrid, field: FlatField, column: number, rows: (L
     }
 }
 
-export function cutSection(grid: PackedGrid, moment: string, from: Place, to: Place, width: number, height: number): Section {
+export function cutSection(
+    grid: PackedGrid,
+    moment: string,
+    from: Place,
+    to: Place,
+    width: number,
+    height: number,
+): Section {
     const heights = heightRange(grid.levelsM);
     const way = geodesic(from, to);
     const plane = planeOf(grid);
@@ -72,7 +86,8 @@ export function cutSection(grid: PackedGrid, moment: string, from: Place, to: Pl
         inGrid: new Uint8Array(width),
         ends: [],
     };
-    const at = (share: number): Plane => plane.toPlane(destination(from, way.azimuth, share * way.distanceM)) ?? [NaN, NaN];
+    const at = (share: number): Plane =>
+        plane.toPlane(destination(from, way.azimuth, share * way.distanceM)) ?? [NaN, NaN];
     for (let i = 0; i <= width; ++i) section.ends.push(at(i / width));
     const rows = Array.from({ length: height }, (_, row) =>
         levelsAbout(grid.levelsM, section.bottomM + ((row + 0.5) / height) * (section.topM - section.bottomM)),
@@ -91,7 +106,12 @@ export function cutSection(grid: PackedGrid, moment: string, from: Place, to: Pl
 }
 
 // The greatest value of a section, and where it is.
-export function greatestOf({ field, lengthM, bottomM, topM }: Section): { value: number; distanceM: number; heightM: number } | null {
+export function greatestOf({
+    field,
+    lengthM,
+    bottomM,
+    topM,
+}: Section): { value: number; distanceM: number; heightM: number } | null {
     let best = -1;
     for (let i = 0; i < field.states.length; ++i) {
         if (field.states[i] === CellState.value && (best < 0 || field.values[i]! > field.values[best]!)) best = i;

@@ -6,39 +6,45 @@ import { Site } from '../wire/packed_grid';
 
 const sameElevationDeg = 0.2; // as include/stormcellar/grid/sweep_choice.h has it
 
-const has = (row: SweepRow, moment: string): boolean => row.moments.some(one => one.moment === moment);
+const has = (row: SweepRow, moment: string): boolean => row.moments.some((one) => one.moment === moment);
 const isSameElevation = (one: number, other: number): boolean => Math.abs(one - other) <= sameElevationDeg;
 
 // The cuts that have the moment, by rising elevation, and at one elevation as they were measured.
 export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
-    const rising = rows.filter(row => has(row, moment)).sort((a, b) => a.elevation_deg - b.elevation_deg);
+    const rising = rows.filter((row) => has(row, moment)).sort((a, b) => a.elevation_deg - b.elevation_deg);
     const groups: SweepRow[][] = [];
     for (const row of rising) {
         const last = groups[groups.length - 1];
         if (last && isSameElevation(last[0]!.elevation_deg, row.elevation_deg)) last.push(row);
         else groups.push([row]);
     }
-    return groups.flatMap(group => group.sort((a, b) => a.sweep - b.sweep));
+    return groups.flatMap((group) => group.sort((a, b) => a.sweep - b.sweep));
 }
 
 // Returns true if `stormcellar frame --product ppi` takes this cut of its elevation.
-export const isChosen = (row: SweepRow, moment: string): boolean => row.moments.some(one => one.moment === moment && one.chosen === true);
+export const isChosen = (row: SweepRow, moment: string): boolean =>
+    row.moments.some((one) => one.moment === moment && one.chosen === true);
 
 // Returns the cut to show: the one with the number, if this volume has it at that elevation; else the nearest
 // to the elevation of those that pictures take, or of all if they take none. Null if none has the moment.
 export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, number: number | null): SweepRow | null {
-    const having = rows.filter(row => has(row, moment));
-    const named = having.find(row => row.sweep === number && isSameElevation(row.elevation_deg, elevationDeg));
+    const having = rows.filter((row) => has(row, moment));
+    const named = having.find((row) => row.sweep === number && isSameElevation(row.elevation_deg, elevationDeg));
     if (named) return named;
-    const chosen = having.filter(row => isChosen(row, moment));
+    const chosen = having.filter((row) => isChosen(row, moment));
     const off = (row: SweepRow) => Math.abs(row.elevation_deg - elevationDeg);
-    return (chosen.length > 0 ? chosen : having).reduce<SweepRow | null>((best, row) => (best === null || off(row) < off(best) ? row : best), null);
+    return (chosen.length > 0 ? chosen : having).reduce<SweepRow | null>(
+        (best, row) => (best === null || off(row) < off(best) ? row : best),
+        null,
+    );
 }
 
 // Returns the purpose of a half of a split cut; empty for a whole cut.
 export function kindOf(row: SweepRow, rows: SweepRow[]): 'surveillance' | 'doppler' | '' {
     const isDoppler = has(row, 'VEL');
-    const isSplit = rows.some(other => isSameElevation(other.elevation_deg, row.elevation_deg) && has(other, 'VEL') !== isDoppler);
+    const isSplit = rows.some(
+        (other) => isSameElevation(other.elevation_deg, row.elevation_deg) && has(other, 'VEL') !== isDoppler,
+    );
     if (!isSplit) return '';
     return isDoppler ? 'doppler' : 'surveillance';
 }

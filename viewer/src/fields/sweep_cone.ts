@@ -18,17 +18,28 @@ function beamSphereM(latitudeDeg: number): number {
 }
 
 // Returns the place of a slant range on a beam: the arc along the earth at sea level, and the height above it.
-export function beamAt(site: { latitudeDeg: number; altitudeM: number }, elevationDeg: number, rangeM: number): { arcM: number; heightM: number } {
+export function beamAt(
+    site: { latitudeDeg: number; altitudeM: number },
+    elevationDeg: number,
+    rangeM: number,
+): { arcM: number; heightM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const antenna = radius + site.altitudeM;
     const up = rangeM * Math.sin(elevationDeg * radians);
     const along = rangeM * Math.cos(elevationDeg * radians);
     const q = rangeM * rangeM + 2 * antenna * up;
-    return { arcM: radius * Math.atan2(along, antenna + up), heightM: site.altitudeM + q / (Math.sqrt(antenna * antenna + q) + antenna) };
+    return {
+        arcM: radius * Math.atan2(along, antenna + up),
+        heightM: site.altitudeM + q / (Math.sqrt(antenna * antenna + q) + antenna),
+    };
 }
 
 // Finds the beam that meets a point: the inverse of beamAt().
-export function beamTo(site: { latitudeDeg: number; altitudeM: number }, arcM: number, heightM: number): { elevationDeg: number; rangeM: number } {
+export function beamTo(
+    site: { latitudeDeg: number; altitudeM: number },
+    arcM: number,
+    heightM: number,
+): { elevationDeg: number; rangeM: number } {
     const radius = beamSphereM(site.latitudeDeg);
     const along = (radius + heightM) * Math.sin(arcM / radius);
     const up = (radius + heightM) * Math.cos(arcM / radius) - (radius + site.altitudeM);
@@ -41,10 +52,14 @@ export const noRadial = 65535;
 // Finds the nearest radial for each step of azimuth; noRadial in gaps. Where neighbors are more than one and
 // a half spacings apart, each reaches half a spacing, and nothing was seen in between.
 export function radialsByAzimuth({ azimuthsDeg, gateCounts }: PackedSweep): Uint16Array {
-    const order = [...azimuthsDeg.keys()].filter(i => gateCounts[i]! > 0 && Number.isFinite(azimuthsDeg[i]!)).sort((a, b) => azimuthsDeg[a]! - azimuthsDeg[b]!);
+    const order = [...azimuthsDeg.keys()]
+        .filter((i) => gateCounts[i]! > 0 && Number.isFinite(azimuthsDeg[i]!))
+        .sort((a, b) => azimuthsDeg[a]! - azimuthsDeg[b]!);
     const found = new Uint16Array(azimuthSteps).fill(noRadial);
     if (order.length === 0) return found;
-    const steps = order.map((radial, i) => (azimuthsDeg[order[(i + 1) % order.length]!]! - azimuthsDeg[radial]! + 360) % 360 || 360);
+    const steps = order.map(
+        (radial, i) => (azimuthsDeg[order[(i + 1) % order.length]!]! - azimuthsDeg[radial]! + 360) % 360 || 360,
+    );
     const spacing = [...steps].sort((a, b) => a - b)[steps.length >> 1]!;
     let next = 0;
     for (let step = 0; step < azimuthSteps; ++step) {

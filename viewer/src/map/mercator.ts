@@ -31,7 +31,10 @@ const deepestZoom = 10;
 
 export function mapPoint(place: Place): MapPoint {
     const latitude = Math.min(mostLatitudeDeg, Math.max(-mostLatitudeDeg, place.latitudeDeg));
-    return [(place.longitudeDeg + 180) / 360, 0.5 - Math.log(Math.tan(Math.PI / 4 + (latitude * radians) / 2)) / (2 * Math.PI)];
+    return [
+        (place.longitudeDeg + 180) / 360,
+        0.5 - Math.log(Math.tan(Math.PI / 4 + (latitude * radians) / 2)) / (2 * Math.PI),
+    ];
 }
 
 export function placeOfPoint([x, y]: MapPoint): Place {
@@ -86,7 +89,13 @@ function westernmost(points: MapPoint[]): number {
 }
 
 // A view of all points. `clear` are pixels at each side (left, top, right, bottom) that the page covers.
-export function fittedMap(points: MapPoint[], width: number, height: number, clear: [number, number, number, number], mostAcross = mostScale): MapView {
+export function fittedMap(
+    points: MapPoint[],
+    width: number,
+    height: number,
+    clear: [number, number, number, number],
+    mostAcross = mostScale,
+): MapView {
     const [left, top, right, bottom] = clear;
     const whole: MapView = { center: [0.5, 0.4], scale: width, width, height };
     if (points.length === 0) return held(whole);
@@ -98,7 +107,10 @@ export function fittedMap(points: MapPoint[], width: number, height: number, cle
     const room = [Math.max(32, width - left - right), Math.max(32, height - top - bottom)] as const;
     const scale = Math.min(room[0] / Math.max(1e-9, east - west), room[1] / Math.max(1e-9, south - north), mostAcross);
     const view = held({ center: [(west + east) / 2, (north + south) / 2], scale, width, height });
-    return held({ ...view, center: [view.center[0] + (right - left) / 2 / view.scale, view.center[1] + (bottom - top) / 2 / view.scale] });
+    return held({
+        ...view,
+        center: [view.center[0] + (right - left) / 2 / view.scale, view.center[1] + (bottom - top) / 2 / view.scale],
+    });
 }
 
 export interface Tile {
@@ -144,9 +156,14 @@ const turned = (degrees: number): number => ((degrees % 360) + 360) % 360;
 
 // The box of places that lie about a longitude.
 export function boxAbout(middleDeg: number, places: Place[]): MapBox {
-    const longitudes = places.map(place => middleDeg - 180 + turned(place.longitudeDeg - middleDeg + 180));
-    const latitudes = places.map(place => place.latitudeDeg);
-    return { west: Math.min(...longitudes), south: Math.min(...latitudes), east: Math.max(...longitudes), north: Math.max(...latitudes) };
+    const longitudes = places.map((place) => middleDeg - 180 + turned(place.longitudeDeg - middleDeg + 180));
+    const latitudes = places.map((place) => place.latitudeDeg);
+    return {
+        west: Math.min(...longitudes),
+        south: Math.min(...latitudes),
+        east: Math.max(...longitudes),
+        north: Math.max(...latitudes),
+    };
 }
 
 // A box with a margin at each side, as a share of its own sides; no wider than the earth.
@@ -154,7 +171,12 @@ export function grownBox({ west, south, east, north }: MapBox, share: number): M
     const wide = Math.min(360, east - west);
     const dx = Math.min(share * wide, (360 - wide) / 2);
     const dy = share * (north - south);
-    return { west: west - dx, south: Math.max(-85, south - dy), east: west + wide + dx, north: Math.min(85, north + dy) };
+    return {
+        west: west - dx,
+        south: Math.max(-85, south - dy),
+        east: west + wide + dx,
+        north: Math.min(85, north + dy),
+    };
 }
 
 // Returns true if a circle about a place meets the view.

@@ -52,5 +52,7 @@ export function outlineOf(facts: GridFacts): Place[] {
 export function circleOf(facts: GridFacts): Place[] {
     const center: Place = { latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] };
     const radiusM = Math.min(...halvesM(facts));
-    return Array.from({ length: pointsOfACircle }, (_, i) => destination(center, (2 * Math.PI * i) / pointsOfACircle, radiusM));
+    return Array.from({ length: pointsOfACircle }, (_, i) =>
+        destination(center, (2 * Math.PI * i) / pointsOfACircle, radiusM),
+    );
 }

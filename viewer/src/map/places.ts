@@ -15,8 +15,8 @@ export interface StationPlace extends Place {
 // A station without a known place is in the list of domains alone.
 export function stationPlaces(stations: Station[]): StationPlace[] {
     return stations
-        .filter(one => one.latitude_deg !== undefined && one.longitude_deg !== undefined)
-        .map(one => ({
+        .filter((one) => one.latitude_deg !== undefined && one.longitude_deg !== undefined)
+        .map((one) => ({
             icao: one.station,
             name: [one.name, one.state].filter(Boolean).join(', '),
             latitudeDeg: one.latitude_deg!,
@@ -99,19 +99,19 @@ export function search(stations: StationPlace[], cities: City[], text: string): 
         return simple(name).includes(wanted) || simple(icao).includes(wanted) ? 3 : 4;
     };
     const named = stations
-        .map(station => ({ station, rank: rank(station) }))
-        .filter(one => one.rank < 4)
+        .map((station) => ({ station, rank: rank(station) }))
+        .filter((one) => one.rank < 4)
         .sort((a, b) => a.rank - b.rank)
         .map(({ station }) => own(station));
-    const found = new Map(named.map(one => [one.station.icao, one]));
-    const ofThisName = cities.filter(city => simple(city.name).startsWith(wanted)).slice(0, mostCities);
+    const found = new Map(named.map((one) => [one.station.icao, one]));
+    const ofThisName = cities.filter((city) => simple(city.name).startsWith(wanted)).slice(0, mostCities);
     for (const city of ofThisName) {
         const place: Place = { latitudeDeg: city.place[1], longitudeDeg: city.place[0] };
         stations
-            .map(station => ({ station, near: city.name, distanceM: geodesic(place, station).distanceM }))
+            .map((station) => ({ station, near: city.name, distanceM: geodesic(place, station).distanceM }))
             .sort((a, b) => a.distanceM - b.distanceM)
             .slice(0, stationsOfACity)
-            .forEach(one => {
+            .forEach((one) => {
                 if (!found.has(one.station.icao)) found.set(one.station.icao, one);
             });
     }

@@ -26,7 +26,9 @@ export class Ahead {
         const { app } = this;
         const { times, at, isPlaying } = app.player;
         const isLeft = app.whetherLeft();
-        const next = isPlaying ? Array.from({ length: loadedAhead }, (_, i) => nextOf(app.player, i + 1)) : [at + 1, at - 1];
+        const next = isPlaying
+            ? Array.from({ length: loadedAhead }, (_, i) => nextOf(app.player, i + 1))
+            : [at + 1, at - 1];
         // The server computes what is halved: of grids in parts one is asked for after the other.
         const isInParts = app.shown?.loaded.stream != null;
         let before = Promise.resolve();
@@ -35,7 +37,7 @@ export class Ahead {
             // The server makes frames in between on request: none is asked for that may not be shown.
             if (time === undefined || (app.timeline.isBetween(time) && (!isPlaying || i >= betweenAhead))) continue;
             const load = async () => {
-                if (!isLeft()) await this.take(time, true).catch(error => app.leaveOut(time, error, isLeft));
+                if (!isLeft()) await this.take(time, true).catch((error) => app.leaveOut(time, error, isLeft));
             };
             before = isInParts ? before.then(load) : load();
         }

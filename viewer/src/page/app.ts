@@ -30,7 +30,8 @@ const farthestMadeMs = 30 * 60 * 1000;
 // 'units': the units of texts; 'time': the times, or which of them is wanted; 'restored': the graphics
 // processor forgot all; 'map': the map of all stations is opened or left; 'cells': more of a grid in parts, or
 // of the layers, is there; 'notice': what a user must know of the server, the radars, or what was asked for.
-export type Happening = 'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells' | 'notice';
+export type Happening =
+    'choices' | 'shown' | 'view' | 'camera' | 'units' | 'time' | 'restored' | 'map' | 'cells' | 'notice';
 
 export interface Shown {
     key: string;
@@ -58,7 +59,11 @@ export class App {
     readonly timeline = new Timeline(
         this.state.time === 'latest',
         () => this.state.betweenS,
-        () => Math.max(this.server.nowMs + toleratedFutureMs, Date.parse(this.domain?.moments.find(one => one.moment === this.state.moment)?.newest ?? '') || 0),
+        () =>
+            Math.max(
+                this.server.nowMs + toleratedFutureMs,
+                Date.parse(this.domain?.moments.find((one) => one.moment === this.state.moment)?.newest ?? '') || 0,
+            ),
     );
     private heard = new Map<Happening, (() => void)[]>();
     private coming = 0; // times that are not shown yet
@@ -118,7 +123,7 @@ export class App {
     }
     get unit(): string {
         const moment = this.shown?.moment ?? this.state.moment;
-        return this.domain?.moments.find(one => one.moment === moment)?.units ?? '';
+        return this.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
     }
 
     // The view was changed by a panel.
@@ -172,16 +177,23 @@ export class App {
     }
 
     async findDomains(): Promise<void> {
-        const found = (await domains()).filter(domain => domain.part_of === null && domain.moments.length > 0);
-        this.domains = [...found, ...this.domains.filter(domain => isRegion(domain.domain))];
+        const found = (await domains()).filter((domain) => domain.part_of === null && domain.moments.length > 0);
+        this.domains = [...found, ...this.domains.filter((domain) => isRegion(domain.domain))];
         if (this.missed === '' || this.missedTime !== '' || this.unreadTime !== '') return;
         if (this.isAskedThere) this.miss('');
         // Sites that reach it may have come.
-        else if (isRegion(this.askedDomain)) void this.findRegion(this.askedDomain).then(() => this.missedTime === '' && this.isAskedThere && this.miss(''), () => undefined);
+        else if (isRegion(this.askedDomain))
+            void this.findRegion(this.askedDomain).then(
+                () => this.missedTime === '' && this.isAskedThere && this.miss(''),
+                () => undefined,
+            );
     }
     private get isAskedThere(): boolean {
-        const own = this.domains.find(one => one.domain.toLowerCase() === this.askedDomain.toLowerCase());
-        return own !== undefined && (this.isOnMap || this.askedMoment === '' || own.moments.some(one => one.moment === this.askedMoment));
+        const own = this.domains.find((one) => one.domain.toLowerCase() === this.askedDomain.toLowerCase());
+        return (
+            own !== undefined &&
+            (this.isOnMap || this.askedMoment === '' || own.moments.some((one) => one.moment === this.askedMoment))
+        );
     }
 
     get hasLists(): boolean {
@@ -201,7 +213,8 @@ export class App {
         if (this.isOnMap) return;
         if (!shown) return this.choose(state.domain, this.askedMoment);
         // Ask again for what the user chose while there was no answer.
-        if (shown.domain !== state.domain || shown.moment !== state.moment) return this.choose(state.domain, this.askedMoment);
+        if (shown.domain !== state.domain || shown.moment !== state.moment)
+            return this.choose(state.domain, this.askedMoment);
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
@@ -213,7 +226,7 @@ export class App {
     // A region is a domain once its sites and times are known. Errors: what the server says of its box.
     async findRegion(domain: string): Promise<void> {
         const found = await region(domain);
-        this.domains = [...this.domains.filter(one => one.domain !== domain), found];
+        this.domains = [...this.domains.filter((one) => one.domain !== domain), found];
     }
 
     private openMap(): void {
@@ -237,7 +250,7 @@ export class App {
     }
 
     get domain(): Domain | undefined {
-        return this.domains.find(one => one.domain === this.state.domain) ?? this.domains[0];
+        return this.domains.find((one) => one.domain === this.state.domain) ?? this.domains[0];
     }
 
     private leaveMap(): void {
@@ -258,7 +271,7 @@ export class App {
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
         [this.askedDomain, this.askedMoment] = [domain, moment];
-        if (isRegion(domain) && !this.domains.some(one => one.domain === domain)) {
+        if (isRegion(domain) && !this.domains.some((one) => one.domain === domain)) {
             const choice = ++this.choices;
             try {
                 await this.findRegion(domain);
@@ -276,8 +289,8 @@ export class App {
             }
             if (choice !== this.choices) return;
         }
-        domain = this.domains.find(one => one.domain.toLowerCase() === domain.toLowerCase())?.domain ?? domain;
-        const isThere = domain === '' || this.domains.some(one => one.domain === domain);
+        domain = this.domains.find((one) => one.domain.toLowerCase() === domain.toLowerCase())?.domain ?? domain;
+        const isThere = domain === '' || this.domains.some((one) => one.domain === domain);
         if (!isThere && this.domains.length > 1) {
             this.backToShown();
             this.openMap();
@@ -285,14 +298,16 @@ export class App {
         }
         this.leaveMap();
         this.state.domain = domain !== '' && isThere ? domain : (this.domains[0]?.domain ?? '');
-        const moments = (this.domain?.moments ?? []).map(one => one.moment);
+        const moments = (this.domain?.moments ?? []).map((one) => one.moment);
         const before = this.state.moment;
         this.state.moment = moments.includes(moment) ? moment : (moments[0] ?? '');
         // The threshold is a number in the unit of its moment.
         if (before !== '' && this.state.moment !== before) this.state.least = null;
         const missed = [
             isThere ? '' : texts.notice.otherDomain(domain, this.state.domain),
-            moment === '' || moment === this.state.moment ? '' : texts.notice.otherMoment(this.state.domain, moment, this.state.moment),
+            moment === '' || moment === this.state.moment
+                ? ''
+                : texts.notice.otherMoment(this.state.domain, moment, this.state.moment),
             this.unreadTime === '' ? '' : texts.notice.noTime(this.unreadTime),
         ];
         this.miss(missed.filter(Boolean).join(' '));
@@ -313,7 +328,8 @@ export class App {
             // A time before those of the first answer is looked for among all.
             const isOlder = soon.more && !this.player.follows && Date.parse(time) < Date.parse(soon.times[0] ?? '');
             if (isOlder) await this.findOlder();
-            if (!this.player.follows && !this.timeline.find(time)) this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
+            if (!this.player.follows && !this.timeline.find(time))
+                this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
             await this.showTime(this.player.follows ? undefined : time);
             if (soon.more && !isOlder) await this.findOlder();
         } catch (error) {
@@ -323,7 +339,13 @@ export class App {
     // Returns to the domain and moment that are shown. The threshold of another moment is in another unit, so it goes.
     private backToShown(): void {
         const { shown, state } = this;
-        if (shown) this.state = { ...state, domain: shown.domain, moment: shown.moment, least: shown.moment === state.moment ? state.least : null };
+        if (shown)
+            this.state = {
+                ...state,
+                domain: shown.domain,
+                moment: shown.moment,
+                least: shown.moment === state.moment ? state.least : null,
+            };
     }
     // If the user does not follow any more, but was shown no other time yet, keeps the time of the player.
     private stayWhoPaused(): void {
@@ -347,11 +369,14 @@ export class App {
     private async findOlder(): Promise<void> {
         const { domain, moment } = this.state;
         const isLeft = this.whetherLeft();
-        for (let more = true; more; ) {
+        for (let more = true; more;) {
             const older = await times(domain, moment, mostTimes, this.timeline.stored[0]);
             if (isLeft()) return;
             more = older.more && older.times.length > 1;
-            this.timeline.take([...older.times.filter(time => time < this.timeline.stored[0]!), ...this.timeline.stored]);
+            this.timeline.take([
+                ...older.times.filter((time) => time < this.timeline.stored[0]!),
+                ...this.timeline.stored,
+            ]);
             this.tell('time');
         }
     }
@@ -394,7 +419,8 @@ export class App {
             const stays = !wasLate && !this.player.follows && !this.player.isPlaying;
             if (stays && by !== 0) this.player = at(this.player, by > 0 ? index : index - 1);
             else if (stays) this.timeline.find(wanted!);
-            if (stays && by === 0 && this.missedTime === '') this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
+            if (stays && by === 0 && this.missedTime === '')
+                this.miss([this.missed, texts.notice.otherTime(time)].filter(Boolean).join(' '), time);
             if (this.timeline.now !== undefined) await this.showTime(stays ? wanted : undefined, by);
         } finally {
             --this.coming;
@@ -402,7 +428,14 @@ export class App {
     }
     shownOf(time: string, loaded: LoadedGrid): Shown {
         const { domain, moment } = this.state;
-        return { key: Loader.key(domain, moment, time), loaded, domain, moment, time, isBetween: this.timeline.isBetween(time) };
+        return {
+            key: Loader.key(domain, moment, time),
+            loaded,
+            domain,
+            moment,
+            time,
+            isBetween: this.timeline.isBetween(time),
+        };
     }
     load(time: string): Promise<LoadedGrid> {
         return this.loader.load(this.state.domain, this.state.moment, time, this.timeline.isBetween(time));
@@ -410,7 +443,9 @@ export class App {
     // Leaves out a time whose grid is gone. Returns false if the time stays, so that the caller tells the failure.
     leaveOut(time: string, error: unknown, isLeft: () => boolean): boolean {
         // The server also answers 410 for a grid in parts that was made again meanwhile.
-        const isGone = error instanceof ApiError && (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
+        const isGone =
+            error instanceof ApiError &&
+            (error.status === 404 || (error.status === 410 && !error.message.includes('made again')));
         if (isLeft() || !isGone || !this.timeline.leaveOut(time)) return false;
         this.tell('time');
         return true;
@@ -420,7 +455,8 @@ export class App {
         const { book } = this;
         // The colors stay while a loop plays. The halved grid of a grid in parts tells whether it shows clear air.
         const isOther = this.shown?.domain !== shown.domain || !this.player.isPlaying;
-        if (book && isOther) book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
+        if (book && isOther)
+            book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
         this.shown = shown;
         this.unreadTime = '';
         this.state.time = this.player.follows ? 'latest' : shown.time;
@@ -463,12 +499,21 @@ export class App {
 
     private tick(): void {
         if (!this.player.isPlaying) return;
-        const { player, waitsFor } = this.coming === 0 && this.isShownWhole() ? advanced(this.player, time => this.ahead.has(time)) : { player: this.player, waitsFor: null };
+        const { player, waitsFor } =
+            this.coming === 0 && this.isShownWhole()
+                ? advanced(this.player, (time) => this.ahead.has(time))
+                : { player: this.player, waitsFor: null };
         if (this.coming > 0) this.say(texts.waiting(this.timeline.now ?? ''), false);
         if (waitsFor !== null) {
             this.say(texts.waiting(waitsFor));
             const isLeft = this.whetherLeft();
-            this.ahead.take(waitsFor, false).catch(error => this.leaveOut(waitsFor, error, isLeft) || this.failed(error, this.player.isPlaying && !isLeft()));
+            this.ahead
+                .take(waitsFor, false)
+                .catch(
+                    (error) =>
+                        this.leaveOut(waitsFor, error, isLeft) ||
+                        this.failed(error, this.player.isPlaying && !isLeft()),
+                );
         } else if (player !== this.player) {
             this.player = player;
             void this.showTime();
@@ -483,8 +528,11 @@ export class App {
     }
 
     private isPartOfShown(domain: string | undefined): boolean {
-        const own = this.domains.find(one => one.domain === this.state.domain) as Region | undefined;
-        return domain === this.state.domain || (isRegion(this.state.domain) && (own?.moments.some(one => one.sites.includes(domain ?? '')) ?? false));
+        const own = this.domains.find((one) => one.domain === this.state.domain) as Region | undefined;
+        return (
+            domain === this.state.domain ||
+            (isRegion(this.state.domain) && (own?.moments.some((one) => one.sites.includes(domain ?? '')) ?? false))
+        );
     }
     // Takes a new volume of a site of the shown region: any instant near it may have become another one. If
     // `volume` is undefined, any instant at all may have.
@@ -493,9 +541,10 @@ export class App {
         const isLeft = this.whetherLeft();
         await this.findRegion(domain);
         if (isLeft()) return;
-        const isNear = (time: string) => volume === undefined || Math.abs(Date.parse(time) - Date.parse(volume)) <= farthestMadeMs;
+        const isNear = (time: string) =>
+            volume === undefined || Math.abs(Date.parse(time) - Date.parse(volume)) <= farthestMadeMs;
         const of = `${domain}/${moment}/`;
-        this.loader.forgetAll(key => key.startsWith(of) && isNear(key.slice(of.length)));
+        this.loader.forgetAll((key) => key.startsWith(of) && isNear(key.slice(of.length)));
         const stored = (await times(domain, moment, soonTimes)).times;
         if (isLeft()) return;
         this.takeNewTimes(stored);
@@ -504,7 +553,13 @@ export class App {
 
     // The server has other times now; `changedTime` is that of a grid that was made again, `oldest` the first that is
     // left after others were evicted.
-    async takeNews(domain: string | undefined, moment: string | undefined, changedTime: string | undefined, oldest = '', most = soonTimes): Promise<void> {
+    async takeNews(
+        domain: string | undefined,
+        moment: string | undefined,
+        changedTime: string | undefined,
+        oldest = '',
+        most = soonTimes,
+    ): Promise<void> {
         if (this.domains.length === 0) {
             if (!this.book) return this.begin();
             await this.findDomains();
@@ -512,13 +567,23 @@ export class App {
             return;
         }
         // A moment may come after the others of its station.
-        const isKnown = this.domains.some(one => one.domain === domain && (moment === undefined || one.moments.some(own => own.moment === moment)));
+        const isKnown = this.domains.some(
+            (one) =>
+                one.domain === domain && (moment === undefined || one.moments.some((own) => own.moment === moment)),
+        );
         if (domain !== undefined && !domain.includes('.') && !isKnown) {
             await this.findDomains();
             this.tell('choices');
         }
         const isOfShown = domain === this.state.domain && moment === this.state.moment;
-        const isOld = changedTime ? outdatedBy(`${domain}/${moment}`, changedTime, isOfShown ? this.timeline.stored : [], `${this.state.domain}/${this.state.moment}`) : () => false;
+        const isOld = changedTime
+            ? outdatedBy(
+                  `${domain}/${moment}`,
+                  changedTime,
+                  isOfShown ? this.timeline.stored : [],
+                  `${this.state.domain}/${this.state.moment}`,
+              )
+            : () => false;
         this.loader.forgetAll(isOld);
         // A surface may be that of another moment.
         const isOfSurface = moment !== undefined && moment === this.state.layers.surface?.moment;
@@ -529,7 +594,10 @@ export class App {
         const { times: newest, more } = await times(domain, moment, most);
         if (domain !== this.state.domain || moment !== this.state.moment) return;
         // If the server has no more, it has evicted the older ones.
-        this.takeNewTimes([...this.timeline.stored.filter(time => more && time >= oldest && time < newest[0]!), ...newest]);
+        this.takeNewTimes([
+            ...this.timeline.stored.filter((time) => more && time >= oldest && time < newest[0]!),
+            ...newest,
+        ]);
         const now = this.timeline.now;
         const isOfNow = now !== undefined && isOld(Loader.key(domain, moment, now));
         // After a failure the page may wait for another time than that of the picture.

@@ -11,7 +11,7 @@ import { haloed } from './labels';
 export function stepOf(range: number): number {
     const rough = range / 8;
     const power = 10 ** Math.floor(Math.log10(rough));
-    return ([1, 2, 5, 10].find(step => step * power >= rough) ?? 10) * power;
+    return ([1, 2, 5, 10].find((step) => step * power >= rough) ?? 10) * power;
 }
 
 export class ColorBar {
@@ -22,7 +22,16 @@ export class ColorBar {
     // Draws nothing if the same bar is there already.
     show(table: ColorTable, unit: ShownUnit, least: number | null): void {
         const { clientWidth, clientHeight } = this.canvas;
-        const wanted = [table, unit.symbol, unit.perStored, least, clientWidth, clientHeight, window.devicePixelRatio, textScale()];
+        const wanted = [
+            table,
+            unit.symbol,
+            unit.perStored,
+            least,
+            clientWidth,
+            clientHeight,
+            window.devicePixelRatio,
+            textScale(),
+        ];
         if (wanted.every((part, i) => part === this.drawn[i])) return;
         this.drawn = wanted;
         drawBar(this.canvas, table, unit, least);

@@ -17,7 +17,7 @@ export function addCompass(app: App, drawing: Drawing): void {
         drawing.picture.focus();
     });
     drawing.labels.after(place);
-    drawing.addOverlay(pen => {
+    drawing.addOverlay((pen) => {
         const { left, top, width, height } = place.getBoundingClientRect();
         pen.translate(left + width / 2, top + height / 2);
         pen.scale(textScale(), textScale());

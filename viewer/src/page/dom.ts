@@ -24,7 +24,7 @@ export function button(id: string, text: string, action: () => void): HTMLButton
 
 // Escape in a panel closes it, and the keyboard is where the panel was opened.
 export function leaveByEscape(panel: HTMLElement, openerId: string, close: () => void): void {
-    panel.addEventListener('keydown', event => {
+    panel.addEventListener('keydown', (event) => {
         if (event.key !== 'Escape') return;
         close();
         element(openerId).focus();
@@ -47,9 +47,14 @@ export function paragraph(text: string): HTMLParagraphElement {
 }
 
 // Fills a list with names, of which one is chosen.
-export function putOptions(select: HTMLSelectElement, names: string[], chosen: string | undefined, textOf = (name: string) => name): void {
+export function putOptions(
+    select: HTMLSelectElement,
+    names: string[],
+    chosen: string | undefined,
+    textOf = (name: string) => name,
+): void {
     select.replaceChildren(
-        ...names.map(name => {
+        ...names.map((name) => {
             const option = document.createElement('option');
             option.value = name;
             option.textContent = textOf(name);

@@ -65,10 +65,15 @@ export class Drawing {
             app.loader.decoder,
             app.loader.budget.mostCells,
             () => this.drawLater(),
-            error => app.fail(error),
+            (error) => app.fail(error),
         );
         const { loader } = app;
-        this.windows = new Windows(loader.decoder, loader.budget.bytes, () => app.cellsCame(), error => app.fail(error));
+        this.windows = new Windows(
+            loader.decoder,
+            loader.budget.bytes,
+            () => app.cellsCame(),
+            (error) => app.fail(error),
+        );
         loader.besides = () => this.windows!.bytes;
         this.layers = new LayerMaker(app, this.windows, () => app.cellsCame());
         app.alongside = (next, isAhead) => this.layers!.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
@@ -145,10 +150,13 @@ export class Drawing {
     private drawLater(): void {
         if (this.isWaiting) return;
         this.isWaiting = true;
-        window.setTimeout(() => {
-            this.isWaiting = false;
-            this.draw();
-        }, Math.max(leastBetweenMs, this.lastMs));
+        window.setTimeout(
+            () => {
+                this.isWaiting = false;
+                this.draw();
+            },
+            Math.max(leastBetweenMs, this.lastMs),
+        );
     }
 
     private rung(isMoving: boolean): Rung {
@@ -178,7 +186,13 @@ export class Drawing {
     // Returns true if the picture has all that the view asks for, but for the detail of a grid in parts.
     private get isComplete(): boolean {
         const { shown, state } = this.app!;
-        return !this.layers!.isWaiting && !this.ground!.isWaiting && shown?.moment === state.moment && shown.domain === state.domain && !this.renderer.isLost;
+        return (
+            !this.layers!.isWaiting &&
+            !this.ground!.isWaiting &&
+            shown?.moment === state.moment &&
+            shown.domain === state.domain &&
+            !this.renderer.isLost
+        );
     }
 
     private drawNow(): void {
@@ -252,9 +266,14 @@ export class Drawing {
         }
         const scale = textScale();
         const taken = [...document.querySelectorAll('header, footer, section, #bar, #legend, #compass')]
-            .map(one => one.getBoundingClientRect())
-            .filter(rect => rect.width > 0)
-            .map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale }));
+            .map((one) => one.getBoundingClientRect())
+            .filter((rect) => rect.width > 0)
+            .map(({ left, top, right, bottom }) => ({
+                left: left / scale,
+                top: top / scale,
+                right: right / scale,
+                bottom: bottom / scale,
+            }));
         const { pen } = this;
         const ratio = window.devicePixelRatio || 1;
         clearLabels(pen, ratio);

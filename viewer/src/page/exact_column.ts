@@ -10,5 +10,8 @@ export async function gridForColumn({ grid, stream }: LoadedGrid, [x, y]: [numbe
     const [, columns, layers] = grid.bricks;
     const first = (Math.floor(x / grid.brickEdge) * columns + Math.floor(y / grid.brickEdge)) * layers;
     const query = { bricks: `${first}-${first + layers - 1}`, id: grid.id };
-    return withBricks(grid, readPackedBricks(new Uint8Array(await packed(stream.domain, stream.moment, stream.time, query))));
+    return withBricks(
+        grid,
+        readPackedBricks(new Uint8Array(await packed(stream.domain, stream.moment, stream.time, query))),
+    );
 }

@@ -31,10 +31,10 @@ export class FactsOfShown {
         const of = (this.sitesOf = shown.loaded);
         this.regionSites = null;
         this.askingSites = regionSites(shown.domain, shown.moment, shown.time).then(
-            found => {
+            (found) => {
                 if (this.sitesOf === of) this.regionSites = found;
             },
-            error => {
+            (error) => {
                 if (this.sitesOf === of) this.sitesOf = null;
                 throw error;
             },
@@ -50,7 +50,7 @@ export class FactsOfShown {
             this.facts = null;
             this.asking = gridFacts(shown.domain, shown.moment, shown.time);
             this.asking.then(
-                facts => {
+                (facts) => {
                     if (this.of === of) this.facts = facts;
                 },
                 () => {

@@ -56,12 +56,17 @@ export class FetchedInTurn<T> {
     take(key: string, fetch: () => Promise<T>, isAhead: boolean): Promise<void> {
         const known = this.known(key);
         if (known && !this.isToRetry(key)) {
-            const at = this.waiting.findIndex(one => one.key === key);
+            const at = this.waiting.findIndex((one) => one.key === key);
             if (at > 0 && !isAhead) this.waiting.unshift(...this.waiting.splice(at, 1));
             return known.done;
         }
         let settle = (): void => undefined;
-        const wanted: Wanted<T> = { value: null, error: undefined, failedAt: 0, done: new Promise(done => (settle = done)) };
+        const wanted: Wanted<T> = {
+            value: null,
+            error: undefined,
+            failedAt: 0,
+            done: new Promise((done) => (settle = done)),
+        };
         this.kept.set(key, wanted);
         const run = async () => {
             try {

@@ -9,8 +9,20 @@ import { boxOf } from '../scene/grid_box';
 const degreesAPixel = 0.2;
 const degreesASecond = 60; // by arrows
 const faster = 4; // with Shift
-const ways: Record<string, [number, number, number]> = { w: [1, 0, 0], s: [-1, 0, 0], a: [0, -1, 0], d: [0, 1, 0], e: [0, 0, 1], q: [0, 0, -1] };
-const turns: Record<string, [number, number]> = { arrowleft: [-1, 0], arrowright: [1, 0], arrowup: [0, 1], arrowdown: [0, -1] };
+const ways: Record<string, [number, number, number]> = {
+    w: [1, 0, 0],
+    s: [-1, 0, 0],
+    a: [0, -1, 0],
+    d: [0, 1, 0],
+    e: [0, 0, 1],
+    q: [0, 0, -1],
+};
+const turns: Record<string, [number, number]> = {
+    arrowleft: [-1, 0],
+    arrowright: [1, 0],
+    arrowup: [0, 1],
+    arrowdown: [0, -1],
+};
 
 export class FlyTool implements Tool {
     private held = new Set<string>();
@@ -58,7 +70,15 @@ export class FlyTool implements Tool {
     private window(): Window | null {
         const geometry = this.drawing.geometry();
         const { shown, state } = this.app;
-        return shown && geometry && { box: boxOf(shown.loaded.grid), exaggeration: state.exaggeration, width: geometry.width, height: geometry.height };
+        return (
+            shown &&
+            geometry && {
+                box: boxOf(shown.loaded.grid),
+                exaggeration: state.exaggeration,
+                width: geometry.width,
+                height: geometry.height,
+            }
+        );
     }
 
     private key(event: KeyboardEvent, isDown: boolean): void {
@@ -90,7 +110,8 @@ export class FlyTool implements Tool {
         for (const name of this.held) {
             const [way, turn] = [ways[name], turns[name]];
             if (way) camera = flown(camera, view, way[0] * meters, way[1] * meters, way[2] * meters);
-            if (turn) camera = turned(camera, view, turn[0] * degreesASecond * seconds, turn[1] * degreesASecond * seconds);
+            if (turn)
+                camera = turned(camera, view, turn[0] * degreesASecond * seconds, turn[1] * degreesASecond * seconds);
         }
         this.app.moved(camera);
         requestAnimationFrame(() => this.move());

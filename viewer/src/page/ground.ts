@@ -19,9 +19,14 @@ const coarseFromM = 6e5;
 async function mapAround(place: GridPlace): Promise<MapAnswer> {
     const plane = planeOf(place);
     const [halfXM, halfYM] = halfWidthsM(place);
-    const corners = [-1, 0, 1].flatMap(x => [-1, 0, 1].map(y => plane.toPlace([x * widerThanGrid * halfXM, y * widerThanGrid * halfYM])));
+    const corners = [-1, 0, 1].flatMap((x) =>
+        [-1, 0, 1].map((y) => plane.toPlace([x * widerThanGrid * halfXM, y * widerThanGrid * halfYM])),
+    );
     const box = boxAbout(plane.toPlace([0, 0]).longitudeDeg, corners);
-    return map({ ...box, south: Math.max(-89, box.south), north: Math.min(89, box.north) }, halfXM > coarseFromM ? 1 : 0);
+    return map(
+        { ...box, south: Math.max(-89, box.south), north: Math.min(89, box.north) },
+        halfXM > coarseFromM ? 1 : 0,
+    );
 }
 
 interface MapOnPlane {
@@ -37,12 +42,18 @@ async function projectedMap(place: GridPlace): Promise<MapOnPlane> {
     const all = projected(found, plane);
     return {
         lines: mapLines(all, Math.max(halfXM, halfYM)),
-        water: waterMask(ringsOf(all, 'coast', plane), ringsOf(all, 'lake', plane), widerThanGrid * halfXM, widerThanGrid * halfYM),
+        water: waterMask(
+            ringsOf(all, 'coast', plane),
+            ringsOf(all, 'lake', plane),
+            widerThanGrid * halfXM,
+            widerThanGrid * halfYM,
+        ),
         cities: cityMarks(found.cities, plane, halfXM, halfYM),
     };
 }
 
-const keyOf = (domain: string, { nx, ny, spacing, centerDeg, offsetCells }: GridPlace): string => `${domain} ${nx} ${ny} ${spacing} ${centerDeg.join()} ${offsetCells.join()}`;
+const keyOf = (domain: string, { nx, ny, spacing, centerDeg, offsetCells }: GridPlace): string =>
+    `${domain} ${nx} ${ny} ${spacing} ${centerDeg.join()} ${offsetCells.join()}`;
 
 export class Ground {
     marks: Mark[] = [];
@@ -81,7 +92,7 @@ export class Ground {
         const { grid } = loaded;
         const place = keyOf(domain, grid);
         // Sites of a region come and go with time.
-        const key = `${place} ${this.app.state.units.distance.name} ${grid.sites.map(site => site.icao).join()}`;
+        const key = `${place} ${this.app.state.units.distance.name} ${grid.sites.map((site) => site.icao).join()}`;
         if (this.shownKey === key) return;
         // No map of another place lies below the grid.
         if (!this.shownKey.startsWith(`${place} `)) this.put(grid, null);

@@ -10,16 +10,35 @@ import { Rect, haloed } from './labels';
 const room = 26; // for its numbers, to the left
 
 // In the pen's pixels, of which each is `pixelRatio` of the picture's. Returns what it covers.
-export function drawHeightScale(pen: CanvasRenderingContext2D, geometry: ViewGeometry, units: Units, taken: Rect[], pixelRatio: number): Rect[] {
+export function drawHeightScale(
+    pen: CanvasRenderingContext2D,
+    geometry: ViewGeometry,
+    units: Units,
+    taken: Rect[],
+    pixelRatio: number,
+): Rect[] {
     const isFree = (x: number, y: number) => {
         const [left, top] = [x / pixelRatio, y / pixelRatio];
-        const inside = left > room && top > 10 && left < geometry.width / pixelRatio - 10 && top < geometry.height / pixelRatio - 10;
-        return inside && !taken.some(rect => left > rect.left - 6 && left - room < rect.right && top > rect.top - 8 && top < rect.bottom + 8);
+        const inside =
+            left > room &&
+            top > 10 &&
+            left < geometry.width / pixelRatio - 10 &&
+            top < geometry.height / pixelRatio - 10;
+        return (
+            inside &&
+            !taken.some(
+                (rect) =>
+                    left > rect.left - 6 && left - room < rect.right && top > rect.top - 8 && top < rect.bottom + 8,
+            )
+        );
     };
     const axis = heightAxis(geometry, units.height, pixelRatio, isFree);
     if (!axis) return [];
     const pixel = ([x, y]: [number, number]): [number, number] => [x / pixelRatio, y / pixelRatio];
-    for (const [color, width] of [[shades.halo, 3.5], [shades.quietText, 1.2]] as const) {
+    for (const [color, width] of [
+        [shades.halo, 3.5],
+        [shades.quietText, 1.2],
+    ] as const) {
         pen.beginPath();
         pen.moveTo(...pixel(axis.foot));
         pen.lineTo(...pixel(axis.head));

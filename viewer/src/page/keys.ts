@@ -40,7 +40,7 @@ export class Keys {
     // While no control has the keyboard, the picture has it: also before anything was clicked. Letters do nothing
     // elsewhere, where they would be in the way of what is typed.
     begin(): void {
-        document.addEventListener('keydown', event => {
+        document.addEventListener('keydown', (event) => {
             if (event.target === this.drawing.picture || event.target === document.body) this.press(event);
         });
     }

@@ -12,7 +12,8 @@ export interface Rect {
     bottom: number;
 }
 
-export const overlaps = (a: Rect, b: Rect): boolean => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+export const overlaps = (a: Rect, b: Rect): boolean =>
+    a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 export function haloed(pen: CanvasRenderingContext2D, text: string, x: number, y: number, color: string): void {
     pen.lineJoin = 'round';
@@ -31,7 +32,13 @@ export function clearLabels(pen: CanvasRenderingContext2D, pixelRatio: number): 
 
 // `taken` are parts of the picture that the page covers, in the pen's pixels, of which each is `pixelRatio` of the
 // picture's.
-export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry, marks: Mark[], taken: Rect[], pixelRatio: number): void {
+export function drawLabels(
+    pen: CanvasRenderingContext2D,
+    geometry: ViewGeometry,
+    marks: Mark[],
+    taken: Rect[],
+    pixelRatio: number,
+): void {
     const { width, height } = geometry;
     const full = [...taken];
     const most = Math.max(6, Math.round((width * height) / (pixelRatio * pixelRatio) / 22000));
@@ -47,7 +54,7 @@ export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry
         const wide = pen.measureText(mark.text).width;
         const left = mark.kind === 'ring' ? x - wide / 2 : x + 7;
         const rect: Rect = { left: Math.min(left, x - 4) - 2, top: y - 9, right: left + wide + 3, bottom: y + 9 };
-        if (rect.right > width / pixelRatio || full.some(other => overlaps(rect, other))) continue;
+        if (rect.right > width / pixelRatio || full.some((other) => overlaps(rect, other))) continue;
         full.push(rect);
         if (mark.kind === 'city') ++cities;
         if (mark.kind !== 'ring') {
@@ -60,6 +67,12 @@ export function drawLabels(pen: CanvasRenderingContext2D, geometry: ViewGeometry
             pen.fillStyle = mark.kind === 'site' ? '#ffffff' : shades.quietText;
             pen.fill();
         }
-        haloed(pen, mark.text, left, y, mark.kind === 'city' ? shades.text : mark.kind === 'site' ? '#ffffff' : shades.quietText);
+        haloed(
+            pen,
+            mark.text,
+            left,
+            y,
+            mark.kind === 'city' ? shades.text : mark.kind === 'site' ? '#ffffff' : shades.quietText,
+        );
     }
 }

@@ -39,8 +39,13 @@ interface PlacedSweep {
     drawn: DrawnSweep;
 }
 
-const bytesOfSweep = ({ drawn: { gates: { codes }, radials, cone } }: PlacedSweep): number =>
-    codes.byteLength + radials.byteLength + cone.corners.byteLength + cone.triangles.byteLength;
+const bytesOfSweep = ({
+    drawn: {
+        gates: { codes },
+        radials,
+        cone,
+    },
+}: PlacedSweep): number => codes.byteLength + radials.byteLength + cone.corners.byteLength + cone.triangles.byteLength;
 
 // The last value of each name, with what it was made of.
 class Kept {
@@ -48,7 +53,8 @@ class Kept {
 
     take<T>(name: string, of: readonly unknown[], make: () => T): T {
         const known = this.held.get(name);
-        if (known && known.of.length === of.length && known.of.every((part, i) => part === of[i])) return known.value as T;
+        if (known && known.of.length === of.length && known.of.every((part, i) => part === of[i]))
+            return known.value as T;
         const value = make();
         this.held.set(name, { of, value });
         return value;
@@ -56,7 +62,11 @@ class Kept {
 }
 
 const hasSameCells = (a: PackedGrid, b: PackedGrid): boolean =>
-    a.nx === b.nx && a.ny === b.ny && a.nz === b.nz && a.spacing === b.spacing && a.levelsM.every((level, z) => level === b.levelsM[z]);
+    a.nx === b.nx &&
+    a.ny === b.ny &&
+    a.nz === b.nz &&
+    a.spacing === b.spacing &&
+    a.levelsM.every((level, z) => level === b.levelsM[z]);
 
 // Moves a section onto the plane of the grid that is shown.
 function movedBy(section: Section, [x, y]: Plane): Section {
@@ -103,16 +113,27 @@ export class LayerMaker {
         const waits: Promise<unknown>[] = [];
         if (sweepDeg !== null && this.sweeps.isNeeded(this.sweepKey(next))) waits.push(this.takeSweep(next, isAhead));
         const other = this.otherOf(next);
-        if (other && next.loaded.stream === null && !this.app.loader.has(other.key) && !this.isMissing(other.key)) waits.push(this.takeOther(next, other));
+        if (other && next.loaded.stream === null && !this.app.loader.has(other.key) && !this.isMissing(other.key))
+            waits.push(this.takeOther(next, other));
         // There is room for the windows of one grid ahead.
-        const windows = isAhead ? null : this.windows.next(next.loaded, () => this.cellsOf(next.loaded, geometry, false));
+        const windows = isAhead
+            ? null
+            : this.windows.next(next.loaded, () => this.cellsOf(next.loaded, geometry, false));
         if (windows) waits.push(windows);
         return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
     }
     // Finds the cells that layers are made of, and gives back those that no layer needs.
-    private cellsOf(loaded: LoadedGrid, geometry: ViewGeometry, isMoving: boolean): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
+    private cellsOf(
+        loaded: LoadedGrid,
+        geometry: ViewGeometry,
+        isMoving: boolean,
+    ): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
         const { layers } = this.app.state;
-        const isFlat = layers.planeM !== null || layers.hasMaximum || layers.hasHaze || veilsFolded(layers, this.app.shown?.moment ?? '');
+        const isFlat =
+            layers.planeM !== null ||
+            layers.hasMaximum ||
+            layers.hasHaze ||
+            veilsFolded(layers, this.app.shown?.moment ?? '');
         return {
             seen: this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving)),
             lit: this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving)),
@@ -125,7 +146,9 @@ export class LayerMaker {
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
         const { shown, shownTable: table, state } = this.app;
         const { layers } = state;
-        const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(name => name === 'hasVolume' || layers[name] === usualLayers[name]);
+        const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(
+            (name) => name === 'hasVolume' || layers[name] === usualLayers[name],
+        );
         if (!shown || !table) return this.nothing();
         const hasFolded = veilsFolded(layers, shown.moment);
         if (isUsual && !hasFolded) return this.nothing();
@@ -164,16 +187,27 @@ export class LayerMaker {
         return field && this.kept.take('drawn plane', [field], () => ({ field, heightM, extent: extentOf(cells) }));
     }
     private maximumOf(cells: Cells): DrawnLayers['maximum'] {
-        return this.kept.take('maximum', [cells.grid], () => ({ field: maximumField(cells.grid), extent: extentOf(cells) }));
+        return this.kept.take('maximum', [cells.grid], () => ({
+            field: maximumField(cells.grid),
+            extent: extentOf(cells),
+        }));
     }
     private sectionOf({ grid, middle }: Cells, moment: string, ends: readonly [Place, Place]): Section {
-        return this.kept.take('section', [grid, ends[0], ends[1]], () => movedBy(cutSection(grid, moment, ends[0], ends[1], sectionColumns, sectionRows), middle));
+        return this.kept.take('section', [grid, ends[0], ends[1]], () =>
+            movedBy(cutSection(grid, moment, ends[0], ends[1], sectionColumns, sectionRows), middle),
+        );
     }
     private airOf(cells: Cells, shown: Shown): DrawnLayers['air'] {
-        return this.kept.take('air', [cells.grid], () => ({ ...airOf(cells.grid), placing: placingOf(cells, shown.loaded.grid) }));
+        return this.kept.take('air', [cells.grid], () => ({
+            ...airOf(cells.grid),
+            placing: placingOf(cells, shown.loaded.grid),
+        }));
     }
     private fallsOf(cells: Cells, shown: Shown, table: ColorTable): DrawnLayers['falls'] {
-        const make = () => ({ ...fallsOf(cells.grid, shown.moment, table.stops[0]!.from), placing: placingOf(cells, shown.loaded.grid) });
+        const make = () => ({
+            ...fallsOf(cells.grid, shown.moment, table.stops[0]!.from),
+            placing: placingOf(cells, shown.loaded.grid),
+        });
         return this.kept.take('falls', [cells.grid, table], make);
     }
     private looksOf(table: ColorTable, least: number | null): Looks {
@@ -208,7 +242,10 @@ export class LayerMaker {
     private isMissing(key: string): boolean {
         return performance.now() - (this.missingOthers.get(key)?.at ?? -Infinity) < againAfterMs;
     }
-    private async takeOther({ domain, time, isBetween }: Shown, { key, moment }: { key: string; moment: string }): Promise<void> {
+    private async takeOther(
+        { domain, time, isBetween }: Shown,
+        { key, moment }: { key: string; moment: string },
+    ): Promise<void> {
         try {
             await this.app.loader.load(domain, moment, time, isBetween);
         } catch (error) {
@@ -228,7 +265,9 @@ export class LayerMaker {
         const of = this.app.loader.find(other.key);
         if (of) return hasSameCells(of.grid, shown.loaded.grid) ? '' : texts.layers.otherCells;
         if (!this.isMissing(other.key)) return texts.layers.otherComes;
-        return isAbsent(this.missingOthers.get(other.key)?.error) ? texts.layers.noOther(other.moment) : texts.layers.otherFailed(other.moment);
+        return isAbsent(this.missingOthers.get(other.key)?.error)
+            ? texts.layers.noOther(other.moment)
+            : texts.layers.otherFailed(other.moment);
     }
 
     // Lists the sweeps of the volume of which shownCut() is drawn; null until they are known.
@@ -243,7 +282,7 @@ export class LayerMaker {
     // Says so if nothing of the volume is visible, and from which value on it would be.
     private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
         const { state, shownTable: table } = this.app;
-        const unit = this.app.domain?.moments.find(one => one.moment === moment)?.units ?? '';
+        const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
         if (!table) return [];
         const least = Math.max(table.stops[0]!.from, table.extinction[0]!.value, state.least ?? -Infinity);
         const hasVisible = atlas.brickCount > 0 && valueOf(grid, atlas.greatest) >= least;
@@ -257,19 +296,31 @@ export class LayerMaker {
         if (echoLayers(layers) === 0) return [texts.layers.hidden];
         const said = layers.hasVolume ? this.emptyTold(shown) : [];
         if (layers.hasVolume && state.opacity < 1) said.push(texts.layers.fainter(state.opacity));
-        if (layers.crop && (layers.hasVolume || layers.surface)) said.push(texts.layers.hiddenOutside(heightText(layers.crop.bottomM, units), heightText(layers.crop.topM, units)));
-        if (layers.hasFolded === false && veilsFolded({ ...layers, hasFolded: null }, shown.moment)) said.push(texts.layers.hiddenFolded);
-        if (state.least !== null) said.push(texts.layers.hiddenBelow(valueText(state.least, this.app.shownTable?.unit ?? '', units)));
+        if (layers.crop && (layers.hasVolume || layers.surface))
+            said.push(
+                texts.layers.hiddenOutside(heightText(layers.crop.bottomM, units), heightText(layers.crop.topM, units)),
+            );
+        if (layers.hasFolded === false && veilsFolded({ ...layers, hasFolded: null }, shown.moment))
+            said.push(texts.layers.hiddenFolded);
+        if (state.least !== null)
+            said.push(texts.layers.hiddenBelow(valueText(state.least, this.app.shownTable?.unit ?? '', units)));
         if (layers.planeM !== null) {
             const isBeyond = levelsAbout(shown.loaded.grid.levelsM, layers.planeM) === null;
-            said.push(texts.layers.planeTold(heightText(layers.planeM, units)) + (isBeyond ? ` (${texts.layers.beyond})` : ''));
+            said.push(
+                texts.layers.planeTold(heightText(layers.planeM, units)) +
+                    (isBeyond ? ` (${texts.layers.beyond})` : ''),
+            );
         }
         if (layers.surface) {
             const moment = layers.surface.moment || shown.moment;
-            const unit = this.app.domain?.moments.find(one => one.moment === moment)?.units ?? '';
+            const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
             const value = valueText(layers.surface.value, unit, units);
             const why = this.whyNoSurface(shown);
-            said.push((isBelow(moment, layers.surface.value) ? texts.layers.surfaceBelow(moment, value) : texts.layers.surfaceFrom(moment, value)) + (why && ` (${why})`));
+            said.push(
+                (isBelow(moment, layers.surface.value)
+                    ? texts.layers.surfaceBelow(moment, value)
+                    : texts.layers.surfaceFrom(moment, value)) + (why && ` (${why})`),
+            );
         }
         if (layers.hasMaximum) said.push(texts.layers.maximumTold);
         if (layers.sweepDeg !== null) said.push(this.sweepTold(shown));
@@ -296,7 +347,8 @@ export class LayerMaker {
             asked = (async () => {
                 const volume = (await rawBefore(station, time))?.time ?? null;
                 // A sweep of an older volume does not show what was there at this time.
-                if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs) throw new ApiError(404, texts.layers.noVolume(station));
+                if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs)
+                    throw new ApiError(404, texts.layers.noVolume(station));
                 return { time: volume, rows: await sweeps(station, volume) };
             })();
             known.set(station, asked);
@@ -325,7 +377,16 @@ export class LayerMaker {
             const row = cutOf(rows, moment, sweepDeg!, sweepNumber);
             if (!row) throw new ApiError(404, texts.layers.noSweep(station));
             const read = readPackedSweep(new Uint8Array(await gates(station, time, row.sweep, moment)));
-            return { rows, row, drawn: { station, gates: read, radials: radialsByAzimuth(read), cone: coneOf(read, planeOf(loaded.grid)) } };
+            return {
+                rows,
+                row,
+                drawn: {
+                    station,
+                    gates: read,
+                    radials: radialsByAzimuth(read),
+                    cone: coneOf(read, planeOf(loaded.grid)),
+                },
+            };
         };
         return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
     }
@@ -365,5 +426,9 @@ export class LayerMaker {
 // A cut as the list and the title name it.
 export function cutText(row: SweepRow, rows: SweepRow[]): string {
     const kind = kindOf(row, rows);
-    return texts.layers.cut(row.elevation_deg.toFixed(1), row.start?.slice(11, 19) ?? '', kind === '' ? '' : texts.layers.kinds[kind]);
+    return texts.layers.cut(
+        row.elevation_deg.toFixed(1),
+        row.start?.slice(11, 19) ?? '',
+        kind === '' ? '' : texts.layers.kinds[kind],
+    );
 }

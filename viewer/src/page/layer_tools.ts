@@ -31,7 +31,7 @@ export class SectionTool implements Tool {
         const { shown, state } = this.app;
         if (!shown || !state.layers.section) return null;
         const plane = planeOf(shown.loaded.grid);
-        const [a, b] = state.layers.section.map(place => plane.toPlane(place));
+        const [a, b] = state.layers.section.map((place) => plane.toPlane(place));
         return a && b ? [a, b] : null;
     }
 
@@ -41,9 +41,11 @@ export class SectionTool implements Tool {
         if (!geometry || !at) return false;
         this.begun = [x, y];
         const ends = this.ends();
-        const held = ends?.findIndex(end => {
+        const held = ends?.findIndex((end) => {
             const pixel = geometry.project([end[0], end[1], geometry.groundM * geometry.exaggeration]);
-            return pixel !== null && Math.hypot(pixel[0] - x, pixel[1] - y) < reachPixels * (window.devicePixelRatio || 1);
+            return (
+                pixel !== null && Math.hypot(pixel[0] - x, pixel[1] - y) < reachPixels * (window.devicePixelRatio || 1)
+            );
         });
         this.movesFirst = held === 0;
         this.fixed = ends && held !== undefined && held >= 0 ? ends[1 - held]! : at;
@@ -55,7 +57,10 @@ export class SectionTool implements Tool {
         if (Math.hypot(x - this.begun[0], y - this.begun[1]) < shortestPixels) return;
         const plane = planeOf(this.app.shown.loaded.grid);
         const places = [plane.toPlace(this.fixed), plane.toPlace(at)] as [Place, Place];
-        this.app.state.layers = { ...this.app.state.layers, section: this.movesFirst ? [places[1], places[0]] : places };
+        this.app.state.layers = {
+            ...this.app.state.layers,
+            section: this.movesFirst ? [places[1], places[0]] : places,
+        };
         this.drawing.move();
         this.app.changed();
     }
@@ -123,7 +128,10 @@ export function acrossView(app: App, geometry: ViewGeometry): [Place, Place] | n
     const middle = geometry.ground(0.5 * geometry.width, 0.5 * geometry.height) ?? [0, 0];
     const half = 0.3 * geometry.width * geometry.metersPerPixel;
     const plane = app.shown && planeOf(app.shown.loaded.grid);
-    const at = (side: number): Plane => [middle[0] + side * half * geometry.right[0], middle[1] + side * half * geometry.right[1]];
+    const at = (side: number): Plane => [
+        middle[0] + side * half * geometry.right[0],
+        middle[1] + side * half * geometry.right[1],
+    ];
     return plane && [plane.toPlace(at(-1)), plane.toPlace(at(1))];
 }
 
@@ -139,9 +147,18 @@ function letter(pen: CanvasRenderingContext2D, text: string, [x, y]: [number, nu
 }
 
 // The height of a plane, beside its corner that is farthest to the left in the picture.
-function putHeight(pen: CanvasRenderingContext2D, { box, width, height }: ViewGeometry, toPixel: (corner: Plane) => [number, number] | null, text: string, ratio: number): void {
-    const corners = [-1, 1].flatMap(x => [-1, 1].map(y => toPixel([x * box.halfXM, y * box.halfYM])));
-    const seen = corners.filter((one): one is [number, number] => one !== null && one[0] > 0 && one[1] > 0 && one[0] < width / ratio && one[1] < height / ratio);
+function putHeight(
+    pen: CanvasRenderingContext2D,
+    { box, width, height }: ViewGeometry,
+    toPixel: (corner: Plane) => [number, number] | null,
+    text: string,
+    ratio: number,
+): void {
+    const corners = [-1, 1].flatMap((x) => [-1, 1].map((y) => toPixel([x * box.halfXM, y * box.halfYM])));
+    const seen = corners.filter(
+        (one): one is [number, number] =>
+            one !== null && one[0] > 0 && one[1] > 0 && one[0] < width / ratio && one[1] < height / ratio,
+    );
     const leftmost = seen.sort((a, b) => a[0] - b[0])[0];
     if (leftmost) letter(pen, text, [Math.max(30, leftmost[0]), leftmost[1] + 16]);
 }
@@ -164,15 +181,22 @@ export function addMarks(app: App, drawing: Drawing): void {
         };
         pen.strokeStyle = shades.quietText;
         pen.lineWidth = 1.2;
-        if (planeM !== null) putHeight(pen, geometry, corner => toPixel(corner, planeM), heightText(planeM, app.state.units), ratio);
+        if (planeM !== null)
+            putHeight(pen, geometry, (corner) => toPixel(corner, planeM), heightText(planeM, app.state.units), ratio);
         if (crop) {
-            const corners: Plane[] = [[crop.westM, crop.southM], [crop.eastM, crop.southM], [crop.eastM, crop.northM], [crop.westM, crop.northM]];
-            for (const heightM of [Math.max(crop.bottomM, geometry.groundM), crop.topM]) line([...corners, corners[0]!].map(corner => toPixel(corner, heightM)));
+            const corners: Plane[] = [
+                [crop.westM, crop.southM],
+                [crop.eastM, crop.southM],
+                [crop.eastM, crop.northM],
+                [crop.westM, crop.northM],
+            ];
+            for (const heightM of [Math.max(crop.bottomM, geometry.groundM), crop.topM])
+                line([...corners, corners[0]!].map((corner) => toPixel(corner, heightM)));
             for (const corner of corners) line([toPixel(corner, crop.bottomM), toPixel(corner, crop.topM)]);
         }
         if (section) {
             const plane = planeOf(shown.loaded.grid);
-            const [a, b] = section.map(place => plane.toPlane(place) ?? null);
+            const [a, b] = section.map((place) => plane.toPlane(place) ?? null);
             const [from, to] = [a && toPixel(a), b && toPixel(b)];
             pen.setLineDash([6, 4]);
             line([from ?? null, to ?? null]);

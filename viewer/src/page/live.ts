@@ -18,7 +18,7 @@ const againAfterMs = 3000;
 const refusedAgainAfterMs = 30_000;
 const mostQuietMs = 40_000; // the server sends a heartbeat every 15 s
 
-const pause = (ms: number): Promise<void> => new Promise(done => window.setTimeout(done, ms));
+const pause = (ms: number): Promise<void> => new Promise((done) => window.setTimeout(done, ms));
 const noAnswer = (): never => {
     throw new TypeError('no answer');
 };
@@ -123,7 +123,7 @@ export class Live {
     }
 
     private do(act: () => Promise<void>): void {
-        void this.begun.then(act).catch(error => {
+        void this.begun.then(act).catch((error) => {
             this.isBehind = true;
             this.app.fail(error);
         });

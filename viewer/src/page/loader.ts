@@ -23,7 +23,10 @@ export class Budget {
     // Bricks of the halved grid that is fetched first.
     readonly mostFirst: number;
 
-    constructor(readonly bytes: number, mostTexels: number) {
+    constructor(
+        readonly bytes: number,
+        mostTexels: number,
+    ) {
         this.mostWhole = Math.floor(0.1 * bytes);
         const slots = (0.36 * bytes) / brickTexelBytes;
         this.poolSide = Math.max(2, Math.min(Math.floor(Math.cbrt(slots)), Math.floor(mostTexels / paddedEdge)));
@@ -58,7 +61,7 @@ function poolAtlas(grid: PackedGrid, pyramid: Pyramid, table: WorkerAnswer, side
     return {
         size: [side * paddedEdge, side * paddedEdge, side * paddedEdge],
         slots: [side, side, side],
-        brickCount: pyramid.levels[0]!.shown.some(count => count > 0) ? side ** 3 : 0,
+        brickCount: pyramid.levels[0]!.shown.some((count) => count > 0) ? side ** 3 : 0,
         texels: new Uint8Array(0),
         indirection: new Uint32Array(grid.kind.length),
         bricks: grid.bricks,
@@ -121,7 +124,7 @@ export class Loader {
         let loading = this.loading.get(key);
         if (!loading) {
             const isNewest = () => this.loading.get(key) === mine;
-            const mine = this.fetch(domain, moment, time, isBetween).then(loaded => {
+            const mine = this.fetch(domain, moment, time, isBetween).then((loaded) => {
                 if (isNewest()) this.keep(key, loaded);
                 return loaded;
             });
@@ -135,13 +138,17 @@ export class Loader {
 
     private async fetch(domain: string, moment: string, time: string, isBetween: boolean): Promise<LoadedGrid> {
         const key = Loader.key(domain, moment, time);
-        const bytes = await (isBetween || isRegion(domain) ? packedBetween(domain, moment, time) : packed(domain, moment, time, { most: String(this.budget.mostWhole), codes: 'values' }));
+        const bytes = await (isBetween || isRegion(domain)
+            ? packedBetween(domain, moment, time)
+            : packed(domain, moment, time, { most: String(this.budget.mostWhole), codes: 'values' }));
         const place = readPlace(new Uint8Array(bytes));
         const decoded = this.decoder.ask({ kind: 'grid', key, bytes, mostTexels: this.mostTexels });
         this.onPlace?.(domain, place);
         const answer = await decoded;
         const { grid, atlas, coverage } = answer;
-        return atlas ? { grid: grid!, atlas, coverage: coverage!, stream: null } : this.fetchFirst(domain, moment, time, answer);
+        return atlas
+            ? { grid: grid!, atlas, coverage: coverage!, stream: null }
+            : this.fetchFirst(domain, moment, time, answer);
     }
 
     // Fetches the halved grid that is shown until there is more.
@@ -149,10 +156,25 @@ export class Loader {
         const key = Loader.key(domain, moment, time);
         const [grid, pyramid] = [table.grid!, table.pyramid!];
         const level = Math.max(1, levelWithin(pyramid, this.budget.mostFirst));
-        const bytes = await packed(domain, moment, time, { half: String(level), by: 'maximum', id: grid.id, codes: 'values' });
+        const bytes = await packed(domain, moment, time, {
+            half: String(level),
+            by: 'maximum',
+            id: grid.id,
+            codes: 'values',
+        });
         const { columns, coverage, histogram, isClear } = await this.decoder.ask({ kind: 'level', key, bytes });
         const atlas = { ...poolAtlas(grid, pyramid, table, this.budget.poolSide), histogram: histogram! };
-        const stream = { key, domain, moment, time, pyramid, shownOf: table.shown!.table, level, first: columns!, isClear: isClear! };
+        const stream = {
+            key,
+            domain,
+            moment,
+            time,
+            pyramid,
+            shownOf: table.shown!.table,
+            level,
+            first: columns!,
+            isClear: isClear!,
+        };
         return { grid, atlas, coverage: coverage!, stream };
     }
 

@@ -62,11 +62,25 @@ export class MeasureTool implements Tool {
             const [from, to] = [all[0]!, all[1]!];
             const { distanceM, azimuthDeg } = legOf(from.place, to.place);
             const apartM = to.heightM - from.heightM;
-            this.tell(texts.tools.distance(distanceText(distanceM, units), Math.round(azimuthDeg) % 360, `${apartM < 0 ? '−' : '+'}${heightText(Math.abs(apartM), units)}`));
+            this.tell(
+                texts.tools.distance(
+                    distanceText(distanceM, units),
+                    Math.round(azimuthDeg) % 360,
+                    `${apartM < 0 ? '−' : '+'}${heightText(Math.abs(apartM), units)}`,
+                ),
+            );
         } else {
-            const around = all.reduce((sum, one, i) => sum + legOf(one.place, all[(i + 1) % all.length]!.place).distanceM, 0);
+            const around = all.reduce(
+                (sum, one, i) => sum + legOf(one.place, all[(i + 1) % all.length]!.place).distanceM,
+                0,
+            );
             const side = units.distance.si;
-            this.tell(texts.tools.area(`${Number((areaM2(all.map(one => one.place)) / side ** 2).toPrecision(4))} ${units.distance.symbol}²`, distanceText(around, units)));
+            this.tell(
+                texts.tools.area(
+                    `${Number((areaM2(all.map((one) => one.place)) / side ** 2).toPrecision(4))} ${units.distance.symbol}²`,
+                    distanceText(around, units),
+                ),
+            );
         }
         this.drawing.drawMarks();
     }
@@ -76,7 +90,7 @@ export class MeasureTool implements Tool {
         if (!shown || this.points.length === 0) return;
         const plane = planeOf(shown.loaded.grid);
         const ratio = window.devicePixelRatio || 1;
-        const pixels = this.all.map(one => {
+        const pixels = this.all.map((one) => {
             const at = plane.toPlane(one.place);
             const pixel = at && geometry.project([at[0], at[1], one.heightM * geometry.exaggeration]);
             return pixel && ([pixel[0] / ratio, pixel[1] / ratio] as [number, number]);

@@ -37,15 +37,25 @@ interface Met {
 }
 
 // Returns the hits of layers along the ray, the nearest first; those that are solid hide what is behind.
-function solidsAt(app: App, drawing: Drawing, geometry: ViewGeometry, cells: Cells | null, whole: Crop, x: number, y: number): Met[] {
+function solidsAt(
+    app: App,
+    drawing: Drawing,
+    geometry: ViewGeometry,
+    cells: Cells | null,
+    whole: Crop,
+    x: number,
+    y: number,
+): Met[] {
     const { drawn } = drawing;
     if (!drawn) return [];
     const { shown, shownTable: table, state } = app;
     const plane = planeOf(shown!.loaded.grid);
     const isShown = ({ state: status, value }: SolidHit) =>
-        status === CellState.rangeFolded || (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table!, value) !== null);
+        status === CellState.rangeFolded ||
+        (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table!, value) !== null);
     const met: Met[] = [];
-    const add = (layer: PickedLayer, hit: SolidHit | null) => void (hit && met.push({ layer, hit, isSolid: isShown(hit) }));
+    const add = (layer: PickedLayer, hit: SolidHit | null) =>
+        void (hit && met.push({ layer, hit, isSolid: isShown(hit) }));
     if (drawn.plane) add('plane', levelHit(geometry, drawn.plane, drawn.plane.heightM, x, y, drawn.mixes));
     if (drawn.section) add('section', sectionHit(geometry, drawn.section, x, y, drawn.mixes));
     if (drawn.sweep) add('sweep', sweepHit(geometry, drawn.sweep, plane, x, y, isShown));
@@ -53,21 +63,28 @@ function solidsAt(app: App, drawing: Drawing, geometry: ViewGeometry, cells: Cel
     if (drawn.surface) {
         const { value, isBelow, of } = drawn.surface;
         const own = of ? { grid: of.grid, middle: [0, 0] as Plane } : cells;
-        const seen = own && firstVisible(own, geometry, croppedBox(whole, drawn.crop), x, y, one => (isBelow ? one <= value : one >= value));
+        const seen =
+            own &&
+            firstVisible(own, geometry, croppedBox(whole, drawn.crop), x, y, (one) =>
+                isBelow ? one <= value : one >= value,
+            );
         const depth = seen && depthOf(geometry, seen.at, seen.heightM);
         // The moment that is shown colors it.
-        const colored = seen && (of && cells ? cellAt(cells, seen.at, seen.heightM) : { state: CellState.value, value: seen.value });
+        const colored =
+            seen &&
+            (of && cells ? cellAt(cells, seen.at, seen.heightM) : { state: CellState.value, value: seen.value });
         if (seen && colored) met.push({ layer: 'surface', hit: { ...seen, ...colored, depth: depth! }, isSolid: true });
     }
     return met.sort((a, b) => a.hit.depth - b.hit.depth);
 }
 
-const depthOf = (geometry: ViewGeometry, [x, y]: Plane, heightM: number): number => geometry.depthOf([x, y, heightM * geometry.exaggeration]);
+const depthOf = (geometry: ViewGeometry, [x, y]: Plane, heightM: number): number =>
+    geometry.depthOf([x, y, heightM * geometry.exaggeration]);
 
 // Reads the cell at a place, on the lowest level that is not below the height; null beyond the grid.
 function cellAt({ grid, middle }: Cells, [x, y]: Plane, heightM: number): { state: CellState; value: number } | null {
     const column = columnAt(grid, x - middle[0], y - middle[1]);
-    const level = grid.levelsM.findIndex(one => one >= heightM);
+    const level = grid.levelsM.findIndex((one) => one >= heightM);
     if (!column || level < 0) return null;
     const code = codeAt(grid, ...column, level);
     return { state: Math.min(code, CellState.value), value: code >= firstValueCode ? valueOf(grid, code) : 0 };
@@ -102,17 +119,41 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const isAlong = boundsAbout(points, grid) !== null; // it meets columns of the grid
     const cells = isAlong && (asks || !stream) ? drawing.windows!.ray(shown.loaded, points) : null;
     const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
-    const picked = (layer: PickedLayer, at: Plane, heightM: number, status: CellState | null, value = 0, gate: GateHit | null = null): Picked => ({
-        layer, at, place: plane.toPlace(at), heightM, state: status, value, gate,
-        lacksCells: !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
+    const picked = (
+        layer: PickedLayer,
+        at: Plane,
+        heightM: number,
+        status: CellState | null,
+        value = 0,
+        gate: GateHit | null = null,
+    ): Picked => ({
+        layer,
+        at,
+        place: plane.toPlace(at),
+        heightM,
+        state: status,
+        value,
+        gate,
+        lacksCells:
+            !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
         // Some layers are read as they are drawn, the others along the ray.
-        halvings: layer === 'sweep' ? 0 : drawing.windows!.halvings(shown.loaded, layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray'),
+        halvings:
+            layer === 'sweep'
+                ? 0
+                : drawing.windows!.halvings(
+                      shown.loaded,
+                      layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray',
+                  ),
     });
     const met = solidsAt(app, drawing, geometry, cells, whole, x, y);
-    const solid = met.find(one => one.isSolid) ?? null;
+    const solid = met.find((one) => one.isSolid) ?? null;
     // The volume, until something solid or the ground hides it.
-    const untilDepth = Math.min(solid?.hit.depth ?? Infinity, ground ? depthOf(geometry, ground, geometry.groundM) : Infinity);
-    const perM = (value: number) => (value >= (state.least ?? -Infinity) ? extinctionPerM(table, value, state.opacity) : 0);
+    const untilDepth = Math.min(
+        solid?.hit.depth ?? Infinity,
+        ground ? depthOf(geometry, ground, geometry.groundM) : Infinity,
+    );
+    const perM = (value: number) =>
+        value >= (state.least ?? -Infinity) ? extinctionPerM(table, value, state.opacity) : 0;
     const volume = state.layers.hasVolume && cells ? mostVisible(cells, geometry, box, x, y, untilDepth, perM) : null;
     const isVolume = volume?.cell && (solid ? volume.share > volume.through : 1 - volume.through > leastSeen);
     if (isVolume) return picked('volume', volume.cell!.at, volume.cell!.heightM, CellState.value, volume.cell!.value);
@@ -120,7 +161,14 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     if (nearest) {
         const { layer, hit } = nearest;
         const heightM = layer === 'maximum' && cells ? heightOfMaximum(cells, hit.at) : hit.heightM;
-        return picked(layer, hit.at, heightM ?? hit.heightM, hit.state, hit.value, layer === 'sweep' ? (hit as GateHit) : null);
+        return picked(
+            layer,
+            hit.at,
+            heightM ?? hit.heightM,
+            hit.state,
+            hit.value,
+            layer === 'sweep' ? (hit as GateHit) : null,
+        );
     }
     if (!ground) return null;
     if (!columnAt(grid, ...ground)) return picked('outside', ground, geometry.groundM, null);
@@ -130,5 +178,11 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const column = cells && columnAt(cells.grid, ground[0] - cells.middle[0], ground[1] - cells.middle[1]);
     const code = cells && column && codeAt(cells.grid, ...column, 0);
     if (code === null) return picked('ground', ground, geometry.groundM, null);
-    return picked('ground', ground, geometry.groundM, Math.min(code, CellState.value), code >= firstValueCode ? valueOf(cells!.grid, code) : 0);
+    return picked(
+        'ground',
+        ground,
+        geometry.groundM,
+        Math.min(code, CellState.value),
+        code >= firstValueCode ? valueOf(cells!.grid, code) : 0,
+    );
 }

@@ -43,12 +43,12 @@ export class Pointers {
 
     begin(): void {
         const { picture } = this.drawing;
-        picture.addEventListener('pointerdown', event => this.down(event));
-        picture.addEventListener('pointermove', event => this.move(event));
-        picture.addEventListener('pointerup', event => this.up(event));
-        picture.addEventListener('pointercancel', event => this.up(event));
-        picture.addEventListener('contextmenu', event => event.preventDefault());
-        picture.addEventListener('wheel', event => this.wheel(event), { passive: false });
+        picture.addEventListener('pointerdown', (event) => this.down(event));
+        picture.addEventListener('pointermove', (event) => this.move(event));
+        picture.addEventListener('pointerup', (event) => this.up(event));
+        picture.addEventListener('pointercancel', (event) => this.up(event));
+        picture.addEventListener('contextmenu', (event) => event.preventDefault());
+        picture.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     }
 
     private get ratio(): number {
@@ -86,7 +86,7 @@ export class Pointers {
 
     private pinch(before: PointerEvent, event: PointerEvent, dx: number, dy: number): void {
         const geometry = this.drawing.geometry()!;
-        const fixed = [...this.pointers.values()].find(one => one.pointerId !== event.pointerId)!;
+        const fixed = [...this.pointers.values()].find((one) => one.pointerId !== event.pointerId)!;
         const was = Math.hypot(before.clientX - fixed.clientX, before.clientY - fixed.clientY);
         const is = Math.hypot(event.clientX - fixed.clientX, event.clientY - fixed.clientY);
         const nearer = zoomed(this.app.state.camera, geometry, is / Math.max(1, was));
@@ -103,6 +103,9 @@ export class Pointers {
     private wheel(event: WheelEvent): void {
         event.preventDefault();
         const geometry = this.drawing.geometry();
-        if (geometry) this.app.moved(zoomed(this.app.state.camera, geometry, Math.exp(-event.deltaY * 0.0015), ...this.at(event)));
+        if (geometry)
+            this.app.moved(
+                zoomed(this.app.state.camera, geometry, Math.exp(-event.deltaY * 0.0015), ...this.at(event)),
+            );
     }
 }

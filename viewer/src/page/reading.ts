@@ -27,9 +27,14 @@ export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReadin
     const reading: ColumnReading = { levels: [], greatest: null, seenFromM: null, seenToM: null };
     for (let z = 0; z < grid.nz; ++z) {
         const code = codeAt(grid, x, y, z);
-        const level: LevelReading = { heightM: grid.levelsM[z]!, code, value: code >= firstValueCode ? valueOf(grid, code) : null };
+        const level: LevelReading = {
+            heightM: grid.levelsM[z]!,
+            code,
+            value: code >= firstValueCode ? valueOf(grid, code) : null,
+        };
         reading.levels.push(level);
-        if (level.value !== null && (reading.greatest === null || level.value > reading.greatest.value!)) reading.greatest = level;
+        if (level.value !== null && (reading.greatest === null || level.value > reading.greatest.value!))
+            reading.greatest = level;
         if (code > 0) {
             reading.seenFromM ??= level.heightM;
             reading.seenToM = level.heightM;

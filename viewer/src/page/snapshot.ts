@@ -10,8 +10,15 @@ const swatch = 10;
 
 // Returns the lines without how old the data are, which is so only now.
 function shownLines(): string[] {
-    const lines = told.map(id => element(id)).filter(one => one && !one.hidden);
-    return lines.map(one => [...one.childNodes].filter(node => !(node instanceof HTMLSpanElement)).map(node => node.textContent).join('')).filter(Boolean);
+    const lines = told.map((id) => element(id)).filter((one) => one && !one.hidden);
+    return lines
+        .map((one) =>
+            [...one.childNodes]
+                .filter((node) => !(node instanceof HTMLSpanElement))
+                .map((node) => node.textContent)
+                .join(''),
+        )
+        .filter(Boolean);
 }
 
 // The words of a line in rows of this width, as the page wraps them.

@@ -93,8 +93,15 @@ class Stream {
     look(geometry: ViewGeometry, finest: number): void {
         const { grid } = this.loaded;
         const { pyramid, level } = this.parts;
-        const room = this.pool.count - this.parts.first.reduce((sum, column) => sum + column.hasValues.filter(Boolean).length, 0);
-        this.wanted = wantedColumns({ geometry, edge: grid.brickEdge, cellSizeM: cellSizeM(grid) }, pyramid, [finest, level], room);
+        const room =
+            this.pool.count -
+            this.parts.first.reduce((sum, column) => sum + column.hasValues.filter(Boolean).length, 0);
+        this.wanted = wantedColumns(
+            { geometry, edge: grid.brickEdge, cellSizeM: cellSizeM(grid) },
+            pyramid,
+            [finest, level],
+            room,
+        );
         this.wantedKeys = new Set(this.wanted.map(({ key }) => key));
         for (const key of this.wantedKeys) this.pool.use(key);
         this.fetchMore();
@@ -113,7 +120,8 @@ class Stream {
         const found = [];
         for (let nx = Math.max(0, x - 1); nx <= Math.min(columns[0] - 1, x + 1); ++nx) {
             for (let ny = Math.max(0, y - 1); ny <= Math.min(columns[1] - 1, y + 1); ++ny) {
-                if (this.bytesOf(level, nx * columns[1] + ny) > 0) found.push({ x: nx, y: ny, key: columnKey(level, nx, ny) });
+                if (this.bytesOf(level, nx * columns[1] + ny) > 0)
+                    found.push({ x: nx, y: ny, key: columnKey(level, nx, ny) });
             }
         }
         return found;
@@ -131,21 +139,23 @@ class Stream {
     private fetchMore(): void {
         if (this.hasEnded || performance.now() < this.waitsUntil) return;
         const missing = this.wanted.filter(({ level, key }) => !this.isThere(level, key) && !this.making.has(key));
-        const needed = new Map(missing.map(column => [column, this.neighbors(column).filter(({ key }) => !this.cells.has(key))]));
+        const needed = new Map(
+            missing.map((column) => [column, this.neighbors(column).filter(({ key }) => !this.cells.has(key))]),
+        );
         const neededKeys = new Set([...needed.values()].flat().map(({ key }) => key));
-        this.flights = this.flights.filter(flight => {
-            const isNeeded = [...flight.columns].some(key => neededKeys.has(key));
+        this.flights = this.flights.filter((flight) => {
+            const isNeeded = [...flight.columns].some((key) => neededKeys.has(key));
             if (!isNeeded) flight.abort.abort();
             return isNeeded;
         });
-        this.make(missing.filter(column => needed.get(column)!.length === 0));
+        this.make(missing.filter((column) => needed.get(column)!.length === 0));
         while (this.flights.length < mostFlights) if (!this.fly(missing, needed)) break;
     }
 
     // Asks for what is needed first. Returns false if there is nothing to ask for.
     private fly(missing: WantedColumn[], needed: Map<WantedColumn, { x: number; y: number; key: string }[]>): boolean {
         const onTheWay = new Set(this.flights.flatMap(({ columns }) => [...columns]));
-        const next = missing.find(column => needed.get(column)!.some(({ key }) => !onTheWay.has(key)));
+        const next = missing.find((column) => needed.get(column)!.some(({ key }) => !onTheWay.has(key)));
         if (!next) return false;
         const { level } = next;
         const table = this.tables.get(level);
@@ -163,7 +173,13 @@ class Stream {
             }
         }
         const weight = (column: number) => this.bytesOf(level, column);
-        for (const range of rangesOf([...numbers.keys()], this.parts.pyramid.layers, weight, mostSkippedBytes, mostRequestBytes)) {
+        for (const range of rangesOf(
+            [...numbers.keys()],
+            this.parts.pyramid.layers,
+            weight,
+            mostSkippedBytes,
+            mostRequestBytes,
+        )) {
             if (this.flights.length >= mostFlights) break;
             void this.fetchBricks(level, range);
         }
@@ -171,8 +187,12 @@ class Stream {
     }
 
     // Asks for bricks of the other levels while the table of this one comes.
-    private flyAnother(missing: WantedColumn[], needed: Map<WantedColumn, { x: number; y: number; key: string }[]>, level: number): boolean {
-        const others = missing.filter(column => column.level !== level);
+    private flyAnother(
+        missing: WantedColumn[],
+        needed: Map<WantedColumn, { x: number; y: number; key: string }[]>,
+        level: number,
+    ): boolean {
+        const others = missing.filter((column) => column.level !== level);
         return others.length > 0 && this.fly(others, needed);
     }
 
@@ -187,12 +207,12 @@ class Stream {
         this.tables.set(level, 'coming');
         const { domain, moment, time, key } = this.parts;
         packed(domain, moment, time, { ...this.query(level), part: 'table' })
-            .then(bytes => this.decoder.ask({ kind: 'level', key, bytes }))
+            .then((bytes) => this.decoder.ask({ kind: 'level', key, bytes }))
             .then(() => {
                 this.tables.set(level, 'there');
                 this.fetchMore();
             })
-            .catch(error => {
+            .catch((error) => {
                 this.tables.delete(level);
                 this.stumble(error);
             });
@@ -210,7 +230,13 @@ class Stream {
         const flight: Flight = { level, columns: new Set(columns.keys()), abort: new AbortController() };
         this.flights.push(flight);
         try {
-            const bytes = await packed(domain, moment, time, { ...this.query(level), bricks: `${range.first}-${range.end - 1}` }, flight.abort.signal);
+            const bytes = await packed(
+                domain,
+                moment,
+                time,
+                { ...this.query(level), bricks: `${range.first}-${range.end - 1}` },
+                flight.abort.signal,
+            );
             await this.decoder.ask({ kind: 'bricks', key, bytes });
             for (const [column, size] of columns) this.cells.set(column, size);
             this.failures = 0;
@@ -218,7 +244,7 @@ class Stream {
         } catch (error) {
             this.stumble(error);
         }
-        this.flights = this.flights.filter(one => one !== flight);
+        this.flights = this.flights.filter((one) => one !== flight);
         this.fetchMore();
     }
 
@@ -254,7 +280,7 @@ class Stream {
                 this.changed();
                 this.fetchMore();
             })
-            .catch(error => this.fail(error));
+            .catch((error) => this.fail(error));
     }
 
     // Asks again later, because too much was asked at once, or the network or the server failed. Tells of a
@@ -284,7 +310,9 @@ export class Streaming {
     // Call after the renderer was given the grid.
     show(loaded: LoadedGrid): void {
         this.stream?.end();
-        this.stream = loaded.stream ? new Stream(loaded, loaded.stream, this.renderer, this.decoder, this.mostCells, this.changed, this.fail) : null;
+        this.stream = loaded.stream
+            ? new Stream(loaded, loaded.stream, this.renderer, this.decoder, this.mostCells, this.changed, this.fail)
+            : null;
     }
 
     // `finest` is the level of the finest bricks that are wanted.

@@ -24,19 +24,22 @@ export class TableBook {
 
     // The tables of a moment; what is for a product of it is not among them.
     presets(moment: string): ColorTable[] {
-        const own = this.tables.tables.filter(table => table.moment === moment);
-        const unit = own.find(table => table.name === this.tables.usual[moment])?.unit;
-        return own.filter(table => table.unit === unit);
+        const own = this.tables.tables.filter((table) => table.moment === moment);
+        const unit = own.find((table) => table.name === this.tables.usual[moment])?.unit;
+        return own.filter((table) => table.unit === unit);
     }
     preset(moment: string, name: string): ColorTable | undefined {
         const presets = this.presets(moment);
         const usual = name === '' && moment === 'REF' && this.isClearAir ? clearAir : name;
-        return presets.find(table => table.name === usual) ?? presets.find(table => table.name === this.tables.usual[moment]);
+        return (
+            presets.find((table) => table.name === usual) ??
+            presets.find((table) => table.name === this.tables.usual[moment])
+        );
     }
 
     // The table of a moment in a view; the same draft has the same table.
     of(state: ViewState, moment: string): ColorTable | undefined {
-        const draft = state.drafts.find(one => one.moment === moment);
+        const draft = state.drafts.find((one) => one.moment === moment);
         if (!draft) return this.preset(moment, state.colors);
         const made = this.made.get(draft) ?? tableOf(draft, this.usual);
         this.made.set(draft, made);
@@ -44,7 +47,7 @@ export class TableBook {
     }
     // The draft of a moment, or the one that its table would become.
     draftOf(state: ViewState, moment: string): Draft | undefined {
-        const draft = state.drafts.find(one => one.moment === moment);
+        const draft = state.drafts.find((one) => one.moment === moment);
         const preset = this.preset(moment, state.colors);
         return draft ?? (preset && { ...draftOf(preset, moment, this.usual), name: `my-${preset.name}` });
     }

@@ -33,15 +33,16 @@ export class TableEditing {
     // Returns the draft that is edited: that of the chosen moment, or what its table would become.
     get draft(): Draft | undefined {
         const { state, book } = this.app;
-        const draft = state.drafts.find(one => one.moment === state.moment);
+        const draft = state.drafts.find((one) => one.moment === state.moment);
         if (draft) return draft;
         const key = `${state.moment} ${state.colors} ${book?.isClearAir}`;
-        if (this.known.key !== key || !this.known.draft) this.known = { key, draft: book?.draftOf(state, state.moment) };
+        if (this.known.key !== key || !this.known.draft)
+            this.known = { key, draft: book?.draftOf(state, state.moment) };
         return this.known.draft;
     }
     get isEdited(): boolean {
         const { state } = this.app;
-        return state.drafts.some(one => one.moment === state.moment);
+        return state.drafts.some((one) => one.moment === state.moment);
     }
     get canUndo(): boolean {
         return this.history.canUndo;
@@ -68,7 +69,7 @@ export class TableEditing {
         this.become({ drafts: this.with(next) });
     }
     private with(draft: Draft): Draft[] {
-        return [...this.app.state.drafts.filter(one => one.moment !== draft.moment), draft];
+        return [...this.app.state.drafts.filter((one) => one.moment !== draft.moment), draft];
     }
     rest(): void {
         this.history.rest();
@@ -80,7 +81,7 @@ export class TableEditing {
     choosePreset(name: string): void {
         this.history.note(this.now);
         const { state } = this.app;
-        this.become({ colors: name, drafts: state.drafts.filter(one => one.moment !== state.moment) });
+        this.become({ colors: name, drafts: state.drafts.filter((one) => one.moment !== state.moment) });
     }
     undo(): void {
         this.become(this.history.undo(this.now));

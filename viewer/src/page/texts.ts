@@ -12,8 +12,9 @@ const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `
 
 // Tells how far from an instant the volumes are that show a site.
 function ofVolumes(middlesS: number[]): string {
-    const away = (seconds: number) => `${Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`}`;
-    const told = middlesS.map(seconds => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));
+    const away = (seconds: number) =>
+        `${Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`}`;
+    const told = middlesS.map((seconds) => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));
     if (middlesS.length > 1) return `from volumes ${told.join(' and ')}`;
     return Math.abs(middlesS[0] ?? 0) < 1 ? 'as it was' : `as it was ${told[0]}`;
 }
@@ -22,17 +23,20 @@ function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     const told = (some: typeof sites) => some.map(({ site, middlesS }) => `${site} ${ofVolumes(middlesS)}`).join('; ');
     if (sites.length <= mostSitesTold) return told(sites);
     const alone = sites.filter(({ middlesS }) => middlesS.length === 1);
-    const asTheyWere = told(alone).replace(/ as it was/g, '').replace(/;/g, ',');
+    const asTheyWere = told(alone)
+        .replace(/ as it was/g, '')
+        .replace(/;/g, ',');
     const moved = sites.filter(({ middlesS }) => middlesS.length > 1);
     const farthest = Math.max(...moved.flatMap(({ middlesS }) => middlesS.map(Math.abs)));
-    const all = moved.length > 0 ? `${moved.length} sites from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
+    const all =
+        moved.length > 0 ? `${moved.length} sites from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
     return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
 }
 
 // Sites with the server's reason, a sentence that begins with "it" or "its".
 function leftOut(sites: [string, string][]): string {
-    const reasons = [...new Set(sites.map(([, reason]) => reason))].map(reason => {
-        const names = sites.filter(one => one[1] === reason).map(([site]) => site);
+    const reasons = [...new Set(sites.map(([, reason]) => reason))].map((reason) => {
+        const names = sites.filter((one) => one[1] === reason).map(([site]) => site);
         const told = names.length === 1 ? reason : reason.replace(/^it has /, 'they have ').replace(/^its /, 'their ');
         return names.join(', ') + (told && ` (${told})`);
     });
@@ -57,7 +61,8 @@ export const texts = {
         otherDomain: (domain: string, shown: string) => `No data for ${domain}. This is ${shown}.`,
         otherMoment: (domain: string, moment: string, shown: string) => `${domain} has no ${moment}. This is ${shown}.`,
         noTime: (text: string) => `${text} is no time. This is the newest.`,
-        otherTime: (time: string) => `No volume of ${new Date(time).toISOString().slice(0, 19).replace('T', ' ')} UTC. This is the nearest that is here.`,
+        otherTime: (time: string) =>
+            `No volume of ${new Date(time).toISOString().slice(0, 19).replace('T', ' ')} UTC. This is the nearest that is here.`,
     },
     failed: (what: string) => `This did not work: ${what}`,
     domain: 'Domain',
@@ -92,7 +97,8 @@ export const texts = {
         colors: 'Points of color',
         opacities: 'Points of opacity',
         point: (kind: 'color' | 'opacity', number: number) => `${kind === 'color' ? 'Color' : 'Opacity'} ${number}`,
-        colorIs: (value: string, [red, green, blue]: readonly number[]) => `${value}: red ${red}, green ${green}, blue ${blue}`,
+        colorIs: (value: string, [red, green, blue]: readonly number[]) =>
+            `${value}: red ${red}, green ${green}, blue ${blue}`,
         opacityIs: (value: string, perKm: number) => `${value}: ${perKm} per km`,
         perKm: '/km',
         value: 'Value',
@@ -105,11 +111,13 @@ export const texts = {
         noRoom: 'There is no room for another point here.',
         lastPoints: 'These points must stay.',
         saved: (name: string) => `Saved as ${name}; stormcellar frame --colors ${name} draws the same.`,
-        savedInPart: (name: string) => `Saved as ${name}, but a .pal cannot say that echo is denser than usual; a .toml can.`,
+        savedInPart: (name: string) =>
+            `Saved as ${name}, but a .pal cannot say that echo is denser than usual; a .toml can.`,
         taken: (name: string, points: number) => `${name} is shown, with ${points} points of color.`,
         otherMoment: (name: string, moment: string) => `${name} is for ${moment}: choose ${moment} to see it.`,
         otherEnding: (name: string) => `${name}: the file of a color table must end in .pal or .toml.`,
-        otherUnit: (name: string, unit: string, wanted: string) => `${name}: its values are in ${unit}, and not in ${wanted || 'numbers without a unit'}.`,
+        otherUnit: (name: string, unit: string, wanted: string) =>
+            `${name}: its values are in ${unit}, and not in ${wanted || 'numbers without a unit'}.`,
         tooLarge: (name: string) => `${name}: a file of a color table has at most 1 MiB.`,
     },
     threshold: 'Hide values below',
@@ -220,7 +228,8 @@ export const texts = {
         dragSection: 'Drag on the ground from A to B. Escape ends this.',
         dragCrop: 'Drag on the ground from corner to corner. Escape ends this.',
         plot: 'Vertical section: distance from A to B, and height. Arrow keys read it.',
-        told: (what: string, distance: string, height: string) => `${what}, ${distance} from A, ${height} above sea level`,
+        told: (what: string, distance: string, height: string) =>
+            `${what}, ${distance} from A, ${height} above sea level`,
         greatest: (told: string) => `Greatest ${told}`,
         nothing: 'There is no echo in it.',
         nothingButFolded: 'There is no echo in it, but range folded air.',
@@ -251,13 +260,19 @@ export const texts = {
         value: (value: string, height: string) => `${value} at ${height}`,
         beam: (elevation: string, width: string, range: string, azimuthDeg: number, icao: string) =>
             `tilt ${elevation}°, beam ${width} wide, ${range} at ${Math.round(azimuthDeg) % 360}° from ${icao}`,
-        from: (range: string, azimuthDeg: number, icao: string) => `${range} at ${Math.round(azimuthDeg + 360) % 360}° from ${icao}`,
+        from: (range: string, azimuthDeg: number, icao: string) =>
+            `${range} at ${Math.round(azimuthDeg + 360) % 360}° from ${icao}`,
         time: (time: string) => `seen at ${time} UTC`,
         error: (error: string) => `grid differs from the gates by ${error} (RMS)`,
         ground: (status: string) => `Lowest level: ${status}`,
         hidden: (value: string) => `Lowest level: ${value}, which is not shown`,
         outside: 'Outside the grid',
-        layers: { plane: 'on the plane', section: 'on the section', surface: 'on the surface', maximum: 'maximum of the column' },
+        layers: {
+            plane: 'on the plane',
+            section: 'on the section',
+            surface: 'on the surface',
+            maximum: 'maximum of the column',
+        },
         greatestOf,
     },
     tools: {
@@ -267,8 +282,12 @@ export const texts = {
         flyName: 'Fly',
         raw: 'Raw volume',
         noRaw: 'The raw files of this grid are not here.',
-        hint: (measure: 'distance' | 'area') => (measure === 'distance' ? 'Click from where to where. Escape ends this.' : 'Click the corners. Escape ends this.'),
-        distance: (distance: string, azimuth: number, height: string) => `${distance}, azimuth ${azimuth}°, height ${height}`,
+        hint: (measure: 'distance' | 'area') =>
+            measure === 'distance'
+                ? 'Click from where to where. Escape ends this.'
+                : 'Click the corners. Escape ends this.',
+        distance: (distance: string, azimuth: number, height: string) =>
+            `${distance}, azimuth ${azimuth}°, height ${height}`,
         area: (area: string, around: string) => `${area}, ${around} around`,
         flyHint: 'W A S D move, E and Q lift and sink, drag or arrows turn, Shift is faster. Escape lands.',
         profile: 'Values of the column over height',
@@ -291,13 +310,17 @@ export const texts = {
         ownVelocities: 'each velocity is toward or away from its own radar',
         merging: (sites: string[]) => `Merging ${sites.join(', ')}`,
         nothing: 'no data',
-        unpictured: (count: number) => `The echo of ${count === 1 ? '1 more radar' : `${count} more radars`} is not drawn here.`,
+        unpictured: (count: number) =>
+            `The echo of ${count === 1 ? '1 more radar' : `${count} more radars`} is not drawn here.`,
         lacksEcho: 'Some of the echo is not loaded yet.',
         noneFound: 'No radar with data, and no city, has that name.',
         noGridsOf: (domain: string) => `There are no grids of ${domain}.`,
         age,
         from: (km: number, city: string) => `${km} km from ${city}`,
-        boxed: (sites: string[]) => (sites.length === 0 ? 'No site with grids is in the box.' : `${sites.length === 1 ? '1 site' : `${sites.length} sites`} in the box: ${sites.join(', ')}. Others that reach it are merged too.`),
+        boxed: (sites: string[]) =>
+            sites.length === 0
+                ? 'No site with grids is in the box.'
+                : `${sites.length === 1 ? '1 site' : `${sites.length} sites`} in the box: ${sites.join(', ')}. Others that reach it are merged too.`,
         card: (domain: string, name: string, ageS: number | null, moments: string[], strongest: number | null) =>
             [
                 name ? `${domain}, ${name}` : domain,

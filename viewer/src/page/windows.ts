@@ -1,7 +1,15 @@
 // Finds the cells that layers and readings are made of. A grid that is there as a whole has them all; for one
 // in parts, asks the server for a window, as fine as it is worth and as there is room for.
 
-import { BrickWindow, WindowLimits, boundsAbout, holds, windowAbout, windowQuery, windowSeen } from '../atlas/window_choice';
+import {
+    BrickWindow,
+    WindowLimits,
+    boundsAbout,
+    holds,
+    windowAbout,
+    windowQuery,
+    windowSeen,
+} from '../atlas/window_choice';
 import { Decoder } from '../atlas/decoder';
 import { ViewGeometry } from '../camera/geometry';
 import { GridInParts, LoadedGrid } from '../atlas/loaded_grid';
@@ -49,11 +57,19 @@ export class Windows {
         return [...this.held].some(([purpose, { abort }]) => purpose !== 'ray' && abort !== null);
     }
     get bytes(): number {
-        return [...this.held.values(), ...this.ahead.values()].reduce((sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0), 0);
+        return [...this.held.values(), ...this.ahead.values()].reduce(
+            (sum, { cells }) => sum + (cells ? cells.grid.codes.byteLength + cells.grid.states.byteLength : 0),
+            0,
+        );
     }
     // Returns how often the coarsest window of the layers was halved; 0 if the grid is not in parts.
     coarsest(loaded: LoadedGrid): number {
-        return Math.max(0, ...[...this.held].map(([purpose, { of, cells }]) => (purpose === 'ray' || of !== loaded ? 0 : cells?.grid.halvings ?? 0)));
+        return Math.max(
+            0,
+            ...[...this.held].map(([purpose, { of, cells }]) =>
+                purpose === 'ray' || of !== loaded ? 0 : (cells?.grid.halvings ?? 0),
+            ),
+        );
     }
     // Returns how often the cells for a purpose were halved.
     halvings(loaded: LoadedGrid, purpose: Purpose): number {
@@ -76,10 +92,21 @@ export class Windows {
         if (!stream) return this.whole(grid);
         const way = geodesic(from, to);
         const plane = planeOf(grid);
-        const points = Array.from({ length: pointsOfLine + 1 }, (_, i) => plane.toPlane(destination(from, way.azimuth, (i / pointsOfLine) * way.distanceM)));
+        const points = Array.from({ length: pointsOfLine + 1 }, (_, i) =>
+            plane.toPlane(destination(from, way.azimuth, (i / pointsOfLine) * way.distanceM)),
+        );
         // No finer than a plot of the section shows it.
-        const finest = Math.max(0, Math.floor(Math.log2(way.distanceM / columnsOfSection / Math.max(...cellSizeM(grid)))));
-        return this.about(loaded, stream, 'section', points.filter((point): point is Plane => point !== null), finest);
+        const finest = Math.max(
+            0,
+            Math.floor(Math.log2(way.distanceM / columnsOfSection / Math.max(...cellSizeM(grid)))),
+        );
+        return this.about(
+            loaded,
+            stream,
+            'section',
+            points.filter((point): point is Plane => point !== null),
+            finest,
+        );
     }
 
     // Asks ahead for what `ask` needs of the grid that is shown next. Null if all of it is there.
@@ -88,8 +115,8 @@ export class Windows {
         this.taken = this.ahead;
         ask();
         this.taken = this.held;
-        const waits = [...this.ahead.values()].filter(one => one.of === loaded && one.abort !== null);
-        return waits.length > 0 ? Promise.all(waits.map(one => one.done)).then(() => undefined) : null;
+        const waits = [...this.ahead.values()].filter((one) => one.of === loaded && one.abort !== null);
+        return waits.length > 0 ? Promise.all(waits.map((one) => one.done)).then(() => undefined) : null;
     }
 
     // Returns the cells between points, the grid's own if there is room; null until they have come.
@@ -98,7 +125,13 @@ export class Windows {
         return stream ? this.about(loaded, stream, 'ray', points, 0) : this.whole(grid);
     }
 
-    private about(loaded: LoadedGrid, stream: GridInParts, purpose: Purpose, points: readonly Plane[], finest: number): Cells | null {
+    private about(
+        loaded: LoadedGrid,
+        stream: GridInParts,
+        purpose: Purpose,
+        points: readonly Plane[],
+        finest: number,
+    ): Cells | null {
         const { grid } = loaded;
         const bounds = boundsAbout(points, grid);
         if (!bounds) return null;
@@ -134,7 +167,10 @@ export class Windows {
             const other = this.taken === this.held ? this.ahead : this.held;
             const known = other.get(purpose);
             if (known?.of === loaded && other === this.ahead) other.delete(purpose);
-            held = known?.of === loaded ? known : { of: loaded, asked: null, has: null, cells: null, abort: null, done: Promise.resolve() };
+            held =
+                known?.of === loaded
+                    ? known
+                    : { of: loaded, asked: null, has: null, cells: null, abort: null, done: Promise.resolve() };
             this.taken.set(purpose, held);
         }
         if (!held.asked || !holds(held.asked, window)) {
@@ -152,7 +188,13 @@ export class Windows {
         const abort = (held.abort = new AbortController());
         held.asked = window;
         try {
-            const bytes = await packed(domain, moment, time, { ...windowQuery(window), codes: 'values', id: grid.id }, abort.signal);
+            const bytes = await packed(
+                domain,
+                moment,
+                time,
+                { ...windowQuery(window), codes: 'values', id: grid.id },
+                abort.signal,
+            );
             const { grid: cells } = await this.decoder.ask({ kind: 'cells', bytes });
             if (abort.signal.aborted) return;
             held.cells = { grid: cells!, middle: middleOn(grid, cells!) };
@@ -161,7 +203,7 @@ export class Windows {
             if (abort.signal.aborted) return;
             this.fail(error);
             if (isAbsent(error)) throw error;
-            await new Promise(done => setTimeout(done, againAfterMs));
+            await new Promise((done) => setTimeout(done, againAfterMs));
             return abort.signal.aborted ? undefined : this.fetch(held, loaded, stream, window);
         }
         held.abort = null;

@@ -7,7 +7,10 @@ import { cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
 
 // A picture, or a small one of the same view, whose sides need not be whole pixels.
-export type RayView = Pick<ViewGeometry, 'width' | 'height' | 'eye' | 'right' | 'up' | 'forward' | 'focalPixels' | 'metersPerPixel' | 'isPerspective'>;
+export type RayView = Pick<
+    ViewGeometry,
+    'width' | 'height' | 'eye' | 'right' | 'up' | 'forward' | 'focalPixels' | 'metersPerPixel' | 'isPerspective'
+>;
 
 // Places along each axis, in drawn space, where blocks of cells begin, and where the last one ends.
 export interface BlockEnds {
@@ -20,12 +23,20 @@ export interface BlockEnds {
 export function blockEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry): BlockEnds {
     const [width, height] = cellSizeM(grid);
     const along = (bricks: number, cells: number, placeOf: (cell: number) => number, low: number, high: number) =>
-        Array.from({ length: blocksAlong * bricks + 1 }, (_, i) => (i === 0 ? low : blockEdge * i < cells ? placeOf(blockEdge * i) : high));
+        Array.from({ length: blocksAlong * bricks + 1 }, (_, i) =>
+            i === 0 ? low : blockEdge * i < cells ? placeOf(blockEdge * i) : high,
+        );
     const [x, y, z] = grid.bricks;
     return {
-        x: along(x, grid.nx, cell => (cell - 0.5 * (grid.nx - 1)) * width, -box.halfXM, box.halfXM),
-        y: along(y, grid.ny, cell => (cell - 0.5 * (grid.ny - 1)) * height, -box.halfYM, box.halfYM),
-        z: along(z, grid.nz, level => grid.levelsM[level]! * exaggeration, box.bottomM * exaggeration, box.topM * exaggeration),
+        x: along(x, grid.nx, (cell) => (cell - 0.5 * (grid.nx - 1)) * width, -box.halfXM, box.halfXM),
+        y: along(y, grid.ny, (cell) => (cell - 0.5 * (grid.ny - 1)) * height, -box.halfYM, box.halfYM),
+        z: along(
+            z,
+            grid.nz,
+            (level) => grid.levelsM[level]! * exaggeration,
+            box.bottomM * exaggeration,
+            box.topM * exaggeration,
+        ),
     };
 }
 
@@ -54,7 +65,14 @@ interface Extent {
 
 function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], zs: readonly number[]): Extent {
     const { eye, right, up, forward, width, height } = view;
-    const extent: Extent = { left: Infinity, right: -Infinity, low: Infinity, high: -Infinity, near: Infinity, far: -Infinity };
+    const extent: Extent = {
+        left: Infinity,
+        right: -Infinity,
+        low: Infinity,
+        high: -Infinity,
+        near: Infinity,
+        far: -Infinity,
+    };
     for (let corner = 0; corner < 8; ++corner) {
         const x = xs[corner & 1]! - eye[0];
         const y = ys[(corner >> 1) & 1]! - eye[1];
@@ -71,7 +89,8 @@ function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], z
         extent.high = Math.max(extent.high, upward);
     }
     // A box that reaches behind the camera may be anywhere in the picture.
-    if (view.isPerspective && extent.near <= 0) return { left: 0, right: width, low: 0, high: height, near: 0, far: extent.far };
+    if (view.isPerspective && extent.near <= 0)
+        return { left: 0, right: width, low: 0, high: height, near: 0, far: extent.far };
     return extent;
 }
 
@@ -96,25 +115,38 @@ function shownBlocks(blocks: Uint8Array, slot: number, leastShown: number): Bloc
 type ShownAtlas = Pick<Atlas, 'bricks' | 'indirection' | 'blocks'>;
 
 // Visits the part of each brick that shows something. `from` and `to` are x, y, z of the whole grid's blocks.
-function eachShown({ bricks, indirection, blocks }: ShownAtlas, leastShown: number, visit: (from: Vec3, to: Vec3) => void): void {
+function eachShown(
+    { bricks, indirection, blocks }: ShownAtlas,
+    leastShown: number,
+    visit: (from: Vec3, to: Vec3) => void,
+): void {
     const [bx, by] = bricks;
     for (let i = 0; i < indirection.length; ++i) {
         if (!shows(indirection[i]!, leastShown)) continue;
         const found = shownBlocks(blocks, slotOf(indirection[i]!), leastShown);
         if (!found) continue;
-        const [x, y, z] = [blocksAlong * (i % bx), blocksAlong * (Math.floor(i / bx) % by), blocksAlong * Math.floor(i / (bx * by))];
+        const [x, y, z] = [
+            blocksAlong * (i % bx),
+            blocksAlong * (Math.floor(i / bx) % by),
+            blocksAlong * Math.floor(i / (bx * by)),
+        ];
         visit([x + found[0], y + found[1], z + found[2]], [x + found[3], y + found[4], z + found[5]]);
     }
 }
 
 export function tilesOf(view: RayView, atlas: ShownAtlas, ends: BlockEnds, leastShown: number): Tiles {
     const { width, height } = view;
-    const side = sides.find(one => width <= one * mostColumns) ?? sides[sides.length - 1]!;
+    const side = sides.find((one) => width <= one * mostColumns) ?? sides[sides.length - 1]!;
     const [columns, rows] = [Math.ceil(width / side), Math.ceil(height / side)];
     const near = new Float32Array(columns * rows).fill(Infinity);
     const far = new Float32Array(columns * rows).fill(-Infinity);
     eachShown(atlas, leastShown, (from, to) => {
-        const extent = extentOf(view, [ends.x[from[0]]!, ends.x[to[0]]!], [ends.y[from[1]]!, ends.y[to[1]]!], [ends.z[from[2]]!, ends.z[to[2]]!]);
+        const extent = extentOf(
+            view,
+            [ends.x[from[0]]!, ends.x[to[0]]!],
+            [ends.y[from[1]]!, ends.y[to[1]]!],
+            [ends.z[from[2]]!, ends.z[to[2]]!],
+        );
         if (view.isPerspective && extent.far <= 0) return;
         const lastColumn = Math.min(columns - 1, Math.floor(extent.right / side));
         const lastRow = Math.min(rows - 1, Math.floor(extent.high / side));
@@ -129,7 +161,12 @@ export function tilesOf(view: RayView, atlas: ShownAtlas, ends: BlockEnds, least
     const points: number[] = [];
     for (let tile = 0; tile < near.length; ++tile) {
         if (near[tile]! > far[tile]!) continue;
-        points.push((2 * (tile % columns) + 1) / columns - 1, (2 * Math.floor(tile / columns) + 1) / rows - 1, near[tile]!, far[tile]!);
+        points.push(
+            (2 * (tile % columns) + 1) / columns - 1,
+            (2 * Math.floor(tile / columns) + 1) / rows - 1,
+            near[tile]!,
+            far[tile]!,
+        );
     }
     return { side, columns, rows, points: new Float32Array(points) };
 }

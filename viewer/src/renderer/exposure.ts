@@ -39,13 +39,18 @@ function smallView(geometry: ViewGeometry): RayView {
         height: height / stride,
         focalPixels: focalPixels / stride,
         metersPerPixel: metersPerPixel * stride,
-        eye, right, up, forward, isPerspective,
+        eye,
+        right,
+        up,
+        forward,
+        isPerspective,
     };
 }
 
 export class Exposure {
     value = 1;
-    private target: { framebuffer: WebGLFramebuffer; texture: WebGLTexture; width: number; height: number } | null = null;
+    private target: { framebuffer: WebGLFramebuffer; texture: WebGLTexture; width: number; height: number } | null =
+        null;
 
     constructor(private gl: WebGL2RenderingContext) {}
 

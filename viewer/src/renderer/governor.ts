@@ -30,7 +30,9 @@ export class Governor {
             return still;
         }
         // Nothing that moves is drawn with more effort than what stands still.
-        const allowed = this.rungs.filter(rung => rung.dE <= this.mostDE && rung.cost <= still.cost).sort((one, other) => one.dE - other.dE);
+        const allowed = this.rungs
+            .filter((rung) => rung.dE <= this.mostDE && rung.cost <= still.cost)
+            .sort((one, other) => one.dE - other.dE);
         if (allowed.length === 0) return still;
         const unit = this.firstRungMs;
         if (unit === null) return allowed[0]!;

@@ -18,7 +18,9 @@ export class Graphics {
     get isSoftware(): boolean {
         const { gl } = this;
         const names = gl.getExtension('WEBGL_debug_renderer_info');
-        return /swiftshader|llvmpipe|softpipe|basic render/i.test(String(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER)));
+        return /swiftshader|llvmpipe|softpipe|basic render/i.test(
+            String(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER)),
+        );
     }
     get compiledVariants(): string[] {
         return [...this.programs.keys()];
@@ -54,33 +56,50 @@ export class Graphics {
         const gl = this.gl;
         const program = this.begun.get(name) ?? this.begin(name, vertex, fragment);
         if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-            const logs = gl.getAttachedShaders(program)!.map(shader => gl.getShaderInfoLog(shader));
+            const logs = gl.getAttachedShaders(program)!.map((shader) => gl.getShaderInfoLog(shader));
             throw new Error(`${name}: ${gl.getProgramInfoLog(program)} ${logs.join(' ')}`);
         }
         this.programs.set(name, program);
         return program;
     }
 
-    texture3d(internal: number, format: number, size: readonly number[], data: ArrayBufferView | null, filter: number): WebGLTexture {
+    texture3d(
+        internal: number,
+        format: number,
+        size: readonly number[],
+        data: ArrayBufferView | null,
+        filter: number,
+    ): WebGLTexture {
         const gl = this.gl;
         const texture = gl.createTexture()!;
         this.beginUpload(texture);
         const type = data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_BYTE;
         gl.texImage3D(gl.TEXTURE_3D, 0, internal, size[0]!, size[1]!, size[2]!, 0, format, type, data);
-        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
-        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, name, gl.CLAMP_TO_EDGE);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+            gl.texParameteri(gl.TEXTURE_3D, name, filter);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R])
+            gl.texParameteri(gl.TEXTURE_3D, name, gl.CLAMP_TO_EDGE);
         return texture;
     }
 
-    texture2d(internal: number, format: number, type: number, width: number, height: number, data: ArrayBufferView): WebGLTexture {
+    texture2d(
+        internal: number,
+        format: number,
+        type: number,
+        width: number,
+        height: number,
+        data: ArrayBufferView,
+    ): WebGLTexture {
         const gl = this.gl;
         const texture = gl.createTexture()!;
         gl.activeTexture(gl.TEXTURE0 + unitOfUploads);
         gl.bindTexture(gl.TEXTURE_2D, texture);
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
         gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
-        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
-        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+            gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+        for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
+            gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
         return texture;
     }
 

@@ -19,11 +19,11 @@ export interface Rung extends Quality {
 
 // A picture that stands still is drawn by the first rung.
 export const rungs: readonly Rung[] = [
-    { name: '256 slices', slices: 256, grain: 1, isNearest: false, halvings: 0, cost: 1.00, dE: 8.6 },
+    { name: '256 slices', slices: 256, grain: 1, isNearest: false, halvings: 0, cost: 1.0, dE: 8.6 },
     { name: '512 slices', slices: 512, grain: 1, isNearest: false, halvings: 0, cost: 1.61, dE: 3.2 },
     { name: '128 slices', slices: 128, grain: 1, isNearest: false, halvings: 0, cost: 0.62, dE: 19.9 },
     { name: '64 slices', slices: 64, grain: 1, isNearest: false, halvings: 0, cost: 0.44, dE: 33.4 },
-    { name: '256 slices, half resolution', slices: 256, grain: 2, isNearest: false, halvings: 0, cost: 0.40, dE: 9.9 },
+    { name: '256 slices, half resolution', slices: 256, grain: 2, isNearest: false, halvings: 0, cost: 0.4, dE: 9.9 },
     { name: '128 slices, half resolution', slices: 128, grain: 2, isNearest: false, halvings: 0, cost: 0.31, dE: 17.6 },
     { name: '64 slices, half resolution', slices: 64, grain: 2, isNearest: false, halvings: 0, cost: 0.25, dE: 31.9 },
     { name: 'nearest cell', slices: 256, grain: 1, isNearest: true, halvings: 0, cost: 0.82, dE: 21.2 },

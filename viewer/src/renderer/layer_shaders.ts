@@ -177,8 +177,14 @@ export interface AirVariant {
 }
 
 export const airName = (variant: AirVariant): string =>
-    ['air', variant.isPerspective ? 'perspective' : 'parallel', variant.hasUnevenLevels ? 'uneven levels' : '', variant.hasHaze ? 'not seen' : '', variant.hasFolded ? 'folded' : '']
-        .filter(part => part !== '')
+    [
+        'air',
+        variant.isPerspective ? 'perspective' : 'parallel',
+        variant.hasUnevenLevels ? 'uneven levels' : '',
+        variant.hasHaze ? 'not seen' : '',
+        variant.hasFolded ? 'folded' : '',
+    ]
+        .filter((part) => part !== '')
         .join(', ');
 
 // Veils before the ground, behind all echo (render/volume/haze.h).
@@ -220,8 +226,15 @@ export interface SurfaceVariant extends VolumeVariant {
 }
 
 export const surfaceName = (variant: SurfaceVariant): string =>
-    ['surface', variant.isPerspective ? 'perspective' : 'parallel', variant.hasUnevenLevels ? 'uneven levels' : '', variant.hasHalved ? 'halved bricks' : '', variant.isBelow ? 'below' : '', variant.hasOther ? 'colored by another' : '']
-        .filter(part => part !== '')
+    [
+        'surface',
+        variant.isPerspective ? 'perspective' : 'parallel',
+        variant.hasUnevenLevels ? 'uneven levels' : '',
+        variant.hasHalved ? 'halved bricks' : '',
+        variant.isBelow ? 'below' : '',
+        variant.hasOther ? 'colored by another' : '',
+    ]
+        .filter((part) => part !== '')
         .join(', ');
 
 // By it the lightness of a surface is about that of its color.

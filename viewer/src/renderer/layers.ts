@@ -38,7 +38,7 @@ export interface PlacedField {
 
 // Layers as they are drawn, made of the scene's layers and a grid.
 export interface DrawnLayers {
-    plane: PlacedField & { heightM: number } | null;
+    plane: (PlacedField & { heightM: number }) | null;
     section: Section | null;
     surface: DrawnSurface | null;
     maximum: PlacedField | null;
@@ -53,7 +53,8 @@ export interface DrawnLayers {
     looks: Looks;
 }
 
-export const hasSolids = ({ plane, section, surface, sweep }: DrawnLayers): boolean => Boolean(plane || section || surface || sweep);
+export const hasSolids = ({ plane, section, surface, sweep }: DrawnLayers): boolean =>
+    Boolean(plane || section || surface || sweep);
 
 // The direction of the sun, which stands beside the camera.
 function sunOf({ right }: ViewGeometry): Vec3 {
@@ -105,9 +106,23 @@ export class LayerPasses {
         });
     }
 
-    bindLooks(unit: number, { looks }: DrawnLayers, at: (name: string) => WebGLUniformLocation | null, codeLine?: [number, number]): void {
+    bindLooks(
+        unit: number,
+        { looks }: DrawnLayers,
+        at: (name: string) => WebGLUniformLocation | null,
+        codeLine?: [number, number],
+    ): void {
         const { gl } = this.graphics;
-        const texture = this.shelf.take('looks', looks, () => this.graphics.texture2d(gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, lookColumns, lookCount / lookColumns, looks.rgba));
+        const texture = this.shelf.take('looks', looks, () =>
+            this.graphics.texture2d(
+                gl.RGBA8,
+                gl.RGBA,
+                gl.UNSIGNED_BYTE,
+                lookColumns,
+                lookCount / lookColumns,
+                looks.rgba,
+            ),
+        );
         this.graphics.bind(unit, gl.TEXTURE_2D, texture, at('looks'));
         const [zero, step] = codeLine ?? [0, 1];
         gl.uniform2f(at('lookLine'), looks.offset + looks.slope * zero, looks.slope * step);
@@ -135,10 +150,18 @@ export class LayerPasses {
         this.target.end();
     }
 
-    private beginSolid(name: string, fragment: string, geometry: ViewGeometry, layers: DrawnLayers): (name: string) => WebGLUniformLocation | null {
+    private beginSolid(
+        name: string,
+        fragment: string,
+        geometry: ViewGeometry,
+        layers: DrawnLayers,
+    ): (name: string) => WebGLUniformLocation | null {
         const { gl } = this.graphics;
         const whole = `${name}, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(this.graphics.program(whole, solidVertex(geometry.isPerspective), fragment), geometry);
+        const at = this.graphics.use(
+            this.graphics.program(whole, solidVertex(geometry.isPerspective), fragment),
+            geometry,
+        );
         gl.uniform1f(at('exaggeration'), geometry.exaggeration);
         gl.uniform2f(at('depthRange'), geometry.nearM, geometry.farM);
         this.bindLooks(0, layers, at);
@@ -171,12 +194,20 @@ export class LayerPasses {
         for (const buffer of buffers) gl.deleteBuffer(buffer);
     }
 
-    private bindField(at: (name: string) => WebGLUniformLocation | null, texture: WebGLTexture, { mixes }: DrawnLayers): void {
+    private bindField(
+        at: (name: string) => WebGLUniformLocation | null,
+        texture: WebGLTexture,
+        { mixes }: DrawnLayers,
+    ): void {
         this.graphics.bind(1, this.graphics.gl.TEXTURE_2D, texture, at('field'));
         this.graphics.gl.uniform1i(at('mixes'), mixes ? 1 : 0);
     }
 
-    private drawPlane(geometry: ViewGeometry, layers: DrawnLayers, { field, heightM, extent }: PlacedField & { heightM: number }): void {
+    private drawPlane(
+        geometry: ViewGeometry,
+        layers: DrawnLayers,
+        { field, heightM, extent }: PlacedField & { heightM: number },
+    ): void {
         const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
         this.bindField(at, this.fieldTexture('plane', field, null), layers);
         // Cells of a halved grid may reach beyond the grid.
@@ -186,13 +217,32 @@ export class LayerPasses {
         const column = (x: number) => (field.width * (x - extent.westM)) / (extent.eastM - extent.westM);
         const row = (y: number) => (field.height * (y - extent.southM)) / (extent.northM - extent.southM);
         const corner = (x: number, y: number) => [x, y, heightM, column(x), row(y)];
-        this.drawMesh(new Float32Array([...corner(west, south), ...corner(east, south), ...corner(west, north), ...corner(east, north)]), null);
+        this.drawMesh(
+            new Float32Array([
+                ...corner(west, south),
+                ...corner(east, south),
+                ...corner(west, north),
+                ...corner(east, north),
+            ]),
+            null,
+        );
     }
 
     private drawSection(geometry: ViewGeometry, layers: DrawnLayers, section: Section): void {
         const at = this.beginSolid('field', fieldFragment(geometry.isPerspective), geometry, layers);
         this.bindField(at, this.fieldTexture('section', section.field, section.inGrid), layers);
-        const corners = section.ends.flatMap(([x, y], i) => [x, y, section.bottomM, i, 0, x, y, section.topM, i, section.field.height]);
+        const corners = section.ends.flatMap(([x, y], i) => [
+            x,
+            y,
+            section.bottomM,
+            i,
+            0,
+            x,
+            y,
+            section.topM,
+            i,
+            section.field.height,
+        ]);
         this.drawMesh(new Float32Array(corners), null);
     }
 
@@ -201,13 +251,27 @@ export class LayerPasses {
         const at = this.beginSolid('sweep', sweepFragment(geometry.isPerspective), geometry, layers);
         const isShort = gates.codes instanceof Uint16Array;
         const codes = this.shelf.take('gates', gates, () =>
-            this.graphics.texture2d(isShort ? gl.R16UI : gl.R8UI, gl.RED_INTEGER, isShort ? gl.UNSIGNED_SHORT : gl.UNSIGNED_BYTE, gates.gateStride, gates.azimuthsDeg.length, gates.codes),
+            this.graphics.texture2d(
+                isShort ? gl.R16UI : gl.R8UI,
+                gl.RED_INTEGER,
+                isShort ? gl.UNSIGNED_SHORT : gl.UNSIGNED_BYTE,
+                gates.gateStride,
+                gates.azimuthsDeg.length,
+                gates.codes,
+            ),
         );
         this.graphics.bind(1, gl.TEXTURE_2D, codes, at('codes'));
         const numbers = this.shelf.take('radials', gates, () => {
             const pairs = new Uint16Array(2 * radials.length);
             radials.forEach((radial, i) => pairs.set([radial, gates.gateCounts[radial] ?? 0], 2 * i));
-            return this.graphics.texture2d(gl.RG16UI, gl.RG_INTEGER, gl.UNSIGNED_SHORT, radialsAcross, radials.length / radialsAcross, pairs);
+            return this.graphics.texture2d(
+                gl.RG16UI,
+                gl.RG_INTEGER,
+                gl.UNSIGNED_SHORT,
+                radialsAcross,
+                radials.length / radialsAcross,
+                pairs,
+            );
         });
         this.graphics.bind(2, gl.TEXTURE_2D, numbers, at('radials'));
         gl.uniform2f(at('gateLine'), 0.5 - gates.firstGateM / gates.gateSpacingM, 1 / gates.gateSpacingM);
@@ -220,7 +284,10 @@ export class LayerPasses {
 
     showSolids(geometry: ViewGeometry): void {
         const { gl } = this.graphics;
-        const at = this.graphics.use(this.graphics.program('solids shown', fullScreenVertex, showSolidsFragment), geometry);
+        const at = this.graphics.use(
+            this.graphics.program('solids shown', fullScreenVertex, showSolidsFragment),
+            geometry,
+        );
         this.graphics.bind(0, gl.TEXTURE_2D, this.target!.color, at('solidColor'));
         this.graphics.bind(1, gl.TEXTURE_2D, this.target!.depth, at('solidDepth'));
         gl.drawArrays(gl.TRIANGLES, 0, 3);
@@ -239,7 +306,10 @@ export class LayerPasses {
     drawMaximum(geometry: ViewGeometry, layers: DrawnLayers, { field, extent }: PlacedField): void {
         const { gl } = this.graphics;
         const name = `maximum, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(this.graphics.program(name, fullScreenVertex, drapeFragment(geometry.isPerspective)), geometry);
+        const at = this.graphics.use(
+            this.graphics.program(name, fullScreenVertex, drapeFragment(geometry.isPerspective)),
+            geometry,
+        );
         this.bindLooks(0, layers, at);
         this.bindField(at, this.fieldTexture('maximum', field, null), layers);
         this.color(at('seenColor'), shades.seen);
@@ -250,9 +320,16 @@ export class LayerPasses {
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 
-    bindAir(unit: number, air: Air & { placing: Placing }, layers: DrawnLayers, at: (name: string) => WebGLUniformLocation | null): void {
+    bindAir(
+        unit: number,
+        air: Air & { placing: Placing },
+        layers: DrawnLayers,
+        at: (name: string) => WebGLUniformLocation | null,
+    ): void {
         const { gl } = this.graphics;
-        const texture = this.shelf.take('air', air, () => this.graphics.texture3d(gl.RG8, gl.RG, air.size, air.shares, gl.NEAREST));
+        const texture = this.shelf.take('air', air, () =>
+            this.graphics.texture3d(gl.RG8, gl.RG, air.size, air.shares, gl.NEAREST),
+        );
         this.graphics.bind(unit, gl.TEXTURE_3D, texture, at('air'));
         gl.uniform2fv(at('airFirst'), air.placing.first);
         gl.uniform2f(at('airCells'), airCellsAcross * 2 ** air.placing.halvings, airCellsUp);
@@ -261,16 +338,30 @@ export class LayerPasses {
     }
 
     // The light of a volume: where its values fall, and the sun.
-    bindLight(unit: number, falls: Falls & { placing: Placing }, geometry: ViewGeometry, cellM: readonly [number, number], levelM: number, at: (name: string) => WebGLUniformLocation | null): void {
+    bindLight(
+        unit: number,
+        falls: Falls & { placing: Placing },
+        geometry: ViewGeometry,
+        cellM: readonly [number, number],
+        levelM: number,
+        at: (name: string) => WebGLUniformLocation | null,
+    ): void {
         const { gl } = this.graphics;
         const [nx, ny, nz] = falls.size;
-        const texture = this.shelf.take('falls', falls, () => this.graphics.texture3d(gl.RGBA8, gl.RGBA, [nz, ny, nx], falls.bytes, gl.LINEAR));
+        const texture = this.shelf.take('falls', falls, () =>
+            this.graphics.texture3d(gl.RGBA8, gl.RGBA, [nz, ny, nx], falls.bytes, gl.LINEAR),
+        );
         this.graphics.bind(unit, gl.TEXTURE_3D, texture, at('falls'));
         const cells = fallCellsAcross * 2 ** falls.placing.halvings; // of the grid, in a coarse one
         gl.uniform2fv(at('fallsFirst'), falls.placing.first);
         gl.uniform2f(at('fallsCells'), cells * nx, cells * ny);
         // Falls reach from the coarse cell before to the one after.
-        gl.uniform3f(at('perM'), 0.5 / (cells * cellM[0]), 0.5 / (cells * cellM[1]), 0.5 / (levelM * geometry.exaggeration));
+        gl.uniform3f(
+            at('perM'),
+            0.5 / (cells * cellM[0]),
+            0.5 / (cells * cellM[1]),
+            0.5 / (levelM * geometry.exaggeration),
+        );
         this.bindSun(geometry, at);
     }
 }

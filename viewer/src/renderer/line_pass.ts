@@ -14,7 +14,15 @@ interface UploadedLines {
 }
 
 // In pixels.
-const widths: Record<MapLines['kind'], number> = { county: 0.7, state: 1.3, lake: 1, country: 1.6, coast: 1.3, ring: 1, border: 1 };
+const widths: Record<MapLines['kind'], number> = {
+    county: 0.7,
+    state: 1.3,
+    lake: 1,
+    country: 1.6,
+    coast: 1.3,
+    ring: 1,
+    border: 1,
+};
 
 // Each corner of a segment's strip knows both ends. An instance for each segment would be smaller, but where
 // a processor draws, it takes as long to begin one as to draw hundreds of corners.
@@ -23,11 +31,15 @@ const triangles = [0, 1, 2, 1, 3, 2];
 
 export function cornersOf(segments: Float32Array): Float32Array {
     const corners = new Float32Array(cornersASegment * segments.length);
-    for (let i = 0; i < corners.length; ++i) corners[i] = segments[4 * Math.floor(i / (4 * cornersASegment)) + (i % 4)]!;
+    for (let i = 0; i < corners.length; ++i)
+        corners[i] = segments[4 * Math.floor(i / (4 * cornersASegment)) + (i % 4)]!;
     return corners;
 }
 export function trianglesOf(segmentCount: number): Uint32Array {
-    return Uint32Array.from({ length: triangles.length * segmentCount }, (_, i) => cornersASegment * Math.floor(i / triangles.length) + triangles[i % triangles.length]!);
+    return Uint32Array.from(
+        { length: triangles.length * segmentCount },
+        (_, i) => cornersASegment * Math.floor(i / triangles.length) + triangles[i % triangles.length]!,
+    );
 }
 
 export class LinePass {
@@ -50,7 +62,7 @@ export class LinePass {
             gl.deleteVertexArray(array);
             for (const buffer of buffers) gl.deleteBuffer(buffer);
         }
-        this.uploaded = all.map(lines => {
+        this.uploaded = all.map((lines) => {
             const array = gl.createVertexArray()!;
             const buffers = [gl.createBuffer()!, gl.createBuffer()!];
             const indices = trianglesOf(lines.segments.length / 4);

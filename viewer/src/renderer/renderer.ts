@@ -76,7 +76,7 @@ export class Renderer {
         this.water = new WaterTexture(this.graphics);
         this.tiles = new TilePass(gl);
         this.exposure = new Exposure(gl);
-        canvas.addEventListener('webglcontextlost', event => event.preventDefault());
+        canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
     }
 
     get mostTexels(): number {
@@ -136,7 +136,14 @@ export class Renderer {
             loaded,
             atlas: pool ?? this.graphics.texture3d(gl.RG8, gl.RG, atlas.size, stream ? null : atlas.texels, gl.LINEAR),
             indirection: this.graphics.texture3d(gl.R32UI, gl.RED_INTEGER, atlas.bricks, atlas.indirection, gl.NEAREST),
-            coverage: this.graphics.texture2d(gl.R8UI, gl.RED_INTEGER, gl.UNSIGNED_BYTE, halved(grid.nx), halved(grid.ny), coverage),
+            coverage: this.graphics.texture2d(
+                gl.R8UI,
+                gl.RED_INTEGER,
+                gl.UNSIGNED_BYTE,
+                halved(grid.nx),
+                halved(grid.ny),
+                coverage,
+            ),
             levels: hasUnevenLevels(grid) ? this.levelTable(grid, range) : null,
             levelRange: range,
         };
@@ -151,7 +158,20 @@ export class Renderer {
         for (const slot of slots) {
             if (slot < 0) continue;
             const [x, y, z] = placeOfSlot(slot, this.uploaded.loaded.atlas.slots);
-            gl.texSubImage3D(gl.TEXTURE_3D, 0, x, y, z, paddedEdge, paddedEdge, paddedEdge, gl.RG, gl.UNSIGNED_BYTE, texels, from);
+            gl.texSubImage3D(
+                gl.TEXTURE_3D,
+                0,
+                x,
+                y,
+                z,
+                paddedEdge,
+                paddedEdge,
+                paddedEdge,
+                gl.RG,
+                gl.UNSIGNED_BYTE,
+                texels,
+                from,
+            );
             from += 2 * paddedEdge ** 3;
         }
     }
@@ -193,7 +213,12 @@ export class Renderer {
         if (isSolid) this.passes.drawSolids(geometry, layers, () => this.drawSurface(frame, layers, layers.surface!));
         gl.viewport(0, 0, geometry.width, geometry.height);
         gl.disable(gl.BLEND);
-        gl.clearColor(frame.hasGround ? shades.page[0] / 255 : 0, frame.hasGround ? shades.page[1] / 255 : 0, frame.hasGround ? shades.page[2] / 255 : 0, 1);
+        gl.clearColor(
+            frame.hasGround ? shades.page[0] / 255 : 0,
+            frame.hasGround ? shades.page[1] / 255 : 0,
+            frame.hasGround ? shades.page[2] / 255 : 0,
+            1,
+        );
         gl.clear(gl.COLOR_BUFFER_BIT);
         if (!this.uploaded) return;
         if (frame.hasGround) {
@@ -228,7 +253,7 @@ export class Renderer {
     // Measures the exposure by which the lit echo is as light as without light, from every fifth pixel.
     private measureLight(frame: Frame): void {
         const { gl } = this;
-        this.exposure.measure(frame.geometry, small => {
+        this.exposure.measure(frame.geometry, (small) => {
             gl.disable(gl.BLEND);
             this.drawVolume(frame, { isLit: true, measuresLight: true }, small);
         });
@@ -238,8 +263,12 @@ export class Renderer {
     private drawGround(geometry: ViewGeometry, grain: number, hasHaze: boolean): void {
         const gl = this.gl;
         const name = `ground, ${geometry.isPerspective ? 'perspective' : 'parallel'}`;
-        const at = this.graphics.use(this.graphics.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)), geometry);
-        const color = (uniform: string, rgb: readonly number[]) => gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
+        const at = this.graphics.use(
+            this.graphics.program(name, fullScreenVertex, groundFragment(geometry.isPerspective)),
+            geometry,
+        );
+        const color = (uniform: string, rgb: readonly number[]) =>
+            gl.uniform3f(at(uniform), rgb[0]! / 255, rgb[1]! / 255, rgb[2]! / 255);
         this.graphics.bind(0, gl.TEXTURE_2D, this.uploaded!.coverage, at('coverage'));
         const { grid, stream } = this.uploaded!.loaded;
         gl.uniform2f(at('columns'), grid.nx, grid.ny);
@@ -248,10 +277,16 @@ export class Renderer {
         gl.uniform1f(at('ground'), geometry.groundM * geometry.exaggeration);
         color('page', shades.page);
         color('hatch', shades.hatch);
-        for (const [name, own] of [['land', shades], ['water', shades.water]] as const) {
+        for (const [name, own] of [
+            ['land', shades],
+            ['water', shades.water],
+        ] as const) {
             // Haze says from how low the air was seen.
             const colors = [own.notSeen, hasHaze ? own.seen : own.seenAloft, own.seen, own.beyond];
-            gl.uniform3fv(at(`${name}Shades`), colors.flat().map(one => one / 255));
+            gl.uniform3fv(
+                at(`${name}Shades`),
+                colors.flat().map((one) => one / 255),
+            );
         }
         this.water.bind(1, at);
         gl.uniform1f(at('hatchScale'), 1 / grain);
@@ -276,7 +311,11 @@ export class Renderer {
     }
 
     // Tells a program where the cells of a grid are, and how its rays step.
-    private bindGrid({ loaded, atlas, indirection, levels, levelRange }: Uploaded, frame: Frame, at: (name: string) => WebGLUniformLocation | null): void {
+    private bindGrid(
+        { loaded, atlas, indirection, levels, levelRange }: Uploaded,
+        frame: Frame,
+        at: (name: string) => WebGLUniformLocation | null,
+    ): void {
         const gl = this.gl;
         const { grid } = loaded;
         const { box, exaggeration } = frame.geometry;
@@ -284,7 +323,8 @@ export class Renderer {
         const [cellWidth, cellHeight] = cellSizeM(grid);
         this.graphics.bind(0, gl.TEXTURE_3D, atlas, at('atlas'));
         const filter = frame.isNearest ? gl.NEAREST : gl.LINEAR;
-        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, name, filter);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+            gl.texParameteri(gl.TEXTURE_3D, name, filter);
         this.graphics.bind(1, gl.TEXTURE_3D, indirection, at('indirection'));
         if (levels) {
             this.graphics.bind(3, gl.TEXTURE_2D, levels, at('levels'));
@@ -293,7 +333,14 @@ export class Renderer {
             const spacing = grid.nz > 1 ? grid.levelsM[1]! - grid.levelsM[0]! : 1;
             gl.uniform2f(at('levelLine'), -grid.levelsM[0]! / spacing, 1 / (spacing * exaggeration));
         }
-        const whole = { westM: -box.halfXM, eastM: box.halfXM, southM: -box.halfYM, northM: box.halfYM, bottomM: box.bottomM, topM: box.topM };
+        const whole = {
+            westM: -box.halfXM,
+            eastM: box.halfXM,
+            southM: -box.halfYM,
+            northM: box.halfYM,
+            bottomM: box.bottomM,
+            topM: box.topM,
+        };
         const inside = croppedBox(whole, frame.layers?.crop ?? null);
         gl.uniform3f(at('boxLow'), inside.westM, inside.southM, inside.bottomM * exaggeration);
         gl.uniform3f(at('boxHigh'), inside.eastM, inside.northM, inside.topM * exaggeration);
@@ -314,8 +361,16 @@ export class Renderer {
         const { loaded, levels } = this.uploaded!;
         const { grid } = loaded;
         if (loaded.atlas.brickCount === 0) return;
-        const variant: VolumeVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: levels !== null, hasHalved: loaded.stream !== null, ...wanted };
-        const at = this.graphics.use(this.graphics.program(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant)), view);
+        const variant: VolumeVariant = {
+            isPerspective: geometry.isPerspective,
+            hasUnevenLevels: levels !== null,
+            hasHalved: loaded.stream !== null,
+            ...wanted,
+        };
+        const at = this.graphics.use(
+            this.graphics.program(`volume, ${variantName(variant)}`, tileVertex, volumeFragment(variant)),
+            view,
+        );
         const [nearM, farM] = slicedDepths(loaded, geometry);
         const { made, scale } = this.transferFor(frame, grid, (farM - nearM) / frame.slices);
         if (made.leastVisibleCode === Infinity) return;
@@ -342,7 +397,10 @@ export class Renderer {
             hasHaze: layers.hasHaze,
             hasFolded: layers.hasFolded,
         };
-        const at = this.graphics.use(this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)), geometry);
+        const at = this.graphics.use(
+            this.graphics.program(airName(variant), fullScreenVertex, airFragment(variant)),
+            geometry,
+        );
         this.bindGrid(this.uploaded!, frame, at);
         // The density of a veil depends on the whole depth of the grid.
         this.gl.uniform1f(at('near'), geometry.nearM);
@@ -361,8 +419,17 @@ export class Renderer {
         }
         const surface = of ? this.other! : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
-        const variant: SurfaceVariant = { isPerspective: geometry.isPerspective, hasUnevenLevels: surface.levels !== null, hasHalved: surface.loaded.stream !== null, isBelow, hasOther: of !== null };
-        const at = this.graphics.use(this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)), geometry);
+        const variant: SurfaceVariant = {
+            isPerspective: geometry.isPerspective,
+            hasUnevenLevels: surface.levels !== null,
+            hasHalved: surface.loaded.stream !== null,
+            isBelow,
+            hasOther: of !== null,
+        };
+        const at = this.graphics.use(
+            this.graphics.program(surfaceName(variant), fullScreenVertex, surfaceFragment(variant)),
+            geometry,
+        );
         this.bindGrid(surface, frame, at);
         const { grid, atlas } = surface.loaded;
         const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;

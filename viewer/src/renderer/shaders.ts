@@ -67,7 +67,9 @@ const halvedPlace = `
 //
 // A processor that runs a program checks each reading of a uniform, and goes through all sides of a
 // condition. So the programs read what loops need before them, and have few conditions.
-export function volumeHead(variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels' | 'hasHalved' | 'countsFetches'>): string {
+export function volumeHead(
+    variant: Pick<VolumeVariant, 'isPerspective' | 'hasUnevenLevels' | 'hasHalved' | 'countsFetches'>,
+): string {
     const counted = variant.countsFetches ? ' ++fetches;' : '';
     const { hasUnevenLevels } = variant;
     return `#version 300 es

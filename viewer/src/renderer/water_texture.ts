@@ -39,7 +39,8 @@ export class WaterTexture {
         const { gl } = this.graphics;
         const { width, height, shares } = this.mask ?? { width: 1, height: 1, shares: new Uint8Array(1) };
         const texture = this.graphics.texture2d(gl.R8, gl.RED, gl.UNSIGNED_BYTE, width, height, shares);
-        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
+        for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+            gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
         return texture;
     }
 }

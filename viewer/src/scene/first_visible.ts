@@ -60,7 +60,15 @@ interface Step {
 
 // Goes along the ray through a pixel until a depth, as far as it is within a box, by half a cell; `visit` returns true
 // to end. `cells` is a grid, and where its middle is on the plane of the view.
-function walk({ grid, middle }: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, untilDepth: number, visit: (step: Step) => boolean): void {
+function walk(
+    { grid, middle }: Cells,
+    geometry: ViewGeometry,
+    box: Crop,
+    x: number,
+    y: number,
+    untilDepth: number,
+    visit: (step: Step) => boolean,
+): void {
     const depths = depthsWithin(geometry, box, x, y);
     if (!depths) return;
     const [width, height] = cellSizeM(grid);
@@ -69,22 +77,46 @@ function walk({ grid, middle }: Cells, geometry: ViewGeometry, box: Crop, x: num
     // Half a cell on the ground, or of the least height of a level, whichever the ray crosses first.
     let thinnestM = Infinity;
     for (let z = 1; z < grid.nz; ++z) thinnestM = Math.min(thinnestM, grid.levelsM[z]! - grid.levelsM[z - 1]!);
-    const perMeter = Math.max(Math.abs(way[0]) / width, Math.abs(way[1]) / height, Math.abs(way[2]) / (thinnestM * geometry.exaggeration), 1e-9);
+    const perMeter = Math.max(
+        Math.abs(way[0]) / width,
+        Math.abs(way[1]) / height,
+        Math.abs(way[2]) / (thinnestM * geometry.exaggeration),
+        1e-9,
+    );
     const step = Math.max(1 / (stepsACell * perMeter), (depths[1] - depths[0]) / mostSteps);
     const lengthM = step * Math.hypot(...way);
     for (let depth = depths[0] + step / 2; depth < Math.min(depths[1], untilDepth); depth += step) {
         const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
         const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
-        const [column, row] = [Math.floor((at[0] - middle[0]) / width + 0.5 * grid.nx), Math.floor((at[1] - middle[1]) / height + 0.5 * grid.ny)];
+        const [column, row] = [
+            Math.floor((at[0] - middle[0]) / width + 0.5 * grid.nx),
+            Math.floor((at[1] - middle[1]) / height + 0.5 * grid.ny),
+        ];
         if (column < 0 || row < 0 || column >= grid.nx || row >= grid.ny) continue;
         const level = levelAt(grid, heightM);
         const code = codeAt(grid, column, row, level);
-        if (visit({ code, cell: (level * grid.ny + row) * grid.nx + column, at, heightM: grid.levelsM[level]!, lengthM })) return;
+        if (
+            visit({
+                code,
+                cell: (level * grid.ny + row) * grid.nx + column,
+                at,
+                heightM: grid.levelsM[level]!,
+                lengthM,
+            })
+        )
+            return;
     }
 }
 
 // The first cell along the ray through a pixel whose value is visible, within a box; null if there is none.
-export function firstVisible(cells: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, isVisible: (value: number) => boolean): Seen | null {
+export function firstVisible(
+    cells: Cells,
+    geometry: ViewGeometry,
+    box: Crop,
+    x: number,
+    y: number,
+    isVisible: (value: number) => boolean,
+): Seen | null {
     let seen: Seen | null = null;
     walk(cells, geometry, box, x, y, Infinity, ({ code, at, heightM }) => {
         if (code < firstValueCode) return false;
@@ -106,11 +138,19 @@ export interface Contribution {
 const opaque = 0.002; // what is behind so little light is not seen
 
 // `perM` returns how opaque a value is (extinction per drawn meter), or 0 if it is not opaque at all.
-export function mostVisible(cells: Cells, geometry: ViewGeometry, box: Crop, x: number, y: number, untilDepth: number, perM: (value: number) => number): Contribution {
+export function mostVisible(
+    cells: Cells,
+    geometry: ViewGeometry,
+    box: Crop,
+    x: number,
+    y: number,
+    untilDepth: number,
+    perM: (value: number) => number,
+): Contribution {
     const found: Contribution = { cell: null, share: 0, through: 1, foldedM: 0 };
     const ofCode = new Map<number, number>();
     let [cell, share] = [-1, 0];
-    walk(cells, geometry, box, x, y, untilDepth, step => {
+    walk(cells, geometry, box, x, y, untilDepth, (step) => {
         const { code, lengthM } = step;
         if (code === CellState.rangeFolded) found.foldedM += lengthM;
         if (code < firstValueCode) return false;

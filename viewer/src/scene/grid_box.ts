@@ -25,7 +25,12 @@ export interface Extent {
 
 export function extentOf({ grid, middle }: Cells): Extent {
     const { halfXM, halfYM } = boxOf(grid);
-    return { westM: middle[0] - halfXM, southM: middle[1] - halfYM, eastM: middle[0] + halfXM, northM: middle[1] + halfYM };
+    return {
+        westM: middle[0] - halfXM,
+        southM: middle[1] - halfYM,
+        eastM: middle[0] + halfXM,
+        northM: middle[1] + halfYM,
+    };
 }
 
 // The first cell of a grid in cells of the one that is shown, and how often it was halved.

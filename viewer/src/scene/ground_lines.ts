@@ -23,7 +23,11 @@ const reach = 2.2;
 const ringRank = 1e8;
 const siteRank = 1e9;
 
-function segmentsOf(lines: (Plane | null)[][], halfM: number, isDrawn = (_line: number, _point: number) => true): Float32Array {
+function segmentsOf(
+    lines: (Plane | null)[][],
+    halfM: number,
+    isDrawn = (_line: number, _point: number) => true,
+): Float32Array {
     const ends: number[] = [];
     const isNear = (p: Plane) => Math.abs(p[0]) < reach * halfM && Math.abs(p[1]) < reach * halfM;
     lines.forEach((line, number) => {
@@ -41,14 +45,17 @@ export interface ProjectedLine {
     points: (Plane | null)[];
 }
 export function projected(map: MapAnswer, plane: GridPlane): ProjectedLine[] {
-    return map.lines.map(line => ({ line, points: line.points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg })) }));
+    return map.lines.map((line) => ({
+        line,
+        points: line.points.map(([longitudeDeg, latitudeDeg]) => plane.toPlane({ latitudeDeg, longitudeDeg })),
+    }));
 }
 
 // Areas are cut along the edges of tiles of 2 by 2 degrees; these cuts are no coasts.
 const tileDeg = 2;
 export function isCut({ is_area, points }: MapLine, point: number): boolean {
     const [from, to] = [points[point - 1]!, points[point]!];
-    return is_area && [0, 1].some(axis => from[axis] === to[axis] && from[axis]! % tileDeg === 0);
+    return is_area && [0, 1].some((axis) => from[axis] === to[axis] && from[axis]! % tileDeg === 0);
 }
 export function withoutCuts(line: MapLine): [number, number][][] {
     const pieces: [number, number][][] = [];
@@ -61,20 +68,33 @@ export function withoutCuts(line: MapLine): [number, number][][] {
         piece.push(point);
     });
     pieces.push(piece);
-    return pieces.filter(one => one.length > 1);
+    return pieces.filter((one) => one.length > 1);
 }
 
 export function mapLines(all: ProjectedLine[], halfM: number): MapLines[] {
     const kinds = ['county', 'lake', 'state', 'coast', 'country'] as const;
-    return kinds.map(kind => {
+    return kinds.map((kind) => {
         const own = all.filter(({ line }) => line.kind === kind);
         const isDrawn = (number: number, point: number) => !isCut(own[number]!.line, point);
-        return { kind, segments: segmentsOf(own.map(({ points }) => points), halfM, isDrawn) };
+        return {
+            kind,
+            segments: segmentsOf(
+                own.map(({ points }) => points),
+                halfM,
+                isDrawn,
+            ),
+        };
     });
 }
 
 // Rings about the first site, and the border of the grid.
-export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY: number, units: Units): { lines: MapLines[]; marks: Mark[] } {
+export function ringLines(
+    sites: Site[],
+    plane: GridPlane,
+    halfX: number,
+    halfY: number,
+    units: Units,
+): { lines: MapLines[]; marks: Mark[] } {
     const border: Plane[] = [
         [-halfX, -halfY],
         [halfX, -halfY],
@@ -95,7 +115,13 @@ export function ringLines(sites: Site[], plane: GridPlane, halfX: number, halfY:
                 points.push([center[0] + r * Math.sin(angle), center[1] + r * Math.cos(angle)]);
             }
             rings.push(points);
-            if (r < Math.max(halfX, halfY)) marks.push({ kind: 'ring', text: `${Math.round(r / units.distance.si)} ${units.distance.symbol}`, at: [center[0], center[1] + r], rank: ringRank });
+            if (r < Math.max(halfX, halfY))
+                marks.push({
+                    kind: 'ring',
+                    text: `${Math.round(r / units.distance.si)} ${units.distance.symbol}`,
+                    at: [center[0], center[1] + r],
+                    rank: ringRank,
+                });
         }
         lines.unshift({ kind: 'ring', segments: segmentsOf(rings, Math.max(halfX, halfY)) });
     }
@@ -110,7 +136,8 @@ export function cityMarks(cities: City[], plane: GridPlane, halfX: number, halfY
     const marks: Mark[] = [];
     for (const city of cities) {
         const at = plane.toPlane({ latitudeDeg: city.place[1], longitudeDeg: city.place[0] });
-        if (at && Math.abs(at[0]) < 1.3 * halfX && Math.abs(at[1]) < 1.3 * halfY) marks.push({ kind: 'city', text: city.name, at, rank: city.population });
+        if (at && Math.abs(at[0]) < 1.3 * halfX && Math.abs(at[1]) < 1.3 * halfY)
+            marks.push({ kind: 'city', text: city.name, at, rank: city.population });
     }
     return marks;
 }

@@ -16,7 +16,13 @@ const parts = 32; // of the axis, of which as many are shown as there is room fo
 const steps = [1, 2, 5, 10, 20, 50];
 
 // The axis over a place of the ground, as far up as the picture goes; null where it is too short, as from above.
-function axisOver(geometry: ViewGeometry, [x, y]: Plane, { si }: Unit, pixelRatio: number, isFree: (x: number, y: number) => boolean): HeightAxis | null {
+function axisOver(
+    geometry: ViewGeometry,
+    [x, y]: Plane,
+    { si }: Unit,
+    pixelRatio: number,
+    isFree: (x: number, y: number) => boolean,
+): HeightAxis | null {
     const at = (heightM: number) => geometry.project([x, y, heightM * geometry.exaggeration]);
     const foot = at(geometry.groundM);
     if (!foot || !isFree(...foot)) return null;
@@ -31,7 +37,7 @@ function axisOver(geometry: ViewGeometry, [x, y]: Plane, { si }: Unit, pixelRati
     if (long < leastPixels) return null;
     const most = topM / si;
     const power = si < 1 ? 1000 : 1; // feet are told by thousands
-    const step = steps.map(one => one * power).find(one => (long * one) / most >= leastBetween);
+    const step = steps.map((one) => one * power).find((one) => (long * one) / most >= leastBetween);
     if (step === undefined) return null;
     const marks: HeightAxis['marks'] = [];
     for (let number = 0; number <= most; number += step) {
@@ -43,10 +49,17 @@ function axisOver(geometry: ViewGeometry, [x, y]: Plane, { si }: Unit, pixelRati
 
 // At the corner of the grid that is farthest to the left; where none is seen, in the left part of the picture.
 // `isFree`: whether a pixel is in the picture and not covered.
-export function heightAxis(geometry: ViewGeometry, unit: Unit, pixelRatio: number, isFree: (x: number, y: number) => boolean): HeightAxis | null {
+export function heightAxis(
+    geometry: ViewGeometry,
+    unit: Unit,
+    pixelRatio: number,
+    isFree: (x: number, y: number) => boolean,
+): HeightAxis | null {
     const { halfXM, halfYM } = geometry.box;
-    const corners = [-1, 1].flatMap(x => [-1, 1].map((y): Plane => [x * halfXM, y * halfYM]));
-    const found = corners.map(corner => axisOver(geometry, corner, unit, pixelRatio, isFree)).filter((one): one is HeightAxis => one !== null);
+    const corners = [-1, 1].flatMap((x) => [-1, 1].map((y): Plane => [x * halfXM, y * halfYM]));
+    const found = corners
+        .map((corner) => axisOver(geometry, corner, unit, pixelRatio, isFree))
+        .filter((one): one is HeightAxis => one !== null);
     if (found.length > 0) return found.reduce((best, one) => (one.foot[0] < best.foot[0] ? one : best));
     for (const share of [0.85, 0.75, 0.65, 0.55, 0.45]) {
         const place = geometry.ground(60 * pixelRatio, share * geometry.height);

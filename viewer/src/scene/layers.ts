@@ -35,7 +35,8 @@ export interface Layers {
 export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
 
 // Air that is range folded is not clear: a volume of velocities or their widths shows it unless it is told not to.
-export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean => hasFolded ?? (hasVolume && (moment === 'VEL' || moment === 'SW'));
+export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean =>
+    hasFolded ?? (hasVolume && (moment === 'VEL' || moment === 'SW'));
 
 // Returns the other choice; null if the moment has it by itself, so that an address stays short.
 export function toggledFolded(layers: Layers, moment: string): boolean | null {
@@ -79,7 +80,7 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.hasMaximum) parts.push(['maximum', '1']);
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
     if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
-    if (layers.crop) parts.push(['crop-km', cropSides.map(side => kilometers(layers.crop![side])).join(',')]);
+    if (layers.crop) parts.push(['crop-km', cropSides.map((side) => kilometers(layers.crop![side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
     if (layers.hasHaze) parts.push(['haze', '1']);
     if (layers.hasFolded !== null) parts.push(['folded', layers.hasFolded ? '1' : '0']);
@@ -88,8 +89,8 @@ export function layersAddress(layers: Layers): [string, string][] {
 
 function numbers(text: string | null, count: number, least: number, most: number): number[] | null {
     if (text === null || text === '') return null;
-    const found = text.split(',').map(part => (part.trim() === '' ? NaN : Number(part)));
-    return found.length === count && found.every(one => one >= least && one <= most) ? found : null;
+    const found = text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
+    return found.length === count && found.every((one) => one >= least && one <= most) ? found : null;
 }
 
 // Two places as "LAT,LON,LAT,LON"; null where the text makes no sense or the places are the same.
@@ -108,7 +109,14 @@ export function sectionOf(text: string | null): [Place, Place] | null {
 function cropOf(text: string | null): Crop | null {
     const found = numbers(text, 6, -farthestM / 1000, farthestM / 1000);
     if (!found) return null;
-    const [westM, eastM, southM, northM, bottomM, topM] = found.map(km => km * 1000) as [number, number, number, number, number, number];
+    const [westM, eastM, southM, northM, bottomM, topM] = found.map((km) => km * 1000) as [
+        number,
+        number,
+        number,
+        number,
+        number,
+        number,
+    ];
     return westM < eastM && southM < northM && bottomM < topM ? { westM, eastM, southM, northM, bottomM, topM } : null;
 }
 
@@ -122,7 +130,10 @@ export function layersOf(query: URLSearchParams): Layers {
         hasVolume: query.get('volume') !== '0',
         planeM: planeKm === null ? null : planeKm * 1000,
         section: sectionOf(query.get('section')),
-        surface: surface === null ? null : { value: surface, moment: (query.get('surface-moment') ?? '').toUpperCase().slice(0, 8) },
+        surface:
+            surface === null
+                ? null
+                : { value: surface, moment: (query.get('surface-moment') ?? '').toUpperCase().slice(0, 8) },
         hasMaximum: query.get('maximum') === '1',
         sweepDeg: one('elevation', -5, 90),
         sweepNumber: Number.isInteger(sweep) ? sweep : null,
@@ -139,7 +150,10 @@ export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sw
 
 // Returns what keeps `stormcellar frame` from drawing the layers as they are, or null: it draws one, without
 // surfaces and boxes, and a sweep of one radar.
-export function beyondCommand(layers: Layers, siteCount: number): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
+export function beyondCommand(
+    layers: Layers,
+    siteCount: number,
+): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
     if (layers.surface) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
     if (!layers.hasVolume && (layers.hasHaze || layers.hasFolded === true)) return 'haze';
@@ -155,7 +169,10 @@ export function productOf(layers: Layers): string[] | null {
     if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];
     if (layers.planeM !== null) return ['--product', 'cappi', '--height-km', kilometers(layers.planeM)];
     if (layers.sweepDeg !== null) {
-        const which = layers.sweepNumber === null ? ['--elevation', rounded(layers.sweepDeg, 2)] : ['--sweep', String(layers.sweepNumber)];
+        const which =
+            layers.sweepNumber === null
+                ? ['--elevation', rounded(layers.sweepDeg, 2)]
+                : ['--sweep', String(layers.sweepNumber)];
         return ['--product', 'ppi', ...which];
     }
     return layers.hasMaximum ? ['--product', 'composite'] : null;

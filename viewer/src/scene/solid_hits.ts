@@ -36,13 +36,19 @@ const radians = Math.PI / 180;
 // Reads a field between its places, as the shader of layers does.
 export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean): { state: CellState; value: number } {
     const { width, height, states, values } = field;
-    const index = (column: number, row: number) => Math.min(height - 1, Math.max(0, row)) * width + Math.min(width - 1, Math.max(0, column));
+    const index = (column: number, row: number) =>
+        Math.min(height - 1, Math.max(0, row)) * width + Math.min(width - 1, Math.max(0, column));
     const nearest = index(Math.floor(x), Math.floor(y));
     if (!mixes) return { state: states[nearest]!, value: values[nearest]! };
     const [left, low] = [Math.floor(x - 0.5), Math.floor(y - 0.5)];
     const [across, up] = [x - 0.5 - left, y - 0.5 - low];
     const mixer = new Mixer('mean');
-    for (const [column, row] of [[0, 0], [1, 0], [0, 1], [1, 1]] as const) {
+    for (const [column, row] of [
+        [0, 0],
+        [1, 0],
+        [0, 1],
+        [1, 1],
+    ] as const) {
         const at = index(left + column, low + row);
         mixer.add(states[at]!, values[at]!, (column ? across : 1 - across) * (row ? up : 1 - up));
     }
@@ -51,19 +57,35 @@ export function fieldAt(field: FlatField, x: number, y: number, mixes: boolean):
 }
 
 // Finds where a ray meets the level through a height, where a field lies on an extent of it.
-export function levelHit(geometry: ViewGeometry, { field, extent }: { field: FlatField; extent: Extent }, heightM: number, x: number, y: number, mixes: boolean): SolidHit | null {
+export function levelHit(
+    geometry: ViewGeometry,
+    { field, extent }: { field: FlatField; extent: Extent },
+    heightM: number,
+    x: number,
+    y: number,
+    mixes: boolean,
+): SolidHit | null {
     const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
     const depth = (heightM * geometry.exaggeration - start[2]) / way[2];
     if (!Number.isFinite(depth) || (geometry.isPerspective && depth <= 0)) return null;
     const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
-    const [across, up] = [(at[0] - extent.westM) / (extent.eastM - extent.westM), (at[1] - extent.southM) / (extent.northM - extent.southM)];
+    const [across, up] = [
+        (at[0] - extent.westM) / (extent.eastM - extent.westM),
+        (at[1] - extent.southM) / (extent.northM - extent.southM),
+    ];
     if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return null;
     if (Math.abs(at[0]) > geometry.box.halfXM || Math.abs(at[1]) > geometry.box.halfYM) return null;
     return { depth, at, heightM, ...fieldAt(field, across * field.width, up * field.height, mixes) };
 }
 
 // Finds where a ray meets the nearest of the upright strips of a section.
-export function sectionHit(geometry: ViewGeometry, section: Section, x: number, y: number, mixes: boolean): SolidHit | null {
+export function sectionHit(
+    geometry: ViewGeometry,
+    section: Section,
+    x: number,
+    y: number,
+    mixes: boolean,
+): SolidHit | null {
     const [start, way] = [geometry.point(x, y, 0), geometry.along(x, y)];
     const { field, ends } = section;
     let best: SolidHit | null = null;
@@ -74,11 +96,17 @@ export function sectionHit(geometry: ViewGeometry, section: Section, x: number, 
         const turn = way[0] * dy - way[1] * dx;
         const depth = ((a[0] - start[0]) * dy - (a[1] - start[1]) * dx) / turn;
         const share = ((a[0] - start[0]) * way[1] - (a[1] - start[1]) * way[0]) / turn;
-        if (!(share >= 0 && share < 1) || (geometry.isPerspective && depth <= 0) || (best && best.depth < depth)) continue;
+        if (!(share >= 0 && share < 1) || (geometry.isPerspective && depth <= 0) || (best && best.depth < depth))
+            continue;
         const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
         const row = ((heightM - section.bottomM) / (section.topM - section.bottomM)) * field.height;
         if (!(row >= 0 && row < field.height) || section.inGrid[column] === 0) continue;
-        best = { depth, at: [a[0] + share * dx, a[1] + share * dy], heightM, ...fieldAt(field, column + share, row, mixes) };
+        best = {
+            depth,
+            at: [a[0] + share * dx, a[1] + share * dy],
+            heightM,
+            ...fieldAt(field, column + share, row, mixes),
+        };
     }
     return best;
 }
@@ -92,9 +120,16 @@ function boxOfSweep(gates: PackedSweep, plane: GridPlane): Crop | null {
     const site = plane.toPlane(gates);
     const lastM = gates.firstGateM + Math.max(0, ...gates.gateCounts) * gates.gateSpacingM;
     if (!site) return null;
-    const heights = [0, lastM].map(rangeM => beamAt(gates, gates.elevationDeg, rangeM).heightM);
+    const heights = [0, lastM].map((rangeM) => beamAt(gates, gates.elevationDeg, rangeM).heightM);
     const [low, high] = [Math.min(...heights) - beyondM, Math.max(...heights) + beyondM];
-    return { westM: site[0] - lastM, eastM: site[0] + lastM, southM: site[1] - lastM, northM: site[1] + lastM, bottomM: low, topM: high };
+    return {
+        westM: site[0] - lastM,
+        eastM: site[0] + lastM,
+        southM: site[1] - lastM,
+        northM: site[1] + lastM,
+        bottomM: low,
+        topM: high,
+    };
 }
 
 interface PlacedSweep {
@@ -105,7 +140,14 @@ interface PlacedSweep {
 
 // Finds the gate under a pixel, where the ray crosses the beam of the sweep's elevation. A ray from the side
 // crosses it twice, and through a gate that is not shown the next one is seen. If none is shown, returns the first.
-export function sweepHit(geometry: ViewGeometry, { station, gates, radials }: PlacedSweep, plane: GridPlane, x: number, y: number, isShown: (hit: SolidHit) => boolean): GateHit | null {
+export function sweepHit(
+    geometry: ViewGeometry,
+    { station, gates, radials }: PlacedSweep,
+    plane: GridPlane,
+    x: number,
+    y: number,
+    isShown: (hit: SolidHit) => boolean,
+): GateHit | null {
     const box = boxOfSweep(gates, plane);
     const depths = box && depthsWithin(geometry, box, x, y);
     if (!depths) return null;
@@ -114,13 +156,19 @@ export function sweepHit(geometry: ViewGeometry, { station, gates, radials }: Pl
         const at: Plane = [start[0] + depth * way[0], start[1] + depth * way[1]];
         const heightM = (start[2] + depth * way[2]) / geometry.exaggeration;
         const { distanceM, azimuth } = geodesic(gates, plane.toPlace(at));
-        return { depth, at, heightM, azimuthDeg: (azimuth / radians + 360) % 360, ...beamTo(gates, distanceM, heightM) };
+        return {
+            depth,
+            at,
+            heightM,
+            azimuthDeg: (azimuth / radians + 360) % 360,
+            ...beamTo(gates, distanceM, heightM),
+        };
     };
     const isAbove = (depth: number) => seenAt(depth).elevationDeg > gates.elevationDeg;
     let from = isAbove(depths[0]);
     let first: GateHit | null = null;
     for (let i = 1; i <= steps; ++i) {
-        let [low, high] = [i - 1, i].map(n => depths[0] + (n / steps) * (depths[1] - depths[0])) as [number, number];
+        let [low, high] = [i - 1, i].map((n) => depths[0] + (n / steps) * (depths[1] - depths[0])) as [number, number];
         if (isAbove(high) === from) continue;
         for (let k = 0; k < halvings; ++k) {
             const middle = (low + high) / 2;
@@ -135,7 +183,11 @@ export function sweepHit(geometry: ViewGeometry, { station, gates, radials }: Pl
     return first;
 }
 
-function gateAt(gates: PackedSweep, radials: Uint16Array, place: Omit<GateHit, 'state' | 'value' | 'timeMs'>): GateHit | null {
+function gateAt(
+    gates: PackedSweep,
+    radials: Uint16Array,
+    place: Omit<GateHit, 'state' | 'value' | 'timeMs'>,
+): GateHit | null {
     const gate = Math.floor(0.5 + (place.rangeM - gates.firstGateM) / gates.gateSpacingM);
     const radial = radials[Math.min(azimuthSteps - 1, Math.floor((place.azimuthDeg * azimuthSteps) / 360))]!;
     if (gate < 0) return null;
@@ -143,6 +195,7 @@ function gateAt(gates: PackedSweep, radials: Uint16Array, place: Omit<GateHit, '
     if (radial === noRadial) return { ...hit, state: CellState.notSeen, value: 0, timeMs: gates.startMs };
     if (gate >= gates.gateCounts[radial]!) return null;
     const code = gates.codes[radial * gates.gateStride + gate]!;
-    const state = code >= gates.firstValueCode ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho;
+    const state =
+        code >= gates.firstValueCode ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho;
     return { ...hit, state, value: (code - gates.offset) / gates.scale, timeMs: gates.timesMs[radial]! };
 }

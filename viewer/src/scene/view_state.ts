@@ -65,7 +65,7 @@ export function addressOf(state: ViewState): string {
         ['opacity', rounded(state.opacity, 3)],
     ];
     if (camera.lookAtM) {
-        parts.push(['look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(',')]);
+        parts.push(['look-at-km', camera.lookAtM.map((m) => rounded(m / 1000, 3)).join(',')]);
     }
     if (state.betweenS > 0) parts.push(['between', rounded(state.betweenS, 0)]);
     if (!state.hasGround) parts.push(['ground', '0']);
@@ -118,7 +118,10 @@ export function stateOf(text: string): ViewState {
             tiltDeg: number(query.get('tilt'), 0, 90, usual.camera.tiltDeg),
             zoom: number(query.get('zoom'), 0.01, 1000, usual.camera.zoom),
             fieldOfViewDeg: number(query.get('field-of-view'), 0, 150, usual.camera.fieldOfViewDeg),
-            lookAtM: lookAt.length === 3 && lookAt.every(Number.isFinite) ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000] : null,
+            lookAtM:
+                lookAt.length === 3 && lookAt.every(Number.isFinite)
+                    ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000]
+                    : null,
         },
         hasGround: query.get('ground') !== '0',
         exaggeration: number(query.get('exaggeration'), 0.1, 100, usual.exaggeration),
@@ -141,7 +144,7 @@ const sectionM = { least: 1000, most: 5e6 };
 const sidePixels = { least: 16, most: 8192 };
 
 export function isBeyondLimits({ camera, layers }: ViewState, width: number, height: number): boolean {
-    if ([width, height].some(side => side < sidePixels.least || side > sidePixels.most)) return true;
+    if ([width, height].some((side) => side < sidePixels.least || side > sidePixels.most)) return true;
     if (layers.hasVolume) return camera.fieldOfViewDeg > 0 && camera.fieldOfViewDeg < leastPerspectiveDeg;
     if (layers.planeM !== null && layers.planeM > mostPlaneM) return true;
     if (!layers.section) return false;
@@ -150,24 +153,49 @@ export function isBeyondLimits({ camera, layers }: ViewState, width: number, hei
 }
 
 function cameraWords({ camera, exaggeration, opacity, layers }: ViewState): string[] {
-    const words = ['--azimuth', rounded(camera.azimuthDeg, 2), '--tilt', rounded(camera.tiltDeg, 2), '--zoom', rounded(camera.zoom, 4)];
+    const words = [
+        '--azimuth',
+        rounded(camera.azimuthDeg, 2),
+        '--tilt',
+        rounded(camera.tiltDeg, 2),
+        '--zoom',
+        rounded(camera.zoom, 4),
+    ];
     words.push('--field-of-view', rounded(camera.fieldOfViewDeg, 2), '--exaggeration', rounded(exaggeration, 2));
     words.push('--opacity', rounded(opacity, 3), '--light', layers.isLit ? 'gradient' : 'none');
     if (layers.isLit) words.push('--sun', `${rounded((camera.azimuthDeg + sunAsideDeg) % 360, 2)},${sunElevationDeg}`);
     if (layers.hasHaze) words.push('--haze');
-    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map(m => rounded(m / 1000, 3)).join(','));
+    if (camera.lookAtM) words.push('--look-at-km', camera.lookAtM.map((m) => rounded(m / 1000, 3)).join(','));
     return words;
 }
 
 // Returns true for the grid that `stormcellar frame` makes of a raw file (stormcellar/grid/grid_spec.h).
-export function isUsualGrid({ nx, ny, spacing, levelsM }: Pick<PackedGrid, 'nx' | 'ny' | 'spacing' | 'levelsM'>): boolean {
+export function isUsualGrid({
+    nx,
+    ny,
+    spacing,
+    levelsM,
+}: Pick<PackedGrid, 'nx' | 'ny' | 'spacing' | 'levelsM'>): boolean {
     const [cells, spacingM, levels, betweenLevelsM] = [460, 1000, 32, 500];
-    return nx === cells && ny === cells && spacing === spacingM && levelsM.length === levels && levelsM.every((m, level) => m === betweenLevelsM * (level + 1));
+    return (
+        nx === cells &&
+        ny === cells &&
+        spacing === spacingM &&
+        levelsM.length === levels &&
+        levelsM.every((m, level) => m === betweenLevelsM * (level + 1))
+    );
 }
 
 // Returns the command that draws the same, of several layers one, with a table or a file of colors; empty
 // `colors` are the usual ones.
-export function commandOf(state: ViewState, width: number, height: number, colors: string, file = '', volume = 1): string {
+export function commandOf(
+    state: ViewState,
+    width: number,
+    height: number,
+    colors: string,
+    file = '',
+    volume = 1,
+): string {
     // A name that begins with a dash would be an option.
     const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', state.moment];
     if (state.time !== 'latest' && !file) words.push('--time', state.time);

@@ -10,9 +10,14 @@ import { GridPlane, Plane } from '../earth/projection';
 const longestCutDeg = 0.25;
 
 // Places along a cut, at multiples of its longest part, without its ends.
-function betweenOf([longitudeA, latitudeA]: [number, number], [longitudeB, latitudeB]: [number, number]): [number, number][] {
+function betweenOf(
+    [longitudeA, latitudeA]: [number, number],
+    [longitudeB, latitudeB]: [number, number],
+): [number, number][] {
     const isUpright = longitudeA === longitudeB;
-    const [from, to] = (isUpright ? [latitudeA, latitudeB] : [longitudeA, longitudeB]).map(degrees => degrees / longestCutDeg) as [number, number];
+    const [from, to] = (isUpright ? [latitudeA, latitudeB] : [longitudeA, longitudeB]).map(
+        (degrees) => degrees / longestCutDeg,
+    ) as [number, number];
     const places: [number, number][] = [];
     const step = Math.sign(to - from);
     for (let part = step > 0 ? Math.floor(from) + 1 : Math.ceil(from) - 1; step * part < step * to; part += step) {
@@ -31,5 +36,5 @@ function ringOf({ line, points }: ProjectedLine, plane: GridPlane): Plane[] {
 
 // The rings of a kind, 'coast' for land.
 export function ringsOf(all: ProjectedLine[], kind: 'coast' | 'lake', plane: GridPlane): Plane[][] {
-    return all.filter(({ line }) => line.is_area && line.kind === kind).map(one => ringOf(one, plane));
+    return all.filter(({ line }) => line.is_area && line.kind === kind).map((one) => ringOf(one, plane));
 }

@@ -35,8 +35,10 @@ const nearEnoughShare = 0.06; // of the opacity
 const clearestPerKm = 0.003; // differences of less opacity than this are not seen
 const leastStep = 0.0005; // between two values
 
-export const roundedValue = (value: number): number => Number(Math.min(greatestValue, Math.max(-greatestValue, value)).toFixed(4));
-export const roundedPerKm = (perKm: number): number => (perKm < 1e-4 ? 0 : Number(Math.min(greatestValue, perKm).toPrecision(3)));
+export const roundedValue = (value: number): number =>
+    Number(Math.min(greatestValue, Math.max(-greatestValue, value)).toFixed(4));
+export const roundedPerKm = (perKm: number): number =>
+    perKm < 1e-4 ? 0 : Number(Math.min(greatestValue, perKm).toPrecision(3));
 const roundedColor = (color: Rgba): Rgba => color.map(Math.round) as Rgba;
 
 // ---- From tables
@@ -48,7 +50,7 @@ function simplifiedColors(points: ColorPoint[], most: number): ColorPoint[] {
         const line = mixed(a.color, b.color, (p.value - a.value) / (b.value - a.value));
         return Math.max(colorDistance(line, p.color), (alphaWeight * Math.abs(line[3] - p.color[3])) / 255);
     });
-    return kept.map(i => points[i]!);
+    return kept.map((i) => points[i]!);
 }
 
 // Between edges, lines of color are simplified each by itself.
@@ -87,7 +89,8 @@ function simplifiedOpacity(points: ExtinctionPoint[], lowest: number): OpacityPo
     const known = [...points];
     // Nothing is drawn below the first point of a table.
     const first = known[0]!;
-    if (first.value > lowest && first.per_km > 0) known.unshift({ value: lowest, per_km: 0 }, { value: first.value - leastStep, per_km: 0 });
+    if (first.value > lowest && first.per_km > 0)
+        known.unshift({ value: lowest, per_km: 0 }, { value: first.value - leastStep, per_km: 0 });
     const error = (i: number, j: number, k: number) => {
         const [a, b, p] = [known[i]!, known[j]!, known[k]!];
         const line = a.per_km + ((b.per_km - a.per_km) * (p.value - a.value)) / (b.value - a.value);
@@ -95,11 +98,12 @@ function simplifiedOpacity(points: ExtinctionPoint[], lowest: number): OpacityPo
     };
     let kept = cornersToKeep(known.length, most, error);
     while (kept.length > mostPoints) kept = cornersToKeep(known.length, (most *= 2), error);
-    return kept.map(i => ({ value: roundedValue(known[i]!.value), perKm: roundedPerKm(known[i]!.per_km) }));
+    return kept.map((i) => ({ value: roundedValue(known[i]!.value), perKm: roundedPerKm(known[i]!.per_km) }));
 }
 
 const isSame = (a: ExtinctionPoint[], b: ExtinctionPoint[]): boolean =>
-    a.length === b.length && a.every((point, i) => point.value === b[i]!.value && Math.abs(point.per_km - b[i]!.per_km) <= 1e-9);
+    a.length === b.length &&
+    a.every((point, i) => point.value === b[i]!.value && Math.abs(point.per_km - b[i]!.per_km) <= 1e-9);
 
 // A table with few points that looks like the given one.
 export function draftOf(table: ColorTable, moment: string, usual: UsualOpacity): Draft {
@@ -131,7 +135,9 @@ function placeAmong(points: { value: number }[], value: number): [number, number
 export function colorAt(draft: Draft, value: number): Rgba {
     const [i, share] = placeAmong(draft.colors, value);
     const here = draft.colors[i]!;
-    return draft.isStepped || share === 0 ? here.color : roundedColor(mixed(here.color, draft.colors[i + 1]!.color, share));
+    return draft.isStepped || share === 0
+        ? here.color
+        : roundedColor(mixed(here.color, draft.colors[i + 1]!.color, share));
 }
 
 export function perKmAt(points: OpacityPoint[], value: number): number {
@@ -165,7 +171,15 @@ export function fileOf(draft: Draft, least: number | null = null): TableFile {
     const last = sorted[sorted.length - 1]!;
     if (sorted.length === 1 && !draft.isStepped) sorted.push({ ...last, value: roundedValue(last.value + 1) });
     const end = Math.max(draft.end, roundedValue(sorted[sorted.length - 1]!.value + 0.01));
-    return { name: draft.name, moment: draft.moment, unit: draft.unit, isStepped: draft.isStepped, end, rangeFolded: draft.rangeFolded, points: sorted };
+    return {
+        name: draft.name,
+        moment: draft.moment,
+        unit: draft.unit,
+        isStepped: draft.isStepped,
+        end,
+        rangeFolded: draft.rangeFolded,
+        points: sorted,
+    };
 }
 
 export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null = null): ColorTable {
@@ -175,15 +189,21 @@ export function tableOf(draft: Draft, usual: UsualOpacity, least: number | null 
 
 // The same table with its opacity as alpha, for a .pal file; `isWhole` is false where it is denser than
 // usual, which such a file cannot say.
-export function tableForPal(draft: Draft, usual: UsualOpacity, least: number | null): { table: ColorTable; isWhole: boolean } {
+export function tableForPal(
+    draft: Draft,
+    usual: UsualOpacity,
+    least: number | null,
+): { table: ColorTable; isWhole: boolean } {
     const table = tableOf(draft, usual, least);
     if (!draft.opacity) return { table, isWhole: true };
-    const points = usual.of(draft.moment, table.stops[0]!.from).map(point => ({ value: point.value, perKm: point.per_km }));
+    const points = usual
+        .of(draft.moment, table.stops[0]!.from)
+        .map((point) => ({ value: point.value, perKm: point.per_km }));
     let isWhole = true;
     const withAlpha = (color: Rgba, value: number): Rgba => {
         const usualPerKm = perKmAt(points, value);
         const wanted = perKmAt(
-            table.extinction.map(point => ({ value: point.value, perKm: point.per_km })),
+            table.extinction.map((point) => ({ value: point.value, perKm: point.per_km })),
             value,
         );
         const share = usualPerKm > 0 ? wanted / usualPerKm : 1;

@@ -22,15 +22,22 @@ export function withColorMoved(draft: Draft, at: number, value: number): Draft {
     const first = colors[at - 1]?.value === here ? at - 1 : at;
     const last = colors[at + 1]?.value === here ? at + 1 : at;
     const moved = between(colors, first, last, value, leastGap(draft));
-    return { ...draft, colors: colors.map((point, i) => (i >= first && i <= last ? { ...point, value: moved } : point)) };
+    return {
+        ...draft,
+        colors: colors.map((point, i) => (i >= first && i <= last ? { ...point, value: moved } : point)),
+    };
 }
 
 export function withColor(draft: Draft, at: number, [red, green, blue]: readonly number[]): Draft {
     const color = (before: Rgba): Rgba => [red!, green!, blue!, before[3]];
-    return { ...draft, colors: draft.colors.map((point, i) => (i === at ? { ...point, color: color(point.color) } : point)) };
+    return {
+        ...draft,
+        colors: draft.colors.map((point, i) => (i === at ? { ...point, color: color(point.color) } : point)),
+    };
 }
 
-const isFree = (points: { value: number }[], value: number, gap: number): boolean => points.every(point => Math.abs(point.value - value) >= 0.999 * gap);
+const isFree = (points: { value: number }[], value: number, gap: number): boolean =>
+    points.every((point) => Math.abs(point.value - value) >= 0.999 * gap);
 const byValue = (a: { value: number }, b: { value: number }): number => a.value - b.value;
 
 // Returns also where the new point is; -1 if there is no room.
@@ -38,7 +45,7 @@ export function withColorAdded(draft: Draft, wanted: number): [Draft, number] {
     const value = roundedValue(wanted);
     if (draft.colors.length >= mostPoints || !isFree(draft.colors, value, leastGap(draft))) return [draft, -1];
     const colors = [...draft.colors, { value, color: colorAt(draft, value) }].sort(byValue);
-    return [{ ...draft, colors }, colors.findIndex(point => point.value === value)];
+    return [{ ...draft, colors }, colors.findIndex((point) => point.value === value)];
 }
 
 export function withColorRemoved(draft: Draft, at: number): Draft {
@@ -46,16 +53,27 @@ export function withColorRemoved(draft: Draft, at: number): Draft {
     return { ...draft, colors: draft.colors.filter((_, i) => i !== at) };
 }
 
-export function withOpacityMoved(draft: Draft, opacity: OpacityPoint[], at: number, value: number, perKm: number): Draft {
+export function withOpacityMoved(
+    draft: Draft,
+    opacity: OpacityPoint[],
+    at: number,
+    value: number,
+    perKm: number,
+): Draft {
     const moved = { value: between(opacity, at, at, value, leastGap(draft)), perKm: roundedPerKm(Math.max(0, perKm)) };
     return { ...draft, opacity: opacity.map((point, i) => (i === at ? moved : point)) };
 }
 
-export function withOpacityAdded(draft: Draft, opacity: OpacityPoint[], wanted: number, perKm?: number): [Draft, number] {
+export function withOpacityAdded(
+    draft: Draft,
+    opacity: OpacityPoint[],
+    wanted: number,
+    perKm?: number,
+): [Draft, number] {
     const value = roundedValue(wanted);
     if (opacity.length >= mostPoints || !isFree(opacity, value, leastGap(draft))) return [draft, -1];
     const added = [...opacity, { value, perKm: roundedPerKm(perKm ?? perKmAt(opacity, value)) }].sort(byValue);
-    return [{ ...draft, opacity: added }, added.findIndex(point => point.value === value)];
+    return [{ ...draft, opacity: added }, added.findIndex((point) => point.value === value)];
 }
 
 export function withOpacityRemoved(draft: Draft, opacity: OpacityPoint[], at: number): Draft {

@@ -24,12 +24,12 @@ export function textOfDraft(draft: Draft): string {
 }
 
 function pairs<T>(text: string, read: (value: number, word: string) => T | null): T[] | null {
-    const points = text.split('_').map(point => {
+    const points = text.split('_').map((point) => {
         const [value, word] = point.split('~');
         const number = value === '' || value === undefined ? NaN : Number(value);
         return Number.isFinite(number) && word !== undefined ? read(roundedValue(number), word) : null;
     });
-    return points.length <= mostPoints && points.every(point => point !== null) ? (points as T[]) : null;
+    return points.length <= mostPoints && points.every((point) => point !== null) ? (points as T[]) : null;
 }
 
 function rises(points: { value: number }[], mayRepeat: boolean): boolean {
@@ -54,16 +54,41 @@ export function draftOfText(text: string): Draft | null {
     if (text.length > mostLetters) return null;
     const fields = text.split('!');
     if (fields.length !== 8) return null;
-    const [moment, name, kind, begin, end, folded, colorText, opacityText] = fields as [string, string, string, string, string, string, string, string];
+    const [moment, name, kind, begin, end, folded, colorText, opacityText] = fields as [
+        string,
+        string,
+        string,
+        string,
+        string,
+        string,
+        string,
+        string,
+    ];
     const isStepped = kind === 'classes';
     const colors = pairs(colorText, colorPoint);
     const opacity = opacityText === '' ? null : pairs(opacityText, opacityPoint);
     const rangeFolded = colorOfHex(`#${folded}`);
     const [barBegin, barEnd] = [Number(begin), Number(end)];
-    if (!Object.prototype.hasOwnProperty.call(knownMoments, moment) || (!isStepped && kind !== 'blend') || !/^[\w.-]{0,60}$/.test(name)) return null;
+    if (
+        !Object.prototype.hasOwnProperty.call(knownMoments, moment) ||
+        (!isStepped && kind !== 'blend') ||
+        !/^[\w.-]{0,60}$/.test(name)
+    )
+        return null;
     if (!colors || colors.length < (isStepped ? 1 : 2) || !rises(colors, !isStepped) || !rangeFolded) return null;
     if (opacityText !== '' && (!opacity || !rises(opacity, false))) return null;
-    if (!(barEnd > barBegin) || !Number.isFinite(barBegin) || !Number.isFinite(barEnd) || colors[0]!.value >= barEnd) return null;
+    if (!(barEnd > barBegin) || !Number.isFinite(barBegin) || !Number.isFinite(barEnd) || colors[0]!.value >= barEnd)
+        return null;
     const unit = knownMoments[moment]!;
-    return { name, moment, unit, isStepped, colors, opacity, end: roundedValue(barEnd), barBegin: roundedValue(barBegin), rangeFolded };
+    return {
+        name,
+        moment,
+        unit,
+        isStepped,
+        colors,
+        opacity,
+        end: roundedValue(barEnd),
+        barBegin: roundedValue(barBegin),
+        rangeFolded,
+    };
 }

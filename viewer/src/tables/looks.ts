@@ -37,5 +37,9 @@ export function lookOver(looks: Looks, value: number, under: readonly number[]):
     const entry = Math.min(lookCount - 1, Math.max(0, Math.floor(looks.offset + looks.slope * value)));
     const alpha = looks.rgba[4 * entry + 3]! / 255;
     if (alpha === 0) return null;
-    return [0, 1, 2].map(c => Math.round(under[c]! + alpha * (looks.rgba[4 * entry + c]! - under[c]!))) as [number, number, number];
+    return [0, 1, 2].map((c) => Math.round(under[c]! + alpha * (looks.rgba[4 * entry + c]! - under[c]!))) as [
+        number,
+        number,
+        number,
+    ];
 }

@@ -47,9 +47,10 @@ const fileUnits: Record<string, [number, string]> = {
     '%': [100, ''],
 };
 const momentsOfUnits: Record<string, string> = { dBZ: 'REF', 'm/s': 'VEL' };
-const inList = <T>(list: Record<string, T>, key: string): T | undefined => (Object.prototype.hasOwnProperty.call(list, key) ? list[key] : undefined);
+const inList = <T>(list: Record<string, T>, key: string): T | undefined =>
+    Object.prototype.hasOwnProperty.call(list, key) ? list[key] : undefined;
 
-const wordsOf = (text: string): string[] => text.split(/[ \t\r,\f]+/).filter(word => word !== '');
+const wordsOf = (text: string): string[] => text.split(/[ \t\r,\f]+/).filter((word) => word !== '');
 
 class PalReader {
     private line = 0;
@@ -121,7 +122,7 @@ class PalReader {
         return number;
     }
     private color(words: string[]): Rgba {
-        const channels = words.map(word => {
+        const channels = words.map((word) => {
             const number = this.numberOf(word);
             if (number === null || number < 0 || number > 255) {
                 this.refuse(`'${shownWord(word)}' is not a color; red, green, blue and alpha are 0 to 255`);
@@ -131,13 +132,16 @@ class PalReader {
         return [...channels, 255].slice(0, 4) as Rgba;
     }
     private colorOfWords(words: string[]): Rgba {
-        if (words.length < 3 || words.length > 4) this.refuse(`there must be red, green and blue, not ${words.length} numbers`);
+        if (words.length < 3 || words.length > 4)
+            this.refuse(`there must be red, green and blue, not ${words.length} numbers`);
         return this.color(words);
     }
 
     private takeEntry(words: string[], channels: number, isSolid: boolean): void {
         if (words.length !== 1 + channels && words.length !== 1 + 2 * channels) {
-            this.refuse(`there must be a value and ${channels} or ${2 * channels} numbers of color, not ${words.length} numbers in all`);
+            this.refuse(
+                `there must be a value and ${channels} or ${2 * channels} numbers of color, not ${words.length} numbers in all`,
+            );
         }
         if (this.entries.length === mostStops) this.refuse(`there are more than ${mostStops} colors`);
         const value = this.numberOf(words[0]!);
@@ -156,7 +160,8 @@ class PalReader {
         let moment = '';
         let unit = '';
         const product = inList(products, this.product);
-        if (inList(knownMoments, this.product) !== undefined) [moment, unit] = [this.product, knownMoments[this.product]!];
+        if (inList(knownMoments, this.product) !== undefined)
+            [moment, unit] = [this.product, knownMoments[this.product]!];
         else if (product) [moment, unit] = [product.moment ?? '', product.unit];
         const hasMeaning = moment !== '' || unit !== '';
         const known = inList(fileUnits, this.unit.toUpperCase());
@@ -187,11 +192,21 @@ class PalReader {
         const { moment, unit, perOurs } = this.meaning();
         const stops = this.stops(perOurs);
         const [first, last] = [stops[0]!, stops[stops.length - 1]!];
-        const table: ColorTable = { name: '', moment, unit, stops, end: 0, bar_begin: first.from, range_folded: this.folded ?? usualFolded, extinction: [] };
+        const table: ColorTable = {
+            name: '',
+            moment,
+            unit,
+            stops,
+            end: 0,
+            bar_begin: first.from,
+            range_folded: this.folded ?? usualFolded,
+            extinction: [],
+        };
         const step = (this.numbers.STEP ?? 0) / perOurs;
         table.end = Math.max(step > 0 ? last.from + step : endOf(table), last.from + 1e-6);
         table.extinction = usualExtinctionOf(table, usual);
-        if (![...stops.map(stop => stop.from), table.end].every(Number.isFinite)) this.refuse('the values are not finite');
+        if (![...stops.map((stop) => stop.from), table.end].every(Number.isFinite))
+            this.refuse('the values are not finite');
         return table;
     }
 }

@@ -4,7 +4,11 @@ import { Rgba } from '../wire/color_tables';
 
 // The corners to keep of a line of `count` points, so that `errorAt(first, last, i)` of each point i
 // between two kept neighbors is at most `most` (Douglas and Peucker).
-export function cornersToKeep(count: number, most: number, errorAt: (first: number, last: number, i: number) => number): number[] {
+export function cornersToKeep(
+    count: number,
+    most: number,
+    errorAt: (first: number, last: number, i: number) => number,
+): number[] {
     const kept = new Set([0, count - 1]);
     const open: [number, number][] = [[0, count - 1]];
     for (let range = open.pop(); range; range = open.pop()) {
@@ -21,7 +25,8 @@ export function cornersToKeep(count: number, most: number, errorAt: (first: numb
     return [...kept].sort((a, b) => a - b);
 }
 
-const linearOf = (level: number): number => (level <= 10.31475 ? level / 3294.6 : ((level / 255 + 0.055) / 1.055) ** 2.4);
+const linearOf = (level: number): number =>
+    level <= 10.31475 ? level / 3294.6 : ((level / 255 + 0.055) / 1.055) ** 2.4;
 
 // OKLab, in which equal distances look about equal: render/color/ok_lab.h.
 export function okLabOf([r, g, b]: readonly number[]): [number, number, number] {
@@ -32,7 +37,7 @@ export function okLabOf([r, g, b]: readonly number[]): [number, number, number] 
     return [
         0.2104542553 * l + 0.793617785 * m - 0.0040720468 * s,
         1.9779984951 * l - 2.428592205 * m + 0.4505937099 * s,
-        0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s,
+        0.0259040371 * l + 0.7827717662 * m - 0.808675766 * s,
     ];
 }
 

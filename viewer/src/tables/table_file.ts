@@ -33,24 +33,29 @@ export interface TableFile {
 
 // Returns the end of the color bar of a table that does not say it: its last class is as long as the one before.
 export function endOf(table: ColorTable): number {
-    const [before, last] = table.stops.slice(-2).map(stop => stop.from);
+    const [before, last] = table.stops.slice(-2).map((stop) => stop.from);
     return last === undefined ? before! + 1 : last + (last - before!);
 }
 
 export function tableOfFile(file: TableFile, usual: UsualOpacity): ColorTable {
-    const points = file.points.map(point => ({ ...point, value: Math.fround(point.value) }));
+    const points = file.points.map((point) => ({ ...point, value: Math.fround(point.value) }));
     const table: ColorTable = {
         name: file.name,
         moment: file.moment ?? '',
         unit: file.unit,
-        stops: points.map(({ value, color, until }, i) => ({ from: value, color, until: until ?? (file.isStepped ? color : (points[i + 1]?.color ?? color)) })),
+        stops: points.map(({ value, color, until }, i) => ({
+            from: value,
+            color,
+            until: until ?? (file.isStepped ? color : (points[i + 1]?.color ?? color)),
+        })),
         end: 0,
         bar_begin: points[0]!.value,
         range_folded: file.rangeFolded ?? usualFolded,
         extinction: [],
     };
     table.end = file.end ?? endOf(table);
-    if (points.every(point => point.perKm !== null)) table.extinction = points.map(({ value, perKm }) => ({ value, per_km: perKm! }));
+    if (points.every((point) => point.perKm !== null))
+        table.extinction = points.map(({ value, perKm }) => ({ value, per_km: perKm! }));
     else table.extinction = usualExtinctionOf(table, usual);
     return table;
 }
@@ -73,7 +78,7 @@ export function hexOf(color: Rgba): string {
 export function colorOfHex(text: string): Rgba | null {
     const found = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})?$/i.exec(text);
     if (!found) return null;
-    return [found[1]!, found[2]!, found[3]!, found[4] ?? 'ff'].map(digits => parseInt(digits, 16)) as Rgba;
+    return [found[1]!, found[2]!, found[3]!, found[4] ?? 'ff'].map((digits) => parseInt(digits, 16)) as Rgba;
 }
 
 // A part of a file in a form that is safe in a message.

@@ -8,7 +8,9 @@ import { FilePoint, TableError, TableFile, colorOfHex, greatestValue, hexOf, mos
 import { TomlArray, TomlTable, TomlValue, readTomlValues } from './toml_values';
 
 // Moments by name, with the unit that a file of colors writes: none for a number.
-export const knownMoments: Record<string, string> = Object.fromEntries(Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]));
+export const knownMoments: Record<string, string> = Object.fromEntries(
+    Object.entries(moments).map(([name, { unit }]) => [name, unit === '1' ? '' : unit]),
+);
 
 class TomlColors {
     private complaints: { line: number; why: string }[] = [];
@@ -35,7 +37,8 @@ class TomlColors {
             points: this.points(isStepped),
         };
         const last = file.points[file.points.length - 1];
-        if (end !== null && last && end <= last.value) this.complain(root, 'end', "must be above the last point's value");
+        if (end !== null && last && end <= last.value)
+            this.complain(root, 'end', "must be above the last point's value");
         this.finish();
         return file;
     }
@@ -64,14 +67,20 @@ class TomlColors {
         const value = this.find(table, key);
         if (value === undefined) return null;
         if (typeof value === 'number' && value >= least && value <= greatestValue) return value;
-        this.complain(table, key, typeof value === 'number' ? `is out of range: ${least} to ${greatestValue}` : 'must be a number');
+        this.complain(
+            table,
+            key,
+            typeof value === 'number' ? `is out of range: ${least} to ${greatestValue}` : 'must be a number',
+        );
         return null;
     }
     private color(table: TomlTable, key: string): Rgba | null {
         const value = this.find(table, key);
         if (value === undefined) return null;
         const numbers = value instanceof TomlArray ? value.items : [];
-        const isColor = (numbers.length === 3 || numbers.length === 4) && numbers.every(one => typeof one === 'number' && one >= 0 && one <= 255);
+        const isColor =
+            (numbers.length === 3 || numbers.length === 4) &&
+            numbers.every((one) => typeof one === 'number' && one >= 0 && one <= 255);
         if (isColor) return [...(numbers as number[]).map(Math.round), 255].slice(0, 4) as Rgba;
         const color = typeof value === 'string' ? colorOfHex(value) : null;
         if (!color) this.complain(table, key, 'must be "#rrggbb", "#rrggbbaa" or three or four numbers 0 to 255');
@@ -83,7 +92,8 @@ class TomlColors {
         const unit = this.text(this.root, 'unit');
         if (name === null) return null;
         const known = Object.prototype.hasOwnProperty.call(knownMoments, name) ? knownMoments[name]! : undefined;
-        if (known === undefined) this.complain(this.root, 'moment', `must be one of ${Object.keys(knownMoments).join(', ')}`);
+        if (known === undefined)
+            this.complain(this.root, 'moment', `must be one of ${Object.keys(knownMoments).join(', ')}`);
         else if (unit !== null && unit !== known) this.complain(this.root, 'unit', `of ${name} must be "${known}"`);
         return known === undefined ? null : name;
     }
@@ -92,13 +102,13 @@ class TomlColors {
         const list = this.find(this.root, 'point');
         const items = list instanceof TomlArray ? list.items : [];
         const least = isStepped ? 1 : 2;
-        if (items.length < least || items.length > mostStops || !items.every(item => item instanceof TomlTable)) {
+        if (items.length < least || items.length > mostStops || !items.every((item) => item instanceof TomlTable)) {
             this.complain(this.root, 'point', `must be there ${least} to ${mostStops} times, as [[point]]`);
             return [];
         }
         const points: FilePoint[] = [];
         for (const item of items as TomlTable[]) this.point(item, points, isStepped);
-        const withOpacity = points.filter(point => point.perKm !== null).length;
+        const withOpacity = points.filter((point) => point.perKm !== null).length;
         if (withOpacity !== 0 && withOpacity !== points.length) {
             this.complain(items[0] as TomlTable, 'opacity_per_km', 'must be given for all points or for none');
         }
@@ -114,7 +124,8 @@ class TomlColors {
         const perKm = this.number(item, 'opacity_per_km', 0);
         if (value === null || color === null) return;
         const before = points[points.length - 1];
-        if (before && Math.fround(value) <= Math.fround(before.value)) this.complain(item, 'value', 'must increase from point to point');
+        if (before && Math.fround(value) <= Math.fround(before.value))
+            this.complain(item, 'value', 'must increase from point to point');
         points.push({ value, color, ...(until && { until }), perKm });
     }
 

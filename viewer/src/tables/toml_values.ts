@@ -36,7 +36,8 @@ export class TomlTable {
 
 const deepest = 16;
 const bareKey = /[A-Za-z0-9_-]+/y;
-const number = /[+-]?(?:inf|nan|0x[0-9a-fA-F_]+|0o[0-7_]+|0b[01_]+|(?:0|[1-9](?:_?\d)*)(?:\.\d(?:_?\d)*)?(?:[eE][+-]?\d(?:_?\d)*)?)(?![\w.:-])/y;
+const number =
+    /[+-]?(?:inf|nan|0x[0-9a-fA-F_]+|0o[0-7_]+|0b[01_]+|(?:0|[1-9](?:_?\d)*)(?:\.\d(?:_?\d)*)?(?:[eE][+-]?\d(?:_?\d)*)?)(?![\w.:-])/y;
 const blank = /[ \t]*/y;
 const blankLines = /(?:[ \t\r\n]|#[^\n]*)*/y;
 const escapes: Record<string, string> = { b: '\b', t: '\t', n: '\n', f: '\f', r: '\r', '"': '"', '\\': '\\' };
@@ -64,7 +65,11 @@ class TomlReader {
 
     private get line(): number {
         const { counted } = this;
-        for (let i = this.text.indexOf('\n', counted.to); i >= 0 && i < this.at; i = this.text.indexOf('\n', counted.to)) {
+        for (
+            let i = this.text.indexOf('\n', counted.to);
+            i >= 0 && i < this.at;
+            i = this.text.indexOf('\n', counted.to)
+        ) {
             ++counted.line;
             counted.to = i + 1;
         }
@@ -172,7 +177,8 @@ class TomlReader {
         const flag = this.match(/(?:true|false)(?![\w.-])/y);
         if (flag) return flag === 'true';
         const word = this.match(number);
-        if (word === null) this.refuse(`'${shownWord(/^[^\s,\]}]*/.exec(this.text.slice(this.at, this.at + 70))![0])}' is no value`);
+        if (word === null)
+            this.refuse(`'${shownWord(/^[^\s,\]}]*/.exec(this.text.slice(this.at, this.at + 70))![0])}' is no value`);
         const plain = word.replace(/_/g, '');
         if (/inf$/.test(plain)) return plain.startsWith('-') ? -Infinity : Infinity;
         return Number(plain);

@@ -32,8 +32,8 @@ export interface Bins {
 // bins are those of a table that begins there, as its file does (draft.ts).
 export function chooseBins(table: ColorTable, least = -Infinity): Bins {
     const { extinction } = table;
-    const all = table.stops.map(stop => stop.from);
-    const stops = least > all[0]! ? [least, ...all.filter(from => from > least)] : all;
+    const all = table.stops.map((stop) => stop.from);
+    const stops = least > all[0]! ? [least, ...all.filter((from) => from > least)] : all;
     const lowest = Math.max(stops[0]!, extinction[0]!.value);
     const highest = Math.max(stops[stops.length - 1]!, extinction[extinction.length - 1]!.value);
     const range = Math.max(highest - lowest, 1e-6);
@@ -65,7 +65,15 @@ function looksOfBins(table: ColorTable, bins: Bins, shown: Shown, stepM: number)
 }
 
 // Integrates the step over `distance` bins from `from` on, in the direction of `sign`.
-function putStep(looks: Looks, from: number, distance: number, sign: number, whole: Float64Array, half: Float64Array, entries: Float32Array): void {
+function putStep(
+    looks: Looks,
+    from: number,
+    distance: number,
+    sign: number,
+    whole: Float64Array,
+    half: Float64Array,
+    entries: Float32Array,
+): void {
     let red = 0;
     let green = 0;
     let blue = 0;
@@ -120,11 +128,12 @@ export function makeTransfer(
     }
     const binSlope = quantization.step / bins.width;
     const binOffset = (codeZero - bins.lowest) / bins.width + 1 + binSlack;
-    const firstVisible = looks.depth.findIndex(depth => depth > 0);
+    const firstVisible = looks.depth.findIndex((depth) => depth > 0);
     return {
         binOffset,
         binSlope,
-        leastVisibleCode: firstVisible < 0 ? Infinity : Math.max(firstValueCode, Math.ceil((firstVisible - binOffset) / binSlope)),
+        leastVisibleCode:
+            firstVisible < 0 ? Infinity : Math.max(firstValueCode, Math.ceil((firstVisible - binOffset) / binSlope)),
         entries,
     };
 }

@@ -17,20 +17,25 @@ export type Units = Record<Quantity, Unit>;
 export const knownUnits: Record<Quantity, readonly [Unit, ...Unit[]]> = facts;
 export const quantities = Object.keys(knownUnits) as Quantity[];
 
-export const usualUnits: Units = { speed: knownUnits.speed[0], distance: knownUnits.distance[0], height: knownUnits.height[0] };
+export const usualUnits: Units = {
+    speed: knownUnits.speed[0],
+    distance: knownUnits.distance[0],
+    height: knownUnits.height[0],
+};
 
 // Reads "knots,miles,kft", in any order. A quantity without a name that makes sense has its usual unit.
 export function unitsOf(names: string): Units {
     const given = names.split(',');
-    const chosen = (quantity: Quantity) => knownUnits[quantity].find(unit => given.includes(unit.name)) ?? usualUnits[quantity];
+    const chosen = (quantity: Quantity) =>
+        knownUnits[quantity].find((unit) => given.includes(unit.name)) ?? usualUnits[quantity];
     return { speed: chosen('speed'), distance: chosen('distance'), height: chosen('height') };
 }
 
 // The units that are not the usual ones, as unitsOf() and `stormcellar frame --units` read them.
 export function namesOf(units: Units): string {
     return quantities
-        .filter(quantity => units[quantity].name !== usualUnits[quantity].name)
-        .map(quantity => units[quantity].name)
+        .filter((quantity) => units[quantity].name !== usualUnits[quantity].name)
+        .map((quantity) => units[quantity].name)
         .join(',');
 }
 
@@ -72,6 +77,6 @@ export function valueText(value: number, stored: string, units: Units, digits = 
 // Returns the distance between rings, so that about three fit into `halfM`.
 export function ringSpacingM(halfM: number, units: Units): number {
     const wanted = (halfM / 3) * 0.7;
-    const steps = [10, 25, 50, 100, 200, 500, 1000].map(number => number * units.distance.si);
-    return steps.find(step => step >= wanted) ?? steps[steps.length - 1]!;
+    const steps = [10, 25, 50, 100, 200, 500, 1000].map((number) => number * units.distance.si);
+    return steps.find((step) => step >= wanted) ?? steps[steps.length - 1]!;
 }

@@ -16,14 +16,14 @@ function reflectivityFrom(points: ExtinctionPoint[], lowest: number): Extinction
     const first = Math.floor(Math.min(highestDbz, Math.max(lowestDbz, lowest)));
     const made: ExtinctionPoint[] = [];
     for (let value = first; value < points[0]!.value; ++value) made.push({ value, per_km: points[0]!.per_km });
-    return [...made, ...points.filter(point => point.value >= first)];
+    return [...made, ...points.filter((point) => point.value >= first)];
 }
 
 // `usual` names the table of each moment whose opacity is the moment's own.
 export function usualOpacity(tables: ColorTable[], usual: Record<string, string>): UsualOpacity {
     return {
         of(moment, lowest) {
-            const points = tables.find(table => table.name === usual[moment])?.extinction;
+            const points = tables.find((table) => table.name === usual[moment])?.extinction;
             if (!points) return rising(lowest, lowest + 1);
             return moment === 'REF' ? reflectivityFrom(points, lowest) : points;
         },

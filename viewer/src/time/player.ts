@@ -22,10 +22,16 @@ export function withTimes(player: PlayerState, times: string[], newest = times.l
     const shown = player.times[player.at];
     if (times.length === 0) return { ...player, times, at: -1, isPlaying: false };
     const { loop, follows } = player;
-    const ofLoop = (all: string[]) => (loop && loop.from < loop.to ? all.filter(time => time >= loop.from && time <= loop.to).length : 2);
+    const ofLoop = (all: string[]) =>
+        loop && loop.from < loop.to ? all.filter((time) => time >= loop.from && time <= loop.to).length : 2;
     // The newest times of another moment come before its older ones, so a loop over older times has none for a while.
     const isOver = ofLoop(times) < 2 && ofLoop(player.times) >= 2;
-    return { ...player, times, at: follows || shown === undefined ? newest : nearestTime(times, shown), loop: isOver ? null : loop };
+    return {
+        ...player,
+        times,
+        at: follows || shown === undefined ? newest : nearestTime(times, shown),
+        loop: isOver ? null : loop,
+    };
 }
 
 // The index of the time that is nearest to another; -1: there is none.
@@ -46,7 +52,7 @@ export function stepped(player: PlayerState, by: number): PlayerState {
 
 // Returns the index that is played next, after the end of the loop its beginning; null for fewer than two times.
 export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null {
-    const first = loop ? times.findIndex(time => time >= loop.from) : 0;
+    const first = loop ? times.findIndex((time) => time >= loop.from) : 0;
     const last = loop ? times.reduce((found, time, i) => (time <= loop.to ? i : found), -1) : times.length - 1;
     const count = last - first + 1;
     if (first < 0 || count < 2) return null;
@@ -55,7 +61,10 @@ export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null 
 }
 
 // The next time of a loop, or the same if it is not loaded yet.
-export function advanced(player: PlayerState, isLoaded: (time: string) => boolean): { player: PlayerState; waitsFor: string | null } {
+export function advanced(
+    player: PlayerState,
+    isLoaded: (time: string) => boolean,
+): { player: PlayerState; waitsFor: string | null } {
     const next = player.isPlaying ? nextOf(player) : null;
     if (next === null) return { player, waitsFor: null };
     const time = player.times[next]!;

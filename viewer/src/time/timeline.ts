@@ -65,7 +65,7 @@ export class Timeline {
         const isBetween = this.isBetween(time);
         if (!isBetween && !this.player.isPlaying) return false;
         this.missing.add(time);
-        this.take(this.stored.filter(one => isBetween || one !== time));
+        this.take(this.stored.filter((one) => isBetween || one !== time));
         return true;
     }
 }

@@ -17,7 +17,8 @@ export class ApiError extends Error {
 }
 
 // Returns true if the server has no such thing, but not if it could not be asked.
-export const isAbsent = (error: unknown): boolean => error instanceof ApiError && (error.status === 404 || error.status === 410);
+export const isAbsent = (error: unknown): boolean =>
+    error instanceof ApiError && (error.status === 404 || error.status === 410);
 
 export interface MomentOfDomain {
     moment: string;
@@ -84,7 +85,13 @@ export interface AuditRow {
 }
 // Several sites within a box, as one domain (docs/web/grids.md#regions).
 export interface Region extends Domain {
-    moments: (MomentOfDomain & { sites: string[]; left_out: string[]; spacing_m: number; halved: number; times: string[] })[];
+    moments: (MomentOfDomain & {
+        sites: string[];
+        left_out: string[];
+        spacing_m: number;
+        halved: number;
+        times: string[];
+    })[];
 }
 export interface MapLine {
     kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
@@ -128,7 +135,7 @@ const ownRefusal = 'Stormcellar-Status';
 async function ask(path: string, options: RequestInit = {}): Promise<Response> {
     let answer = await fetch(address(path), options);
     for (let tries = 0; answer.status === busy && answer.headers.has(ownRefusal) && tries < mostTries; ++tries) {
-        await new Promise(done => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
+        await new Promise((done) => setTimeout(done, 1000 * Number(answer.headers.get('Retry-After') ?? 1)));
         answer = await fetch(address(path), options);
     }
     const { ok, status, statusText, headers } = answer;
@@ -139,7 +146,8 @@ async function ask(path: string, options: RequestInit = {}): Promise<Response> {
 }
 
 const told = async <T>(path: string): Promise<T> => (await ask(path)).json() as Promise<T>;
-const bytesOf = async (path: string, options?: RequestInit): Promise<ArrayBuffer> => (await ask(path, options)).arrayBuffer();
+const bytesOf = async (path: string, options?: RequestInit): Promise<ArrayBuffer> =>
+    (await ask(path, options)).arrayBuffer();
 
 export async function domains(): Promise<Domain[]> {
     return (await told<{ domains: Domain[] }>('api/v1/domains')).domains;
@@ -152,7 +160,9 @@ export async function stations(): Promise<Station[]> {
 export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
-    const silent = stations.flatMap(({ station, silent_s }): [string, number | undefined][] => (silent_s === null ? [] : [[station, silent_s]]));
+    const silent = stations.flatMap(({ station, silent_s }): [string, number | undefined][] =>
+        silent_s === null ? [] : [[station, silent_s]],
+    );
     return { silent, serverMs: timeOf(answer) };
 }
 export function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
@@ -183,34 +193,47 @@ export interface Times {
 // The newest times of a domain's grids, at most `limit`, up to 10,000, but all of a region; until `to`, inclusive.
 export async function times(domain: string, moment: string, limit: number, to?: string): Promise<Times> {
     if (isRegion(domain)) {
-        const found = (await region(domain)).moments.find(one => one.moment === moment);
-        return { times: found?.times.filter(time => to === undefined || time <= to) ?? [], more: false };
+        const found = (await region(domain)).moments.find((one) => one.moment === moment);
+        return { times: found?.times.filter((time) => to === undefined || time <= to) ?? [], more: false };
     }
     const until = to === undefined ? '' : `&to=${encodeURIComponent(to)}`;
     const path = `api/v1/grids?domain=${encodeURIComponent(domain)}&moment=${moment}&limit=${limit}${until}`;
     const { grids, more } = await told<{ grids: { time: string }[]; more: boolean }>(path);
-    return { times: grids.map(grid => grid.time), more };
+    return { times: grids.map((grid) => grid.time), more };
 }
 export const gridPath = (domain: string, moment: string, time: string): string =>
     isRegion(domain)
         ? `api/v1/regions/${sidesOf(domain)}/${moment}/${encodeURIComponent(time)}`
         : `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
-export const rawPath = (station: string, name: string): string => address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
+export const rawPath = (station: string, name: string): string =>
+    address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
 // `query`: the parameters of docs/web/packed-grid.md.
-export function packed(domain: string, moment: string, time: string, query: Record<string, string>, signal?: AbortSignal): Promise<ArrayBuffer> {
+export function packed(
+    domain: string,
+    moment: string,
+    time: string,
+    query: Record<string, string>,
+    signal?: AbortSignal,
+): Promise<ArrayBuffer> {
     // A grid without its id may have been made again, and the bricks of two grids do not fit together.
     const options: RequestInit = { ...(query.id === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
     return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
 }
 // A grid that is made on request, whole: for an instant between volumes, or of a region.
 export function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {
-    const path = isRegion(domain) ? `${gridPath(domain, moment, time)}/packed` : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
+    const path = isRegion(domain)
+        ? `${gridPath(domain, moment, time)}/packed`
+        : `api/v1/between/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
     return bytesOf(path);
 }
 // Events after the one of this id; empty: from now on. Errors: those of fetch().
 export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
     const query = id === '' ? '' : `?last_event_id=${encodeURIComponent(id)}`;
-    return fetch(address(`api/v1/events${query}`), { cache: 'no-store', headers: { Accept: 'text/event-stream' }, signal });
+    return fetch(address(`api/v1/events${query}`), {
+        cache: 'no-store',
+        headers: { Accept: 'text/event-stream' },
+        signal,
+    });
 }
 export interface Tables {
     tables: ColorTable[];
@@ -220,10 +243,16 @@ export function tables(): Promise<Tables> {
     return told('api/v1/tables');
 }
 // East may be beyond 180, and the answer's longitudes go on there, too.
-export function map({ west, south, east, north }: { west: number; south: number; east: number; north: number }, detail: number, withCounties = detail === 0): Promise<MapAnswer> {
+export function map(
+    { west, south, east, north }: { west: number; south: number; east: number; north: number },
+    detail: number,
+    withCounties = detail === 0,
+): Promise<MapAnswer> {
     const kinds = withCounties ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
-    return told(`api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds}`);
+    return told(
+        `api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds}`,
+    );
 }
 
 // -- raw volumes
@@ -248,15 +277,21 @@ export async function hasRaw(station: string, name: string): Promise<boolean> {
 }
 // The newest volume of a station that began at a time or before. It may have come in several files.
 export async function rawBefore(station: string, time: string): Promise<RawVolume | null> {
-    const { volumes } = await told<{ volumes: RawVolume[] }>(`${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`);
+    const { volumes } = await told<{ volumes: RawVolume[] }>(
+        `${volumesPath(station)}?to=${encodeURIComponent(time)}&limit=8`,
+    );
     const newest = volumes.pop();
-    return newest?.raw ? newest : volumes.filter(one => one.time === newest?.time && one.raw).pop() ?? newest ?? null;
+    return newest?.raw
+        ? newest
+        : (volumes.filter((one) => one.time === newest?.time && one.raw).pop() ?? newest ?? null);
 }
 const sameVolumeMs = 15_000; // header and first radial name a volume a little differently
 // The volume that began at a time; null if its file is not given.
 export async function rawAt(station: string, time: string): Promise<RawVolume | null> {
     const volume = await rawBefore(station, time);
-    return volume?.time && volume.raw && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs ? volume : null;
+    return volume?.time && volume.raw && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs
+        ? volume
+        : null;
 }
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return (await told<{ sweeps: SweepRow[] }>(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).sweeps;

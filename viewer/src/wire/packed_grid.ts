@@ -318,14 +318,16 @@ export function readPackedBricks(bytes: Uint8Array): PackedBricks {
 // A grid of which the table was there, with the cells of some bricks; its other bricks must not be read.
 export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
     const block = grid.block.slice();
-    for (let i = bricks.first; i < bricks.end; ++i) block[i]! -= grid.kind[i] === BrickKind.codes ? bricks.firstBlock : bricks.firstStates;
+    for (let i = bricks.first; i < bricks.end; ++i)
+        block[i]! -= grid.kind[i] === BrickKind.codes ? bricks.firstBlock : bricks.firstStates;
     return { ...grid, block, states: bricks.states, codes: bricks.codes };
 }
 
 // The code of a cell: 0 not seen, 1 no echo, 2 range folded, from 3 on a value.
 export function codeAt(grid: PackedGrid, x: number, y: number, z: number): number {
     const edge = grid.brickEdge;
-    const brick = (Math.floor(x / edge) * grid.bricks[1] + Math.floor(y / edge)) * grid.bricks[2] + Math.floor(z / edge);
+    const brick =
+        (Math.floor(x / edge) * grid.bricks[1] + Math.floor(y / edge)) * grid.bricks[2] + Math.floor(z / edge);
     const cell = ((x % edge) * edge + (y % edge)) * edge + (z % edge);
     const cells = edge ** 3;
     switch (grid.kind[brick]) {

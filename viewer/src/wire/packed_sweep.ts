@@ -45,7 +45,11 @@ export function readPackedSweep(bytes: Uint8Array): PackedSweep {
     const [count, gateStride, codeBytes] = [u32(72), u32(76), u32(88)];
     need(codeBytes === 1 || codeBytes === 2, 'codes have one byte or two');
     const [radialsAt, codesAt] = [big(104), big(112)];
-    need(radialsAt + count * radialBytes <= bytes.byteLength && codesAt + count * gateStride * codeBytes <= bytes.byteLength, 'the packed sweep is cut');
+    need(
+        radialsAt + count * radialBytes <= bytes.byteLength &&
+            codesAt + count * gateStride * codeBytes <= bytes.byteLength,
+        'the packed sweep is cut',
+    );
     const section = bytes.slice(codesAt, codesAt + count * gateStride * codeBytes);
     const sweep: PackedSweep = {
         latitudeDeg: f64(24),

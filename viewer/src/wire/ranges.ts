@@ -8,15 +8,28 @@ export interface BrickRange {
 // `columns`: numbers of columns of bricks, `layers` bricks each. Columns that follow each other are asked
 // for at once, and so are those between which there is little: `weightOf` says how many bytes a column
 // takes, of which a range skips at most `mostSkipped` in a row and holds at most `most`.
-export function rangesOf(columns: readonly number[], layers: number, weightOf: (column: number) => number, mostSkipped: number, most: number): BrickRange[] {
+export function rangesOf(
+    columns: readonly number[],
+    layers: number,
+    weightOf: (column: number) => number,
+    mostSkipped: number,
+    most: number,
+): BrickRange[] {
     const ranges: BrickRange[] = [];
     let last: BrickRange | null = null;
     let weight = 0;
     for (const column of [...new Set(columns)].sort((one, other) => one - other)) {
         let between = 0;
-        if (last) for (let skipped = last.end / layers; skipped < column && between <= mostSkipped; ++skipped) between += weightOf(skipped);
+        if (last)
+            for (let skipped = last.end / layers; skipped < column && between <= mostSkipped; ++skipped)
+                between += weightOf(skipped);
         const more = between + weightOf(column);
-        if (last && between <= mostSkipped && weight + more <= most && (column + 1) * layers - last.first <= mostBricks) {
+        if (
+            last &&
+            between <= mostSkipped &&
+            weight + more <= most &&
+            (column + 1) * layers - last.first <= mostBricks
+        ) {
             last.end = (column + 1) * layers;
             weight += more;
         } else {

@@ -6,8 +6,18 @@ const pattern = new RegExp(`^region:(${side},){3}${side}$`);
 // True for exactly four numbers: the name goes into requests and commands as it is.
 export const isRegion = (domain: string): boolean => pattern.test(domain);
 
-export function regionName({ west, south, east, north }: { west: number; south: number; east: number; north: number }): string {
-    return `region:${[west, south, east, north].map(degrees => Number(degrees.toFixed(3))).join(',')}`;
+export function regionName({
+    west,
+    south,
+    east,
+    north,
+}: {
+    west: number;
+    south: number;
+    east: number;
+    north: number;
+}): string {
+    return `region:${[west, south, east, north].map((degrees) => Number(degrees.toFixed(3))).join(',')}`;
 }
 
 // The four numbers of a name, as the server takes them.

@@ -11,12 +11,14 @@ function putChoices(app: App): void {
     const { state, domain } = app;
     putOptions(
         element<HTMLSelectElement>('domain'),
-        app.domains.map(one => one.domain),
+        app.domains.map((one) => one.domain),
         state.domain,
-        name => (isRegion(name) ? texts.start.region : name),
+        (name) => (isRegion(name) ? texts.start.region : name),
     );
     element('moments').replaceChildren(
-        ...(domain?.moments ?? []).map(({ moment }) => button(`moment-${moment}`, moment, () => void app.choose(state.domain, moment))),
+        ...(domain?.moments ?? []).map(({ moment }) =>
+            button(`moment-${moment}`, moment, () => void app.choose(state.domain, moment)),
+        ),
     );
     putMoment(app);
 }
@@ -37,26 +39,36 @@ const againAfterMs = 20_000; // ages grow
 function putTitle(app: App): void {
     const { domain, moment } = app.shown!;
     const { grid } = app.shown!.loaded;
-    const names = grid.sites.map(site => site.icao).join(', ');
-    const time = new Date(grid.timeMs).toISOString().replace('T', ' ').replace(/\.\d+Z/, ' UTC');
+    const names = grid.sites.map((site) => site.icao).join(', ');
+    const time = new Date(grid.timeMs)
+        .toISOString()
+        .replace('T', ' ')
+        .replace(/\.\d+Z/, ' UTC');
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [grid.isPartial ? texts.partial : '', app.shown!.isBetween ? texts.isBetween : ''];
     // A saved picture has no age.
     const age = document.createElement('span');
     age.textContent = ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '';
-    element('title').replaceChildren([names, time, ...notes.filter(note => note !== '')].join('  '), age);
+    element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
 // Shows what is wrong with the server, the radars, or what was asked for, until it is over.
 function putNotice(app: App): void {
-    const sites = app.shown?.loaded.grid.sites.map(site => site.icao) ?? [];
-    const silent = sites.flatMap(site => {
+    const sites = app.shown?.loaded.grid.sites.map((site) => site.icao) ?? [];
+    const silent = sites.flatMap((site) => {
         const sinceMs = app.server.silentSince.get(site);
         const ageS = sinceMs === undefined ? Infinity : (app.server.nowMs - sinceMs) / 1000;
         return ageS < newsS ? [texts.notice.silent(site, ageS)] : [];
     });
-    const text = [app.isGraphicsLost ? texts.notice.noGraphics : '', app.server.isCutOff ? texts.notice.noServer : '', app.missed, ...silent].filter(Boolean).join(' ');
+    const text = [
+        app.isGraphicsLost ? texts.notice.noGraphics : '',
+        app.server.isCutOff ? texts.notice.noServer : '',
+        app.missed,
+        ...silent,
+    ]
+        .filter(Boolean)
+        .join(' ');
     for (const id of ['notice', 'start-notice']) if (element(id).textContent !== text) element(id).textContent = text;
     document.documentElement.classList.toggle('lost', app.isGraphicsLost);
     element('reload').hidden = !app.isGraphicsLost;
@@ -70,13 +82,20 @@ function putNotice(app: App): void {
 function putSites(app: App, { sites }: FactsOfShown): void {
     const box = element('sites-told');
     const { shown } = app;
-    const inPicture = shown?.loaded.grid.sites.map(site => site.icao) ?? [];
-    const ofSites = (sites?.sites ?? []).filter(({ site }) => inPicture.includes(site)).map(({ site, volumes }) => ({ site, middlesS: volumes.map(one => one.middle_s) }));
-    const region = shown && isRegion(shown.domain) ? (app.domain as Region).moments.find(one => one.moment === shown.moment) : undefined;
-    const without = [...(region?.sites ?? []), ...(region?.left_out ?? [])].filter(site => !inPicture.includes(site));
+    const inPicture = shown?.loaded.grid.sites.map((site) => site.icao) ?? [];
+    const ofSites = (sites?.sites ?? [])
+        .filter(({ site }) => inPicture.includes(site))
+        .map(({ site, volumes }) => ({ site, middlesS: volumes.map((one) => one.middle_s) }));
+    const region =
+        shown && isRegion(shown.domain)
+            ? (app.domain as Region).moments.find((one) => one.moment === shown.moment)
+            : undefined;
+    const without = [...(region?.sites ?? []), ...(region?.left_out ?? [])].filter((site) => !inPicture.includes(site));
     const told = [
         texts.start.sitesAt(ofSites),
-        without.length > 0 ? texts.start.leftOut(without.map(site => [site, sites?.left_out_because[site] ?? ''])) : '',
+        without.length > 0
+            ? texts.start.leftOut(without.map((site) => [site, sites?.left_out_because[site] ?? '']))
+            : '',
         region && region.halved > 0 ? texts.start.halved(region.halved) : '',
         shown?.moment === 'VEL' && inPicture.length > 1 ? texts.start.ownVelocities : '',
     ];
@@ -93,7 +112,11 @@ export function addChoices(app: App, facts: FactsOfShown): void {
     element('reload').hidden = true;
     app.on('choices', () => putChoices(app));
     for (const happening of ['notice', 'time', 'shown', 'map'] as const) app.on(happening, () => putNotice(app));
-    const askSites = () => void facts.askSites().then(() => putSites(app, facts), () => undefined);
+    const askSites = () =>
+        void facts.askSites().then(
+            () => putSites(app, facts),
+            () => undefined,
+        );
     window.setInterval(() => {
         askSites();
         if (app.shown && !app.isOnMap) putTitle(app);
@@ -105,5 +128,8 @@ export function addChoices(app: App, facts: FactsOfShown): void {
         putSites(app, facts);
         askSites();
     });
-    element<HTMLSelectElement>('domain').addEventListener('change', event => void app.chooseDomain((event.target as HTMLSelectElement).value));
+    element<HTMLSelectElement>('domain').addEventListener(
+        'change',
+        (event) => void app.chooseDomain((event.target as HTMLSelectElement).value),
+    );
 }

@@ -2,7 +2,15 @@
 // is loaded when it is first opened (edit_colors.ts); while it is closed it costs nothing.
 
 import { OpacityPoint, draftOf, perKmAt } from '../../tables/draft';
-import { withColor, withColorAdded, withColorMoved, withColorRemoved, withOpacityAdded, withOpacityMoved, withOpacityRemoved } from '../../tables/draft_edits';
+import {
+    withColor,
+    withColorAdded,
+    withColorMoved,
+    withColorRemoved,
+    withOpacityAdded,
+    withOpacityMoved,
+    withOpacityRemoved,
+} from '../../tables/draft_edits';
 import { countCodes, histogramOf } from '../../atlas/histogram';
 import { TableError, colorOfHex, hexOf, mostFileBytes } from '../../tables/table_file';
 import { shownUnit } from '../../tables/units';
@@ -25,10 +33,10 @@ const otherPanels = [
 export class Editor {
     private section: HTMLElement | null = null;
     private plot = new EditorPlot({
-        select: selection => this.select(selection),
+        select: (selection) => this.select(selection),
         move: (selection, value, perKm, doing) => this.move(selection, value, perKm, doing),
         add: (kind, value, perKm) => this.add(kind, value, perKm),
-        remove: selection => this.remove(selection),
+        remove: (selection) => this.remove(selection),
         rest: () => this.editing.rest(),
     });
     private selected: Selection = { kind: 'color', at: 0 };
@@ -44,7 +52,8 @@ export class Editor {
 
     begin(keys: Keys): void {
         keys.add('Escape', () => this.close());
-        for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
+        for (const happening of ['view', 'shown', 'choices', 'units'] as const)
+            this.app.on(happening, () => this.put());
         // One panel is open at a time.
         for (const other of otherPanels) element(other.opener).addEventListener('click', () => this.close(false));
         window.addEventListener('resize', () => this.put());
@@ -79,12 +88,12 @@ export class Editor {
         const section = document.createElement('section');
         section.id = 'editor';
         section.setAttribute('aria-label', words.title);
-        section.addEventListener('keydown', event => this.press(event));
+        section.addEventListener('keydown', (event) => this.press(event));
         this.says.id = 'editor-says';
         this.says.setAttribute('role', 'status');
         section.append(this.tools(), this.plot.box, this.pointRow(), this.says);
-        section.addEventListener('dragover', event => event.preventDefault());
-        section.addEventListener('drop', event => {
+        section.addEventListener('dragover', (event) => event.preventDefault());
+        section.addEventListener('drop', (event) => {
             event.preventDefault();
             const file = event.dataTransfer?.files[0];
             if (file) void this.take(file);
@@ -140,16 +149,21 @@ export class Editor {
         };
         const value = labeled('point-value', words.value, 'number');
         value.step = 'any';
-        value.addEventListener('change', () => this.move(this.selected, Number(value.value) / this.unit.perStored, this.perKmOfSelected(), null));
+        value.addEventListener('change', () =>
+            this.move(this.selected, Number(value.value) / this.unit.perStored, this.perKmOfSelected(), null),
+        );
         const color = labeled('point-color', words.color, 'color');
         color.addEventListener('input', () => {
             const rgba = colorOfHex(color.value);
-            if (rgba && this.selected.kind === 'color') this.edit(draft => withColor(draft, this.selected.at, rgba), `color ${this.selected.at}`);
+            if (rgba && this.selected.kind === 'color')
+                this.edit((draft) => withColor(draft, this.selected.at, rgba), `color ${this.selected.at}`);
         });
         color.addEventListener('change', () => this.editing.rest());
         const opacity = labeled('point-opacity', words.opacity, 'number');
         [opacity.min, opacity.step] = ['0', 'any'];
-        opacity.addEventListener('change', () => this.move(this.selected, this.valueOfSelected(), Number(opacity.value), null));
+        opacity.addEventListener('change', () =>
+            this.move(this.selected, this.valueOfSelected(), Number(opacity.value), null),
+        );
         row.append(
             button('point-add', words.add, () => this.addAfter()),
             button('point-remove', words.remove, () => this.remove(this.selected)),
@@ -203,8 +217,9 @@ export class Editor {
     private move({ kind, at }: Selection, value: number, perKm: number | null, doing: string | null): void {
         if (!Number.isFinite(value)) return this.put();
         const opacity = this.opacities();
-        if (kind === 'color') this.edit(draft => withColorMoved(draft, at, value), doing);
-        else if (kind === 'opacity') this.edit(draft => withOpacityMoved(draft, opacity, at, value, perKm ?? opacity[at]!.perKm), doing);
+        if (kind === 'color') this.edit((draft) => withColorMoved(draft, at, value), doing);
+        else if (kind === 'opacity')
+            this.edit((draft) => withOpacityMoved(draft, opacity, at, value, perKm ?? opacity[at]!.perKm), doing);
         else this.hideBelow(value, doing);
     }
     private hideBelow(value: number, doing: string | null): void {
@@ -215,9 +230,11 @@ export class Editor {
     private add(kind: 'color' | 'opacity', value: number, perKm: number): void {
         const opacity = this.opacities();
         let at = -1;
-        this.edit(draft => {
+        this.edit((draft) => {
             const [next, place] =
-                kind === 'color' ? withColorAdded(draft, value) : withOpacityAdded(draft, opacity, value, Number.isNaN(perKm) ? perKmAt(opacity, value) : perKm);
+                kind === 'color'
+                    ? withColorAdded(draft, value)
+                    : withOpacityAdded(draft, opacity, value, Number.isNaN(perKm) ? perKmAt(opacity, value) : perKm);
             at = place;
             return next;
         }, null);
@@ -236,7 +253,10 @@ export class Editor {
         const opacity = this.opacities();
         if (kind === 'least') return;
         const before = this.editing.draft;
-        this.edit(draft => (kind === 'color' ? withColorRemoved(draft, at) : withOpacityRemoved(draft, opacity, at)), null);
+        this.edit(
+            (draft) => (kind === 'color' ? withColorRemoved(draft, at) : withOpacityRemoved(draft, opacity, at)),
+            null,
+        );
         if (this.editing.draft === before) return this.say(words.lastPoints);
         this.select({ kind, at: Math.max(0, at - 1) });
         this.plot.focus(this.selected);
@@ -297,9 +317,11 @@ export class Editor {
     private putTools(): void {
         const { app, editing } = this;
         const preset = element<HTMLSelectElement>('editor-preset');
-        const names = app.book!.presets(app.state.moment).map(table => table.name);
+        const names = app.book!.presets(app.state.moment).map((table) => table.name);
         if (editing.isEdited) names.unshift('');
-        putOptions(preset, names, editing.isEdited ? '' : app.table!.name, name => (name ? tableTitle(name) : words.edited(editing.draft!.name)));
+        putOptions(preset, names, editing.isEdited ? '' : app.table!.name, (name) =>
+            name ? tableTitle(name) : words.edited(editing.draft!.name),
+        );
         element<HTMLButtonElement>('editor-undo').disabled = !editing.canUndo;
         element<HTMLButtonElement>('editor-redo').disabled = !editing.canRedo;
     }

@@ -52,8 +52,12 @@ export class EditorPlot {
     constructor(private actions: PlotActions) {
         this.box.className = 'plot';
         this.canvas.setAttribute('aria-hidden', 'true');
-        this.canvas.addEventListener('pointerup', event => this.addAt(event));
-        this.groups = { least: this.group(texts.threshold), opacity: this.group(texts.editor.opacities), color: this.group(texts.editor.colors) };
+        this.canvas.addEventListener('pointerup', (event) => this.addAt(event));
+        this.groups = {
+            least: this.group(texts.threshold),
+            opacity: this.group(texts.editor.opacities),
+            color: this.group(texts.editor.colors),
+        };
         this.box.append(this.canvas, ...Object.values(this.groups));
     }
 
@@ -135,7 +139,7 @@ export class EditorPlot {
             pen.fillText(String(perKm).replace(/^0/, ''), left - 4, y);
         }
         pen.fillText(texts.editor.perKm, left - 4, 7);
-        const [low, high] = this.range().map(value => value * unit.perStored) as [number, number];
+        const [low, high] = this.range().map((value) => value * unit.perStored) as [number, number];
         const step = stepOf(high - low);
         pen.textAlign = 'center';
         const y = this.bottom + stripHeight + 20;
@@ -226,7 +230,10 @@ export class EditorPlot {
         handle.setAttribute('aria-valuemin', String(Math.min(low, value)));
         handle.setAttribute('aria-valuemax', String(Math.max(high, value)));
         handle.setAttribute('aria-valuenow', String(value));
-        handle.setAttribute('aria-valuetext', perKm !== null ? texts.editor.opacityIs(shown, perKm) : color ? texts.editor.colorIs(shown, color) : shown);
+        handle.setAttribute(
+            'aria-valuetext',
+            perKm !== null ? texts.editor.opacityIs(shown, perKm) : color ? texts.editor.colorIs(shown, color) : shown,
+        );
         handle.setAttribute('aria-label', kind === 'least' ? texts.threshold : texts.editor.point(kind, i + 1));
     }
 
@@ -240,16 +247,16 @@ export class EditorPlot {
         handle.className = `handle ${kind}`;
         handle.setAttribute('role', 'slider');
         handle.addEventListener('focus', () => this.actions.select(selection));
-        handle.addEventListener('keydown', event => this.press(event, selection));
+        handle.addEventListener('keydown', (event) => this.press(event, selection));
         handle.addEventListener('keyup', () => this.actions.rest());
         let drag: { x: number; y: number; isMoved: boolean; doing: string } | null = null;
-        handle.addEventListener('pointerdown', event => {
+        handle.addEventListener('pointerdown', (event) => {
             handle.setPointerCapture(event.pointerId);
             handle.focus();
             drag = { x: event.clientX, y: event.clientY, isMoved: false, doing: `drag ${++this.drags}` };
             event.preventDefault();
         });
-        handle.addEventListener('pointermove', event => {
+        handle.addEventListener('pointermove', (event) => {
             if (!drag) return;
             drag.isMoved ||= Math.hypot(event.clientX - drag.x, event.clientY - drag.y) >= farthestClick;
             if (drag.isMoved) this.actions.move(selection, ...this.at(event), drag.doing);
@@ -266,7 +273,10 @@ export class EditorPlot {
 
     private at(event: MouseEvent): [number, number] {
         const box = this.box.getBoundingClientRect();
-        return [this.valueOf((event.clientX - box.left) / this.scale), this.perKmOf((event.clientY - box.top) / this.scale)];
+        return [
+            this.valueOf((event.clientX - box.left) / this.scale),
+            this.perKmOf((event.clientY - box.top) / this.scale),
+        ];
     }
 
     private addAt(event: PointerEvent): void {

@@ -81,9 +81,19 @@ export class Hover {
         const words = texts.hover;
         const { layer, state, value, heightM, gate } = picked;
         const way = nearestTo(app.shown!.loaded.grid.sites, picked.place);
-        const from = way ? [words.from(distanceText(way.way.distanceM, units), (way.way.azimuth * 180) / Math.PI, way.site.icao)] : [];
+        const from = way
+            ? [words.from(distanceText(way.way.distanceM, units), (way.way.azimuth * 180) / Math.PI, way.site.icao)]
+            : [];
         if (layer === 'outside') return [words.outside, ...from];
-        const told = state === CellState.value ? valueText(value, app.unit, units, layer === 'plane' || layer === 'section' || layer === 'maximum' ? mixedDigits : mostDigits) : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
+        const told =
+            state === CellState.value
+                ? valueText(
+                      value,
+                      app.unit,
+                      units,
+                      layer === 'plane' || layer === 'section' || layer === 'maximum' ? mixedDigits : mostDigits,
+                  )
+                : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
         if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
         // Air that is range folded all along the ray has no one height.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
@@ -103,7 +113,13 @@ export class Hover {
 
     private gateLines({ station, elevationDeg, rangeM, azimuthDeg, timeMs, state }: GateHit): string[] {
         const { units } = this.app.state;
-        const beam = texts.hover.beam(elevationDeg.toFixed(1), distanceText(beamWidthM(station, rangeM), units), distanceText(rangeM, units), azimuthDeg, station);
+        const beam = texts.hover.beam(
+            elevationDeg.toFixed(1),
+            distanceText(beamWidthM(station, rangeM), units),
+            distanceText(rangeM, units),
+            azimuthDeg,
+            station,
+        );
         return state === CellState.notSeen ? [beam] : [beam, this.when(timeMs)];
     }
 
@@ -114,10 +130,17 @@ export class Hover {
         const { known } = this.facts;
         const beam = beamReading(grid.sites, known, picked.place, picked.heightM);
         if (!beam) return [];
-        const told = (sweepDeg: number) => texts.hover.beam(sweepDeg.toFixed(1), distanceText(beam.widthM, units), distanceText(beam.rangeM, units), beam.azimuthDeg, beam.icao);
+        const told = (sweepDeg: number) =>
+            texts.hover.beam(
+                sweepDeg.toFixed(1),
+                distanceText(beam.widthM, units),
+                distanceText(beam.rangeM, units),
+                beam.azimuthDeg,
+                beam.icao,
+            );
         const lines = beam.sweepDeg === null ? from : [told(beam.sweepDeg)];
-        const site = this.facts.sites?.sites.find(one => one.site === beam.icao);
-        if (site) lines.push(texts.start.ofVolumes(site.volumes.map(one => one.middle_s)));
+        const site = this.facts.sites?.sites.find((one) => one.site === beam.icao);
+        if (site) lines.push(texts.start.ofVolumes(site.volumes.map((one) => one.middle_s)));
         else if (beam.timeMs !== null) lines.push(this.when(beam.timeMs));
         if (beam.rms !== null) {
             const unit = known!.audit!.unit;

@@ -65,7 +65,8 @@ export class LayersPanel {
         this.addKeys(keys);
         addMarks(this.app, this.drawing);
         new SectionPlot(this.app, this.drawing.windows!);
-        for (const happening of ['view', 'shown', 'choices', 'units'] as const) this.app.on(happening, () => this.put());
+        for (const happening of ['view', 'shown', 'choices', 'units'] as const)
+            this.app.on(happening, () => this.put());
         this.drawing.layers!.layerCame = () => this.put();
     }
 
@@ -132,7 +133,9 @@ export class LayersPanel {
 
     private surfaceParts(): HTMLElement[] {
         const value = input('surface-value', 'range');
-        value.addEventListener('input', () => this.slide({ surface: { ...this.layers.surface!, value: Number(value.value) } }));
+        value.addEventListener('input', () =>
+            this.slide({ surface: { ...this.layers.surface!, value: Number(value.value) } }),
+        );
         const told = document.createElement('output');
         told.id = 'surface-told';
         const of = document.createElement('select');
@@ -154,7 +157,7 @@ export class LayersPanel {
     }
 
     private cropParts(): HTMLElement[] {
-        const sliders = sides.map(side => {
+        const sliders = sides.map((side) => {
             const slider = input(`crop-${side.slice(0, -1)}`, 'range');
             slider.addEventListener('input', () => this.slideCrop(side, Number(slider.value)));
             return labeled(words.sides[side], slider);
@@ -228,7 +231,14 @@ export class LayersPanel {
     // Begins a tool, and shows its hint below the picture until it ends.
     private draw(Kind: typeof SectionTool | typeof CropTool, hint: string): void {
         const says = element('tool-says');
-        this.pointers.use(new Kind(this.app, this.drawing, () => this.pointers.use(null), () => says.replaceChildren()));
+        this.pointers.use(
+            new Kind(
+                this.app,
+                this.drawing,
+                () => this.pointers.use(null),
+                () => says.replaceChildren(),
+            ),
+        );
         says.textContent = hint;
     }
     // Looks at the section from the side on which A is at the left.
@@ -237,11 +247,16 @@ export class LayersPanel {
         const { shown, state } = this.app;
         if (!section || !shown) return;
         const plane = planeOf(shown.loaded.grid);
-        const [a, b] = section.map(place => plane.toPlane(place));
+        const [a, b] = section.map((place) => plane.toPlane(place));
         if (!a || !b) return;
         const azimuthDeg = ((Math.atan2(b[0] - a[0], b[1] - a[1]) * 180) / Math.PI + 90 + 360) % 360;
         const heightM = 0.4 * wholeBox(this.app)!.topM;
-        this.app.moved({ ...state.camera, azimuthDeg, tiltDeg: 80, lookAtM: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), heightM] });
+        this.app.moved({
+            ...state.camera,
+            azimuthDeg,
+            tiltDeg: 80,
+            lookAtM: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), heightM],
+        });
     }
 
     private usualValue(moment: string): number {
@@ -250,7 +265,9 @@ export class LayersPanel {
         return table ? Number((table.bar_begin + 0.75 * (table.end - table.bar_begin)).toFixed(2)) : 0;
     }
     private toggleSurface(): void {
-        this.set({ surface: this.layers.surface ? null : { moment: '', value: this.usualValue(this.app.state.moment) } });
+        this.set({
+            surface: this.layers.surface ? null : { moment: '', value: this.usualValue(this.app.state.moment) },
+        });
     }
 
     private toggleSweep(): void {
@@ -258,9 +275,12 @@ export class LayersPanel {
     }
     // Pictures take one cut of an elevation in every volume. Names a cut by its number only if it is another one.
     private chooseCut(number: number): void {
-        const row = this.drawing.layers!.sweepRows()?.find(one => one.sweep === number);
+        const row = this.drawing.layers!.sweepRows()?.find((one) => one.sweep === number);
         if (!row) return;
-        this.set({ sweepDeg: Number(row.elevation_deg.toFixed(2)), sweepNumber: isChosen(row, this.app.state.moment) ? null : number });
+        this.set({
+            sweepDeg: Number(row.elevation_deg.toFixed(2)),
+            sweepNumber: isChosen(row, this.app.state.moment) ? null : number,
+        });
     }
 
     private toggleCrop(): void {
@@ -273,8 +293,15 @@ export class LayersPanel {
     // Moves a side of the box, but not past the one opposite.
     private slideCrop(side: keyof Crop, value: number): void {
         const crop = { ...this.layers.crop!, [side]: value };
-        for (const [low, high] of [['westM', 'eastM'], ['southM', 'northM'], ['bottomM', 'topM']] as const) {
-            const least = 0.01 * (Number(element<HTMLInputElement>(`crop-${high.slice(0, -1)}`).max) - Number(element<HTMLInputElement>(`crop-${low.slice(0, -1)}`).min));
+        for (const [low, high] of [
+            ['westM', 'eastM'],
+            ['southM', 'northM'],
+            ['bottomM', 'topM'],
+        ] as const) {
+            const least =
+                0.01 *
+                (Number(element<HTMLInputElement>(`crop-${high.slice(0, -1)}`).max) -
+                    Number(element<HTMLInputElement>(`crop-${low.slice(0, -1)}`).min));
             if (crop[high] - crop[low] < least) {
                 if (side === low) crop[low] = crop[high] - least;
                 else crop[high] = crop[low] + least;
@@ -330,7 +357,7 @@ export class LayersPanel {
     private putSurface(value: number, moment: string): void {
         putOptions(
             element<HTMLSelectElement>('surface-of'),
-            (this.app.domain?.moments ?? []).map(one => one.moment),
+            (this.app.domain?.moments ?? []).map((one) => one.moment),
             moment,
         );
         const table = this.app.book?.preset(moment, '');
@@ -350,8 +377,18 @@ export class LayersPanel {
         const rows = layers.sweepRows() ?? [];
         const cuts = cutsOf(rows, this.app.shown?.moment ?? '');
         const select = element<HTMLSelectElement>('sweep-elevation');
-        const textOf = (number: string) => cutText(cuts.find(one => String(one.sweep) === number)!, rows);
-        if (cuts.length > 0) putOptions(select, cuts.map(one => String(one.sweep)), String(layers.shownCut()?.sweep), textOf);
+        const textOf = (number: string) =>
+            cutText(
+                cuts.find((one) => String(one.sweep) === number)!,
+                rows,
+            );
+        if (cuts.length > 0)
+            putOptions(
+                select,
+                cuts.map((one) => String(one.sweep)),
+                String(layers.shownCut()?.sweep),
+                textOf,
+            );
         else putOptions(select, [''], '', () => `${elevationDeg.toFixed(1)}°`);
     }
 
@@ -364,7 +401,10 @@ export class LayersPanel {
             slider.max = String(isUp ? box.topM : side === 'westM' || side === 'eastM' ? box.eastM : box.northM);
             slider.step = String((Number(slider.max) - Number(slider.min)) / 200);
             slider.value = String(crop[side]);
-            slider.setAttribute('aria-valuetext', isUp ? heightText(crop[side], units) : distanceText(crop[side], units));
+            slider.setAttribute(
+                'aria-valuetext',
+                isUp ? heightText(crop[side], units) : distanceText(crop[side], units),
+            );
         }
     }
 }

@@ -21,7 +21,12 @@ function rowsOf({ state, shown, shownTable: table }: App): Row[] {
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.legend.aloft, color: shades.seenAloft });
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.notSeen, isHatched: true });
     if (layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.haze });
-    const showsFolded = veilsFolded(layers, shown?.moment ?? '') || layers.hasMaximum || layers.planeM !== null || layers.section !== null || layers.sweepDeg !== null;
+    const showsFolded =
+        veilsFolded(layers, shown?.moment ?? '') ||
+        layers.hasMaximum ||
+        layers.planeM !== null ||
+        layers.section !== null ||
+        layers.sweepDeg !== null;
     if (showsFolded && table) rows.push({ text: texts.rangeFolded, color: table.range_folded });
     if (exaggeration !== 1) rows.push({ text: texts.legend.heights(exaggeration), color: null });
     return rows;

@@ -13,7 +13,7 @@ import { texts } from '../texts';
 function putLook(app: App): void {
     const { state, table } = app;
     const own = app.book?.presets(state.moment) ?? [];
-    const names = own.map(one => one.name);
+    const names = own.map((one) => one.name);
     putOptions(
         element<HTMLSelectElement>('colors'),
         table && !names.includes(table.name) ? [table.name, ...names] : names,
@@ -38,15 +38,17 @@ function putLook(app: App): void {
 
 function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     const slider = (id: string, take: (value: number) => void) =>
-        element<HTMLInputElement>(id).addEventListener('input', event => {
+        element<HTMLInputElement>(id).addEventListener('input', (event) => {
             take(Number((event.target as HTMLInputElement).value));
             drawing.move();
             app.changed();
         });
-    slider('least', value => editing.hideBelow(value <= Number(element<HTMLInputElement>('least').min) ? null : value, 'threshold'));
+    slider('least', (value) =>
+        editing.hideBelow(value <= Number(element<HTMLInputElement>('least').min) ? null : value, 'threshold'),
+    );
     element('least').addEventListener('change', () => editing.rest());
-    slider('opacity', value => (app.state.opacity = Number((2 ** value).toFixed(3))));
-    slider('exaggeration', value => (app.state.exaggeration = value));
+    slider('opacity', (value) => (app.state.opacity = Number((2 ** value).toFixed(3))));
+    slider('exaggeration', (value) => (app.state.exaggeration = value));
 }
 
 // Adds the choice of a way of drawing: as time allows, or one of the ladder.
@@ -58,7 +60,10 @@ function addQuality(app: App): void {
         one.textContent = text;
         return one;
     };
-    select.append(option('', texts.asTimeAllows), ...usualRungs.map(({ name, dE }) => option(name, texts.rung(name, dE))));
+    select.append(
+        option('', texts.asTimeAllows),
+        ...usualRungs.map(({ name, dE }) => option(name, texts.rung(name, dE))),
+    );
     select.addEventListener('change', () => {
         app.state.quality = select.value;
         app.changed();
@@ -86,7 +91,7 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
         element('views').append(button(`view-${view}`, texts[view], () => keys.look(view)));
     }
     element('views').append(button('perspective', texts.perspective, () => keys.togglePerspective()));
-    element('colors').addEventListener('change', event => {
+    element('colors').addEventListener('change', (event) => {
         editing.choosePreset((event.target as HTMLSelectElement).value);
     });
     addSliders(app, drawing, editing);

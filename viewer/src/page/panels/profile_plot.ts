@@ -25,14 +25,22 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
     const { levels } = reading;
     if (!table || levels.length < 2) return canvas;
     const [lowM, highM] = [levels[0]!.heightM, levels[levels.length - 1]!.heightM];
-    const values = levels.flatMap(level => (level.value === null ? [] : [level.value]));
+    const values = levels.flatMap((level) => (level.value === null ? [] : [level.value]));
     const [from, to] = [Math.min(table.bar_begin, ...values), Math.max(table.end, ...values)];
     const x = (value: number) => left + ((value - from) / (to - from)) * (width - left - 8);
-    const y = (heightM: number) => height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
+    const y = (heightM: number) =>
+        height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
     // A level is gray if no beam saw it, purple if range folded, else dark; a value is a bar in its color.
     for (let i = 0; i < levels.length; ++i) {
-        const [below, above] = [levels[i - 1] ?? levels[i]!, levels[i + 1] ?? levels[i]!].map(one => y((one.heightM + levels[i]!.heightM) / 2));
-        pen.fillStyle = levels[i]!.code === 0 ? 'rgba(78, 82, 92, 0.55)' : levels[i]!.code === 2 ? 'rgba(124, 74, 140, 0.6)' : 'rgba(40, 44, 50, 0.9)';
+        const [below, above] = [levels[i - 1] ?? levels[i]!, levels[i + 1] ?? levels[i]!].map((one) =>
+            y((one.heightM + levels[i]!.heightM) / 2),
+        );
+        pen.fillStyle =
+            levels[i]!.code === 0
+                ? 'rgba(78, 82, 92, 0.55)'
+                : levels[i]!.code === 2
+                  ? 'rgba(124, 74, 140, 0.6)'
+                  : 'rgba(40, 44, 50, 0.9)';
         pen.fillRect(left, above!, width - left - 8, below! - above!);
         const { value } = levels[i]!;
         const color = value === null ? null : colorOf(table, value);
@@ -44,12 +52,21 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
     pen.fillStyle = shades.quietText;
     pen.textBaseline = 'middle';
     pen.textAlign = 'right';
-    for (const share of [0, 0.5, 1]) pen.fillText(heightText(lowM + share * (highM - lowM), units), left - 4, Math.min(height - bottom, Math.max(8, y(lowM + share * (highM - lowM)))));
+    for (const share of [0, 0.5, 1])
+        pen.fillText(
+            heightText(lowM + share * (highM - lowM), units),
+            left - 4,
+            Math.min(height - bottom, Math.max(8, y(lowM + share * (highM - lowM)))),
+        );
     pen.textAlign = 'center';
     const { perStored, symbol } = shownUnit(unit, units);
     for (const share of [0, 0.5, 1]) {
         const value = from + share * (to - from);
-        pen.fillText(`${Math.round(value * perStored)}${share === 1 ? ` ${symbol}` : ''}`, Math.min(width - 24, x(value)), height - bottom / 2);
+        pen.fillText(
+            `${Math.round(value * perStored)}${share === 1 ? ` ${symbol}` : ''}`,
+            Math.min(width - 24, x(value)),
+            height - bottom / 2,
+        );
     }
     return canvas;
 }

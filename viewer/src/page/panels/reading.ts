@@ -22,8 +22,12 @@ const markColor = '#ffffff';
 const mostDigits = 6; // of a value: all that its code has
 
 function summaryOf({ levels, greatest, seenFromM }: ColumnReading, unit: string, units: Units): string {
-    if (!greatest && levels.some(level => level.code === CellState.rangeFolded)) return texts.rangeFolded;
-    if (greatest) return texts.greatestAt(valueText(greatest.value!, unit, units, mostDigits), heightText(greatest.heightM, units));
+    if (!greatest && levels.some((level) => level.code === CellState.rangeFolded)) return texts.rangeFolded;
+    if (greatest)
+        return texts.greatestAt(
+            valueText(greatest.value!, unit, units, mostDigits),
+            heightText(greatest.heightM, units),
+        );
     return seenFromM === null ? texts.notSeen : texts.noEcho;
 }
 
@@ -32,16 +36,19 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
     const { units } = app.state;
     body.append(paragraph(summaryOf(reading, unit, units)));
     if (reading.seenFromM !== null) {
-        body.append(paragraph(texts.seenBetween(heightNumber(reading.seenFromM, units), heightText(reading.seenToM!, units))));
+        body.append(
+            paragraph(texts.seenBetween(heightNumber(reading.seenFromM, units), heightText(reading.seenToM!, units))),
+        );
     }
     if (reading.seenFromM !== null) body.append(profilePlot(app, reading));
     const table = document.createElement('table');
-    const told = reading.levels.filter(level => level.value !== null || level.code === 2);
+    const told = reading.levels.filter((level) => level.value !== null || level.code === 2);
     const every = Math.ceil(told.length / mostRows);
     for (const level of told.filter((_, i) => i % every === 0).reverse()) {
         const row = table.insertRow();
         row.insertCell().textContent = heightText(level.heightM, units);
-        row.insertCell().textContent = level.value === null ? texts.rangeFolded : valueText(level.value, unit, units, mostDigits);
+        row.insertCell().textContent =
+            level.value === null ? texts.rangeFolded : valueText(level.value, unit, units, mostDigits);
     }
     body.append(table);
 }
@@ -101,7 +108,9 @@ export class Reader implements Tool {
         const { at, picked } = this;
         if (!at) return;
         const ratio = window.devicePixelRatio || 1;
-        const pixelAt = (heightM: number) => geometry.project([at[0], at[1], heightM * geometry.exaggeration])?.map(one => one / ratio) as [number, number] | undefined;
+        const pixelAt = (heightM: number) =>
+            geometry.project([at[0], at[1], heightM * geometry.exaggeration])?.map((one) => one / ratio) as
+                [number, number] | undefined;
         const foot = pixelAt(geometry.groundM);
         const head = picked && picked.of === this.app.shown ? pixelAt(picked.what.heightM) : foot;
         if (!foot || !head) return;
@@ -162,12 +171,12 @@ export class Reader implements Tool {
         if (!column) body.append(paragraph(texts.hover.outside));
         if (column) {
             gridForColumn(shown.loaded, column)
-                .then(exact => {
+                .then((exact) => {
                     if (this.at !== at || this.app.shown !== shown) return;
                     putColumn(body, this.app, readColumn(exact, ...column));
                     this.drawing.drawMarks();
                 })
-                .catch(error => this.app.fail(error));
+                .catch((error) => this.app.fail(error));
         }
         box.replaceChildren(this.close, title, body);
         this.drawing.drawMarks();

@@ -24,7 +24,7 @@ function nothingIn({ field, inGrid }: Section): string {
 
 function tickStep(range: number, most: number): number {
     const power = 10 ** Math.floor(Math.log10(range / most));
-    return [1, 2, 5, 10].map(step => step * power).find(step => range / step <= most) ?? 10 * power;
+    return [1, 2, 5, 10].map((step) => step * power).find((step) => range / step <= most) ?? 10 * power;
 }
 
 // Colors a section as `stormcellar frame --product section` does, a pixel for each of its places.
@@ -40,7 +40,8 @@ export function sectionPixels(section: Section, table: ColorTable, least: number
             const isHatched = (x + y) % hatchPeriod === 0;
             let color: readonly number[] = shades.seen;
             if (inGrid[x] === 0) color = shades.page;
-            else if (state === CellState.value) color = lookOver(looks, field.values[from]!, shades.seen) ?? shades.seen;
+            else if (state === CellState.value)
+                color = lookOver(looks, field.values[from]!, shades.seen) ?? shades.seen;
             else if (state === CellState.rangeFolded) color = table.range_folded;
             else if (state === CellState.notSeen) color = isHatched ? shades.hatch : shades.notSeen;
             pixels.set([color[0]!, color[1]!, color[2]!, 255], 4 * (y * width + x));
@@ -70,9 +71,11 @@ export class SectionPlot {
         this.reading.id = 'section-reading';
         this.box.append(this.canvas, this.reading);
         document.querySelector('main')!.append(this.box);
-        this.canvas.addEventListener('pointermove', event => this.point([event.offsetX / textScale() - left, event.offsetY / textScale() - top]));
+        this.canvas.addEventListener('pointermove', (event) =>
+            this.point([event.offsetX / textScale() - left, event.offsetY / textScale() - top]),
+        );
         this.canvas.addEventListener('pointerleave', () => this.point(null));
-        this.canvas.addEventListener('keydown', event => this.press(event));
+        this.canvas.addEventListener('keydown', (event) => this.press(event));
         this.canvas.addEventListener('blur', () => this.point(null));
         window.addEventListener('resize', () => this.put());
         for (const happening of ['view', 'shown', 'units', 'cells'] as const) app.on(happening, () => this.put());
@@ -99,7 +102,14 @@ export class SectionPlot {
         if (!hasBeenHidden && now.every((part, i) => part === this.drawn[i])) return;
         this.drawn = now;
         const ratio = (window.devicePixelRatio || 1) * textScale();
-        this.section = cutSection(cells.grid, shown.moment, ends[0], ends[1], Math.round(width * ratio), Math.round(height * ratio));
+        this.section = cutSection(
+            cells.grid,
+            shown.moment,
+            ends[0],
+            ends[1],
+            Math.round(width * ratio),
+            Math.round(height * ratio),
+        );
         this.draw();
         this.say();
     }
@@ -126,7 +136,12 @@ export class SectionPlot {
         pen.strokeRect(left + x, top + 0.5, 0, height - 1);
     }
 
-    private drawAxes(pen: CanvasRenderingContext2D, { lengthM, bottomM, topM }: Section, width: number, height: number): void {
+    private drawAxes(
+        pen: CanvasRenderingContext2D,
+        { lengthM, bottomM, topM }: Section,
+        width: number,
+        height: number,
+    ): void {
         pen.font = fontOf(11);
         pen.fillStyle = shades.quietText;
         pen.textAlign = 'right';
@@ -175,11 +190,14 @@ export class SectionPlot {
         const { section, app } = this;
         if (!section) return;
         const { units } = app.state;
-        const told = (what: string, distanceM: number, heightM: number) => texts.layers.told(what, distanceText(distanceM, units), heightText(heightM, units));
+        const told = (what: string, distanceM: number, heightM: number) =>
+            texts.layers.told(what, distanceText(distanceM, units), heightText(heightM, units));
         const ofValue = (value: number) => valueText(value, app.unit, units, 1);
         if (!this.cursor) {
             const greatest = greatestOf(section);
-            this.reading.textContent = greatest ? texts.layers.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM)) : nothingIn(section);
+            this.reading.textContent = greatest
+                ? texts.layers.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM))
+                : nothingIn(section);
             return;
         }
         const [width, height] = this.size;
@@ -191,7 +209,11 @@ export class SectionPlot {
         const heightM = bottomM + ((row + 0.5) / field.height) * (topM - bottomM);
         const names = [texts.notSeen, texts.noEcho, texts.rangeFolded];
         const isValue = inGrid[column] === 1 && field.states[at] === CellState.value;
-        const what = isValue ? ofValue(field.values[at]!) : inGrid[column] === 0 ? texts.layers.beyond : names[field.states[at]!]!;
+        const what = isValue
+            ? ofValue(field.values[at]!)
+            : inGrid[column] === 0
+              ? texts.layers.beyond
+              : names[field.states[at]!]!;
         this.reading.textContent = told(what, distanceM, heightM);
     }
 }

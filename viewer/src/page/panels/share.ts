@@ -61,7 +61,10 @@ class RawFile {
         if (!shown || this.of === shown.loaded || isRegion(shown.domain) || shown.isBetween) return;
         const { provenance } = await this.facts.ask();
         // A mosaic may be of one station at an instant.
-        const isOne = provenance.source_files.length === 1 && provenance.stations.length === 1 && provenance.stations[0] === shown.domain;
+        const isOne =
+            provenance.source_files.length === 1 &&
+            provenance.stations.length === 1 &&
+            provenance.stations[0] === shown.domain;
         const volume = isOne ? await rawAt(shown.domain, shown.time) : null;
         if (shown !== this.app.shown) return;
         [this.of, this.name, this.number] = [shown.loaded, volume?.raw ?? '', volume?.number_in_file ?? 1];
@@ -99,7 +102,14 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile:
     const raw = rawFile.known;
     const notes = [raw ? texts.commandReads(raw) : texts.commandReadsCache];
     if (!state.layers.hasVolume && !state.layers.section) notes.push(texts.commandFlat);
-    const give = (colors: string, ...of: string[]) => copy(app, commandOf(state, size.width, size.height, colors, raw, rawFile.number), texts.commandCopied, ...of, ...notes);
+    const give = (colors: string, ...of: string[]) =>
+        copy(
+            app,
+            commandOf(state, size.width, size.height, colors, raw, rawFile.number),
+            texts.commandCopied,
+            ...of,
+            ...notes,
+        );
     if (!editing.isEdited && state.least === null) return give(app.table?.name ?? '');
     const file = editing.tomlForCommand();
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);

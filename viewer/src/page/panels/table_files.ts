@@ -13,12 +13,22 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
     const ending = /\.(pal|toml)$/i.exec(fileName)?.[1]?.toLowerCase();
     if (!ending || !book) throw new TableError(texts.editor.otherEnding(fileName));
     if (text.length > mostFileBytes) throw new TableError(texts.editor.tooLarge(fileName));
-    const table = ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
+    const table =
+        ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
     const moment = table.moment || state.moment;
     const unit = book.preset(moment, '')?.unit ?? table.unit;
     if (table.unit && table.unit !== unit) throw new TableError(texts.editor.otherUnit(fileName, table.unit, unit));
-    const draft = { ...draftOf({ ...table, name: table.name || fileName.replace(/\.[^.]*$/, '') }, moment, book.usual), unit };
-    return { draft, said: moment === state.moment ? texts.editor.taken(fileName, draft.colors.length) : texts.editor.otherMoment(fileName, moment) };
+    const draft = {
+        ...draftOf({ ...table, name: table.name || fileName.replace(/\.[^.]*$/, '') }, moment, book.usual),
+        unit,
+    };
+    return {
+        draft,
+        said:
+            moment === state.moment
+                ? texts.editor.taken(fileName, draft.colors.length)
+                : texts.editor.otherMoment(fileName, moment),
+    };
 }
 
 // The table as it is shown, as far as a .pal can say it; what is hidden is not in it.

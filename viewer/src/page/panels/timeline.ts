@@ -13,7 +13,7 @@ const betweens = [0, 30, 60, 120];
 function putLoop(app: App, slider: HTMLInputElement): void {
     const { times, loop } = app.player;
     const shareOf = (wanted: string) => {
-        const index = times.findIndex(time => time >= wanted);
+        const index = times.findIndex((time) => time >= wanted);
         return (100 * (index < 0 ? times.length - 1 : index)) / Math.max(1, times.length - 1);
     };
     slider.style.setProperty('--loop-from', loop ? `${shareOf(loop.from)}%` : '0%');
@@ -32,7 +32,13 @@ function putTimes(app: App): void {
     element<HTMLSelectElement>('between').value = String(app.state.betweenS);
 }
 
-function select(id: string, name: string, options: [number, string][], chosen: number, take: (value: number) => void): HTMLLabelElement {
+function select(
+    id: string,
+    name: string,
+    options: [number, string][],
+    chosen: number,
+    take: (value: number) => void,
+): HTMLLabelElement {
     const label = document.createElement('label');
     const text = document.createElement('span');
     text.textContent = name;
@@ -48,10 +54,13 @@ function addPlaying(app: App): void {
     const rates = speeds.map((rate): [number, string] => [rate, String(rate)]);
     const { betweenS } = app.state;
     const steps = [...new Set([...betweens, betweenS])].sort((a, b) => a - b);
-    const everys = steps.map((seconds): [number, string] => [seconds, seconds === 0 ? texts.betweenOff : texts.betweenEvery(seconds)]);
+    const everys = steps.map((seconds): [number, string] => [
+        seconds,
+        seconds === 0 ? texts.betweenOff : texts.betweenEvery(seconds),
+    ]);
     element('playing').append(
-        select('speed', texts.speed, rates, app.framesASecond, rate => (app.framesASecond = rate)),
-        select('between', texts.between, everys, betweenS, seconds => void app.setBetween(seconds)),
+        select('speed', texts.speed, rates, app.framesASecond, (rate) => (app.framesASecond = rate)),
+        select('between', texts.between, everys, betweenS, (seconds) => void app.setBetween(seconds)),
     );
     element('loops').append(
         button('loop-from', texts.loopFrom, () => app.setLoop('from')),
@@ -71,7 +80,7 @@ export function addTimeline(app: App, keys: Keys): void {
         element(id).addEventListener('click', () => app.step(by));
     }
     element('times').setAttribute('aria-label', texts.time);
-    element('times').addEventListener('input', event => app.goTo(Number((event.target as HTMLInputElement).value)));
+    element('times').addEventListener('input', (event) => app.goTo(Number((event.target as HTMLInputElement).value)));
     element('play').addEventListener('click', () => app.play());
     element('follow').addEventListener('click', () => app.follow());
     addPlaying(app);

@@ -65,12 +65,16 @@ export class ToolsPanel {
     private measure(measure: Measure): void {
         const { current } = this.pointers;
         const isUsed = current instanceof MeasureTool && current.measure === measure;
-        this.use(`tool-${measure}`, isUsed, ended => new MeasureTool(this.app, this.drawing, measure, text => this.tell(text), ended));
+        this.use(
+            `tool-${measure}`,
+            isUsed,
+            (ended) => new MeasureTool(this.app, this.drawing, measure, (text) => this.tell(text), ended),
+        );
     }
 
     private fly(): void {
         const isUsed = this.pointers.current instanceof FlyTool;
-        this.use('tool-fly', isUsed, ended => new FlyTool(this.app, this.drawing, ended));
+        this.use('tool-fly', isUsed, (ended) => new FlyTool(this.app, this.drawing, ended));
         if (!isUsed) this.tell(texts.tools.flyHint);
     }
 
@@ -94,17 +98,20 @@ export class ToolsPanel {
         if (!shown) return [];
         await this.facts.askSites();
         const { sites } = this.facts;
-        if (sites) return filesOf(sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => ({ station: site, time }))));
+        if (sites)
+            return filesOf(
+                sites.sites.flatMap(({ site, volumes }) => volumes.map(({ time }) => ({ station: site, time }))),
+            );
         if (shown.isBetween) {
             const name = (await rawBefore(shown.domain, shown.time))?.raw;
             return name ? [{ station: shown.domain, name }] : [];
         }
-        const facts = await this.facts.ask().catch(error => this.app.fail(error));
+        const facts = await this.facts.ask().catch((error) => this.app.fail(error));
         if (!facts) return null;
         const { source_files, stations } = facts.provenance;
         const [own] = stations.length === 1 ? await filesOf([{ station: stations[0]!, time: shown.time }]) : [];
         if (source_files.length === 1 && own) return [own];
-        const named = source_files.map(name => ({ station: name.slice(0, 4), name }));
+        const named = source_files.map((name) => ({ station: name.slice(0, 4), name }));
         const isThere = await Promise.all(named.map(({ station, name }) => hasRaw(station, name)));
         if (!isThere.includes(true)) await domains(); // it may be a proxy that has none
         return named.filter((_, i) => isThere[i]);
@@ -113,7 +120,7 @@ export class ToolsPanel {
     // Offers a link to each raw volume that the grid was made of; the download of a single one begins at once.
     private async download(): Promise<void> {
         const loaded = this.app.shown?.loaded ?? null;
-        const files = await this.rawFiles().catch(error => (isAbsent(error) ? [] : (this.app.fail(error), null)));
+        const files = await this.rawFiles().catch((error) => (isAbsent(error) ? [] : (this.app.fail(error), null)));
         if (!files || loaded !== this.app.shown?.loaded) return this.tell('');
         this.toldOf = loaded;
         const links = files.map(({ station, name }) => {
@@ -123,7 +130,7 @@ export class ToolsPanel {
             return link;
         });
         if (links.length === 0) return this.tell(texts.tools.noRaw);
-        element('tool-says').replaceChildren(...links.flatMap(link => [link, ' ']));
+        element('tool-says').replaceChildren(...links.flatMap((link) => [link, ' ']));
         if (links.length === 1) links[0]!.click();
     }
 }

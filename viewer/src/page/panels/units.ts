@@ -21,8 +21,9 @@ function selectOf(app: App, quantity: Quantity): HTMLLabelElement {
 
 export function addUnits(app: App): void {
     element('units').setAttribute('aria-label', texts.units.all);
-    element('units').append(...quantities.map(quantity => selectOf(app, quantity)));
+    element('units').append(...quantities.map((quantity) => selectOf(app, quantity)));
     app.on('view', () => {
-        for (const quantity of quantities) element<HTMLSelectElement>(`units-${quantity}`).value = app.state.units[quantity].name;
+        for (const quantity of quantities)
+            element<HTMLSelectElement>(`units-${quantity}`).value = app.state.units[quantity].name;
     });
 }

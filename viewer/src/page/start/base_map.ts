@@ -42,7 +42,11 @@ export class BaseMap {
     // The lines for a view; others, and finer ones, are loaded once it rests.
     for(view: MapView): MapPaths | null {
         const seen = boxBetween(view, [0, 0], [view.width, view.height]);
-        const box = { ...seen, south: Math.max(-mostLatitudeDeg, seen.south), north: Math.min(mostLatitudeDeg, seen.north) };
+        const box = {
+            ...seen,
+            south: Math.max(-mostLatitudeDeg, seen.south),
+            north: Math.min(mostLatitudeDeg, seen.north),
+        };
         const isThere = (area: Area | null) => area !== null && holdsBox(area.box, box);
         const isFine = view.scale >= fineFromScale;
         const needsFine = isFine && !isThere(this.fine);

@@ -29,14 +29,18 @@ export class MapPointers {
 
     begin(): void {
         const { canvas } = this;
-        canvas.addEventListener('pointerdown', event => this.down(event));
-        canvas.addEventListener('pointermove', event => this.moved(event));
-        canvas.addEventListener('pointerup', event => this.up(event));
-        canvas.addEventListener('pointercancel', event => this.up(event));
-        canvas.addEventListener('wheel', event => {
-            event.preventDefault();
-            this.map.zoom(Math.exp(-event.deltaY * 0.002), event.offsetX, event.offsetY);
-        }, { passive: false });
+        canvas.addEventListener('pointerdown', (event) => this.down(event));
+        canvas.addEventListener('pointermove', (event) => this.moved(event));
+        canvas.addEventListener('pointerup', (event) => this.up(event));
+        canvas.addEventListener('pointercancel', (event) => this.up(event));
+        canvas.addEventListener(
+            'wheel',
+            (event) => {
+                event.preventDefault();
+                this.map.zoom(Math.exp(-event.deltaY * 0.002), event.offsetX, event.offsetY);
+            },
+            { passive: false },
+        );
     }
 
     private down(event: PointerEvent): void {
@@ -68,9 +72,13 @@ export class MapPointers {
     }
 
     private pinch(before: PointerEvent, event: PointerEvent): void {
-        const fixed = [...this.pointers.values()].find(one => one.pointerId !== event.pointerId)!;
+        const fixed = [...this.pointers.values()].find((one) => one.pointerId !== event.pointerId)!;
         const distance = (one: PointerEvent) => Math.hypot(one.clientX - fixed.clientX, one.clientY - fixed.clientY);
-        this.map.zoom(distance(event) / Math.max(1, distance(before)), (event.offsetX + fixed.offsetX) / 2, (event.offsetY + fixed.offsetY) / 2);
+        this.map.zoom(
+            distance(event) / Math.max(1, distance(before)),
+            (event.offsetX + fixed.offsetX) / 2,
+            (event.offsetY + fixed.offsetY) / 2,
+        );
         this.map.move((event.clientX - before.clientX) / 2, (event.clientY - before.clientY) / 2);
     }
 

@@ -40,8 +40,8 @@ function pathOf(lines: [number, number][][]): Path2D {
 }
 
 export function mapPaths(answer: MapAnswer): MapPaths {
-    const of = (kind: string) => answer.lines.filter(line => line.kind === kind);
-    const areas = (kind: string) => pathOf(of(kind).map(line => line.points));
+    const of = (kind: string) => answer.lines.filter((line) => line.kind === kind);
+    const areas = (kind: string) => pathOf(of(kind).map((line) => line.points));
     const borders = (kind: string) => pathOf(of(kind).flatMap(withoutCuts));
     return {
         areas: { land: areas('coast'), lakes: areas('lake') },
@@ -77,9 +77,12 @@ export const pixelsOf = (view: MapView, { places }: Outline): Pixel[] => {
     // All corners are copies near the first, so that the outline holds together.
     const points = places.map(mapPoint);
     const first = points[0] ? nearestCopy(points[0], view.center) : ([0, 0] as [number, number]);
-    return points.map(point => {
+    return points.map((point) => {
         const [x, y] = nearestCopy(point, first);
-        return [(x - view.center[0]) * view.scale + view.width / 2, (y - view.center[1]) * view.scale + view.height / 2];
+        return [
+            (x - view.center[0]) * view.scale + view.width / 2,
+            (y - view.center[1]) * view.scale + view.height / 2,
+        ];
     });
 };
 
@@ -174,16 +177,27 @@ function drawDot(pen: CanvasRenderingContext2D, [x, y]: Pixel, station: StationP
 
 function drawStations(pen: CanvasRenderingContext2D, scene: StartScene, taken: Rect[]): void {
     const seen = scene.stations
-        .map(station => ({ station, at: pixelOf(scene.view, mapPoint(station)), isMarked: scene.chosen === station.icao || scene.boxed.has(station.icao) }))
+        .map((station) => ({
+            station,
+            at: pixelOf(scene.view, mapPoint(station)),
+            isMarked: scene.chosen === station.icao || scene.boxed.has(station.icao),
+        }))
         .filter(({ at: [x, y] }) => x > -20 && y > -20 && x < scene.view.width + 20 && y < scene.view.height + 20)
-        .sort((a, b) => Number(a.isMarked) - Number(b.isMarked) || Number(a.station.hasGrids) - Number(b.station.hasGrids));
+        .sort(
+            (a, b) =>
+                Number(a.isMarked) - Number(b.isMarked) || Number(a.station.hasGrids) - Number(b.station.hasGrids),
+        );
     for (const { station, at, isMarked } of seen) drawDot(pen, at, station, isMarked);
     pen.font = fontOf(12, 'bold');
     pen.textBaseline = 'middle';
-    for (const { station, at: [x, y], isMarked } of seen.reverse()) {
+    for (const {
+        station,
+        at: [x, y],
+        isMarked,
+    } of seen.reverse()) {
         const wide = pen.measureText(station.icao).width;
         const rect: Rect = { left: x - 7, top: y - 8, right: x + 11 + wide, bottom: y + 8 };
-        if (!isMarked && taken.some(other => overlaps(rect, other))) continue;
+        if (!isMarked && taken.some((other) => overlaps(rect, other))) continue;
         taken.push(rect);
         haloed(pen, station.icao, x + 9, y, isMarked ? accent : station.hasGrids ? '#ffffff' : shades.quietText);
     }
@@ -200,7 +214,7 @@ function drawCities(pen: CanvasRenderingContext2D, { view, map }: StartScene, ta
         const [x, y] = pixelOf(view, mapPoint({ latitudeDeg: city.place[1], longitudeDeg: city.place[0] }));
         if (x < 4 || y < 8 || x > view.width - 4 || y > view.height - 8) continue;
         const rect: Rect = { left: x - 4, top: y - 8, right: x + 8 + pen.measureText(city.name).width, bottom: y + 8 };
-        if (taken.some(other => overlaps(rect, other))) continue;
+        if (taken.some((other) => overlaps(rect, other))) continue;
         taken.push(rect);
         pen.fillStyle = shades.quietText;
         pen.fillRect(x - 1.5, y - 1.5, 3, 3);
@@ -217,7 +231,12 @@ function inLargerPixels(scene: StartScene, scale: number): StartScene {
         ...scene,
         view: { ...view, scale: view.scale / scale, width: view.width / scale, height: view.height / scale },
         box: box && [pixel(box[0]), pixel(box[1])],
-        covered: covered.map(({ left, top, right, bottom }) => ({ left: left / scale, top: top / scale, right: right / scale, bottom: bottom / scale })),
+        covered: covered.map(({ left, top, right, bottom }) => ({
+            left: left / scale,
+            top: top / scale,
+            right: right / scale,
+            bottom: bottom / scale,
+        })),
     };
 }
 

@@ -35,14 +35,16 @@ export class PlaceList {
         this.field.placeholder = texts.start.search;
         this.field.setAttribute('aria-label', texts.start.search);
         this.field.addEventListener('input', () => actions.search(this.field.value));
-        element('places').addEventListener('keydown', event => this.press(event));
+        element('places').addEventListener('keydown', (event) => this.press(event));
     }
 
     put(places: ListedPlace[]): void {
-        const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset['domain'] : undefined;
-        this.list.replaceChildren(...places.map(place => this.row(place)));
-        if (places.length === 0) this.list.append(Object.assign(document.createElement('li'), { textContent: texts.start.noneFound }));
-        this.buttons.find(one => one.dataset['domain'] === focused)?.focus();
+        const focused =
+            document.activeElement instanceof HTMLElement ? document.activeElement.dataset['domain'] : undefined;
+        this.list.replaceChildren(...places.map((place) => this.row(place)));
+        if (places.length === 0)
+            this.list.append(Object.assign(document.createElement('li'), { textContent: texts.start.noneFound }));
+        this.buttons.find((one) => one.dataset['domain'] === focused)?.focus();
     }
 
     mark(domain: string | null): void {
@@ -73,7 +75,7 @@ export class PlaceList {
 
     // Arrows go through the list; Enter in the field opens the first place.
     private press(event: KeyboardEvent): void {
-        const usable = this.buttons.filter(one => !one.disabled);
+        const usable = this.buttons.filter((one) => !one.disabled);
         const at = usable.indexOf(document.activeElement as HTMLButtonElement);
         if (event.key === 'ArrowDown') (usable[at + 1] ?? usable[at])?.focus();
         else if (event.key === 'ArrowUp') (at > 0 ? usable[at - 1]! : this.field).focus();

@@ -33,34 +33,49 @@ export class StartData {
     // A grid that is made again keeps its time, so asks again for all that is drawn or `chosen`.
     async load(domains: Domain[], chosen: string | null): Promise<void> {
         this.stations = stationPlaces(await stations());
-        const known = new Set(this.stations.map(one => one.icao));
-        const others = domains.filter(domain => !known.has(domain.domain));
-        const again = domains.filter(({ domain }) => known.has(domain) && (domain === chosen || this.drawn.some(one => one.domain === domain)));
+        const known = new Set(this.stations.map((one) => one.icao));
+        const others = domains.filter((domain) => !known.has(domain.domain));
+        const again = domains.filter(
+            ({ domain }) => known.has(domain) && (domain === chosen || this.drawn.some((one) => one.domain === domain)),
+        );
         const kept = new Set([...others, ...again].map(({ domain }) => domain));
         for (const domain of this.seen.keys()) if (!kept.has(domain)) this.seen.delete(domain);
         this.asked.clear();
-        const [mosaics] = await Promise.all([Promise.all(others.map(domain => this.see(domain, false))), ...again.map(domain => this.see(domain, true))]);
+        const [mosaics] = await Promise.all([
+            Promise.all(others.map((domain) => this.see(domain, false))),
+            ...again.map((domain) => this.see(domain, true)),
+        ]);
         this.mosaics = mosaics;
         this.changed();
     }
 
     private static momentOf(domain: Domain): { moment: string; newest: string } | undefined {
-        return domain.moments.find(one => one.moment === pictured) ?? domain.moments[0];
+        return domain.moments.find((one) => one.moment === pictured) ?? domain.moments[0];
     }
 
     // Asks what a domain's newest grid is.
     private async see(domain: Domain, isStation: boolean): Promise<SeenDomain> {
         const moment = StartData.momentOf(domain);
-        const facts = moment ? await gridFacts(domain.domain, moment.moment, moment.newest).catch(() => this.known(domain)?.facts ?? null) : null;
+        const facts = moment
+            ? await gridFacts(domain.domain, moment.moment, moment.newest).catch(
+                  () => this.known(domain)?.facts ?? null,
+              )
+            : null;
         const places = facts && (isStation ? circleOf(facts) : outlineOf(facts));
-        if (facts && isStation) this.reachM = Math.max(this.reachM, geodesic({ latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] }, places![0]!).distanceM);
+        if (facts && isStation)
+            this.reachM = Math.max(
+                this.reachM,
+                geodesic({ latitudeDeg: facts.center[0], longitudeDeg: facts.center[1] }, places![0]!).distanceM,
+            );
         const seen: SeenDomain = { domain, facts, outline: places && { domain: domain.domain, places } };
         this.seen.set(domain.domain, seen);
         return seen;
     }
     private known(domain: Domain): SeenDomain | undefined {
         const known = this.seen.get(domain.domain);
-        return known && StartData.momentOf(known.domain)?.newest === StartData.momentOf(domain)?.newest ? known : undefined;
+        return known && StartData.momentOf(known.domain)?.newest === StartData.momentOf(domain)?.newest
+            ? known
+            : undefined;
     }
 
     // Returns what is known of a station, and asks for its newest grid if that is not known.
@@ -76,23 +91,46 @@ export class StartData {
 
     // Returns the newest time of what can be pictured; null if there is none.
     static pictureTime(domain: Domain): string | null {
-        return domain.moments.find(one => one.moment === pictured)?.newest ?? null;
+        return domain.moments.find((one) => one.moment === pictured)?.newest ?? null;
     }
 
     // Returns what is drawn, the lowest first: the nearest of the `visible` stations that no mosaic shows, the oldest
     // picture first, and then the mosaics that show what is seen now.
-    pictures(domains: Domain[], visible: StationPlace[], isWithin: (outline: Outline, station: StationPlace) => boolean): SeenDomain[] {
+    pictures(
+        domains: Domain[],
+        visible: StationPlace[],
+        isWithin: (outline: Outline, station: StationPlace) => boolean,
+    ): SeenDomain[] {
         // A clock that is wrong makes nothing old.
-        const newestMs = (outline: Outline) => Math.max(...this.stations.filter(one => !isAhead(one.ageS ?? 0) && isWithin(outline, one)).map(one => Date.parse(one.newestGrid ?? '') || 0), 0);
-        const mosaics = this.mosaics.filter(({ domain, outline }) => outline && Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs);
-        const isShown = (one: StationPlace) => mosaics.some(({ facts, outline }) => facts!.provenance.stations.includes(one.icao) && isWithin(outline!, one));
-        const own = visible.flatMap(station => {
-            const domain = domains.find(one => one.domain === station.icao);
-            return domain && StartData.pictureTime(domain) !== null && !isShown(station) ? [{ domain, ageS: station.ageS ?? 0 }] : [];
+        const newestMs = (outline: Outline) =>
+            Math.max(
+                ...this.stations
+                    .filter((one) => !isAhead(one.ageS ?? 0) && isWithin(outline, one))
+                    .map((one) => Date.parse(one.newestGrid ?? '') || 0),
+                0,
+            );
+        const mosaics = this.mosaics.filter(
+            ({ domain, outline }) =>
+                outline && Date.parse(StartData.pictureTime(domain) ?? '') >= newestMs(outline) - mostBehindMs,
+        );
+        const isShown = (one: StationPlace) =>
+            mosaics.some(
+                ({ facts, outline }) => facts!.provenance.stations.includes(one.icao) && isWithin(outline!, one),
+            );
+        const own = visible.flatMap((station) => {
+            const domain = domains.find((one) => one.domain === station.icao);
+            return domain && StartData.pictureTime(domain) !== null && !isShown(station)
+                ? [{ domain, ageS: station.ageS ?? 0 }]
+                : [];
         });
         this.unpictured = Math.max(0, own.length - mostPicturedStations);
-        this.drawn = own.slice(0, mostPicturedStations).sort((a, b) => b.ageS - a.ageS).map(({ domain }) => domain);
-        const stationsSeen = this.drawn.map(domain => this.find(domain)).filter((seen): seen is SeenDomain => seen !== null && seen.facts !== null);
+        this.drawn = own
+            .slice(0, mostPicturedStations)
+            .sort((a, b) => b.ageS - a.ageS)
+            .map(({ domain }) => domain);
+        const stationsSeen = this.drawn
+            .map((domain) => this.find(domain))
+            .filter((seen): seen is SeenDomain => seen !== null && seen.facts !== null);
         this.lacks = stationsSeen.length < this.drawn.length || this.mosaics.some(({ facts }) => !facts);
         return [...stationsSeen, ...mosaics];
     }

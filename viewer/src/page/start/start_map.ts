@@ -1,6 +1,17 @@
 // The map of all stations, from which a user enters: by a click, a touch, the keys or the list.
 
-import { MapBox, MapView, boxBetween, draggedMap, fittedMap, isInBox, mapPoint, pixelOf, reaches, scaledMap } from '../../map/mercator';
+import {
+    MapBox,
+    MapView,
+    boxBetween,
+    draggedMap,
+    fittedMap,
+    isInBox,
+    mapPoint,
+    pixelOf,
+    reaches,
+    scaledMap,
+} from '../../map/mercator';
 import { Pixel, StationPlace, isInside, nearestPixel, pixelToward, search } from '../../map/places';
 import { isRegion, regionName } from '../../wire/api';
 import { App } from '../app';
@@ -39,8 +50,8 @@ export class StartMap {
 
     constructor(private app: App) {
         this.list = new PlaceList({
-            point: domain => this.choose(domain, false),
-            open: domain => void this.open(domain),
+            point: (domain) => this.choose(domain, false),
+            open: (domain) => void this.open(domain),
             search: () => this.putList(),
         });
     }
@@ -55,7 +66,7 @@ export class StartMap {
         );
         element('head').prepend(button('to-map', texts.start.toMap, () => this.app.goToMap()));
         this.canvas.setAttribute('aria-label', texts.start.mapLabel);
-        this.canvas.addEventListener('keydown', event => this.press(event));
+        this.canvas.addEventListener('keydown', (event) => this.press(event));
         new MapPointers(this.canvas, this).begin();
         window.addEventListener('resize', () => this.resize());
         document.addEventListener('visibilitychange', () => !this.page.hidden && void this.look());
@@ -84,7 +95,10 @@ export class StartMap {
         if (document.hidden) return;
         try {
             await this.app.findDomains();
-            await this.data.load(this.app.domains.filter(one => !isRegion(one.domain)), this.chosen);
+            await this.data.load(
+                this.app.domains.filter((one) => !isRegion(one.domain)),
+                this.chosen,
+            );
         } catch (error) {
             this.say(texts.failed(error instanceof Error ? error.message : String(error)));
         }
@@ -96,7 +110,7 @@ export class StartMap {
             const { width, height } = this.view!;
             this.base.begin(boxBetween(this.view!, [0, 0], [width, height])).then(
                 () => this.putList(),
-                error => this.say(texts.failed(String(error))),
+                (error) => this.say(texts.failed(String(error))),
             );
         }
         this.putList();
@@ -108,7 +122,7 @@ export class StartMap {
     private fit(): boolean {
         const { stations, mosaics } = this.data;
         const middle = [...stations].sort((a, b) => a.longitudeDeg - b.longitudeDeg)[Math.floor(stations.length / 2)];
-        const near = stations.filter(one => Math.abs(one.longitudeDeg - middle!.longitudeDeg) < 65);
+        const near = stations.filter((one) => Math.abs(one.longitudeDeg - middle!.longitudeDeg) < 65);
         const main = near.length >= 0.8 * stations.length ? near : stations;
         const points = [...main, ...mosaics.flatMap(({ outline }) => outline?.places ?? [])].map(mapPoint);
         const { clientWidth: width, clientHeight: height } = this.canvas;
@@ -153,21 +167,28 @@ export class StartMap {
         this.lacksSince = lacks ? Math.min(this.lacksSince, performance.now()) : Infinity;
         this.putCard();
         // Where the stations are, for whoever looks at the page from outside.
-        const places = this.data.stations.map(one => [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '));
+        const places = this.data.stations.map((one) =>
+            [one.icao, ...pixelOf(view, mapPoint(one)).map(Math.round)].join(' '),
+        );
         document.documentElement.dataset['map'] = places.join();
     }
 
     private scene(view: MapView): StartScene {
         const { data, app } = this;
-        const mosaics = data.mosaics.map(({ outline }) => outline).filter((one): one is NonNullable<typeof one> => one !== null);
-        const polygons = new Map(mosaics.map(one => [one, pixelsOf(view, one)]));
+        const mosaics = data.mosaics
+            .map(({ outline }) => outline)
+            .filter((one): one is NonNullable<typeof one> => one !== null);
+        const polygons = new Map(mosaics.map((one) => [one, pixelsOf(view, one)]));
         const middle: Pixel = [view.width / 2, view.height / 2];
         const away = (one: StationPlace): number => {
             const [x, y] = pixelOf(view, mapPoint(one));
             return Math.hypot(x - middle[0], y - middle[1]);
         };
-        const visible = data.stations.filter(one => reaches(view, one, data.reachM)).sort((a, b) => away(a) - away(b));
-        const isWithin = (outline: Outline, one: StationPlace) => isInside(polygons.get(outline)!, ...pixelOf(view, mapPoint(one)));
+        const visible = data.stations
+            .filter((one) => reaches(view, one, data.reachM))
+            .sort((a, b) => away(a) - away(b));
+        const isWithin = (outline: Outline, one: StationPlace) =>
+            isInside(polygons.get(outline)!, ...pixelOf(view, mapPoint(one)));
         return {
             view,
             map: this.base.for(view),
@@ -182,8 +203,8 @@ export class StartMap {
             stations: data.stations,
             chosen: this.chosen,
             box: this.box,
-            boxed: new Set(this.stationsInBox().map(one => one.icao)),
-            covered: ['start-head', 'places'].map(id => element(id).getBoundingClientRect()),
+            boxed: new Set(this.stationsInBox().map((one) => one.icao)),
+            covered: ['start-head', 'places'].map((id) => element(id).getBoundingClientRect()),
         };
     }
 
@@ -203,7 +224,7 @@ export class StartMap {
         const { view, data } = this;
         if (!view) return null;
         const nearest = nearestPixel(
-            data.stations.map(one => pixelOf(view, mapPoint(one))),
+            data.stations.map((one) => pixelOf(view, mapPoint(one))),
             x,
             y,
             reach,
@@ -230,12 +251,13 @@ export class StartMap {
     }
 
     private tellChosen(): void {
-        const station = this.data.stations.find(one => one.icao === this.chosen);
-        const domain = this.app.domains.find(one => one.domain === this.chosen);
+        const station = this.data.stations.find((one) => one.icao === this.chosen);
+        const domain = this.app.domains.find((one) => one.domain === this.chosen);
         if (!station && !domain) return this.say('');
-        const seen = domain && (this.data.mosaics.find(one => one.domain.domain === this.chosen) ?? this.data.find(domain));
+        const seen =
+            domain && (this.data.mosaics.find((one) => one.domain.domain === this.chosen) ?? this.data.find(domain));
         const age = station ? station.ageS : (domain?.moments[0]?.age_s ?? null);
-        const moments = domain?.moments.map(one => one.moment) ?? [];
+        const moments = domain?.moments.map((one) => one.moment) ?? [];
         const strongest = moments.includes('REF') ? (seen?.facts?.greatest ?? null) : null;
         this.say(texts.start.card(this.chosen!, station?.name ?? '', age, moments, strongest));
     }
@@ -244,13 +266,19 @@ export class StartMap {
         this.putCard();
     }
     private putCard(): void {
-        const card = [this.said, this.data.unpictured > 0 ? texts.start.unpictured(this.data.unpictured) : '', performance.now() - this.lacksSince >= toldAfterMs ? texts.start.lacksEcho : ''].filter(Boolean).join(' ');
+        const card = [
+            this.said,
+            this.data.unpictured > 0 ? texts.start.unpictured(this.data.unpictured) : '',
+            performance.now() - this.lacksSince >= toldAfterMs ? texts.start.lacksEcho : '',
+        ]
+            .filter(Boolean)
+            .join(' ');
         if (element('start-card').textContent !== card) element('start-card').textContent = card;
     }
 
     async open(domain: string | null): Promise<void> {
         if (domain === null) return;
-        if (!this.app.domains.some(one => one.domain === domain)) return this.say(texts.start.noGridsOf(domain));
+        if (!this.app.domains.some((one) => one.domain === domain)) return this.say(texts.start.noGridsOf(domain));
         await this.app.enter(domain);
     }
 
@@ -280,10 +308,10 @@ export class StartMap {
     }
     private stationsInBox(): StationPlace[] {
         const box = this.boxDegrees();
-        return box ? this.data.stations.filter(one => one.hasGrids && isInBox(one, box)) : [];
+        return box ? this.data.stations.filter((one) => one.hasGrids && isInBox(one, box)) : [];
     }
     private tellBox(): void {
-        this.say(texts.start.boxed(this.stationsInBox().map(one => one.icao)));
+        this.say(texts.start.boxed(this.stationsInBox().map((one) => one.icao)));
     }
     // The sites of the box become one domain; of one station, the station is opened.
     async openBox(): Promise<void> {
@@ -292,7 +320,7 @@ export class StartMap {
         this.dropBox();
         if (!box || inside.length === 0) return this.say(texts.start.boxed([]));
         if (inside.length === 1) return this.open(inside[0]!.icao);
-        this.say(texts.start.merging(inside.map(one => one.icao)));
+        this.say(texts.start.merging(inside.map((one) => one.icao)));
         const domain = regionName(box);
         try {
             await this.app.findRegion(domain);
@@ -307,7 +335,12 @@ export class StartMap {
 
     private press(event: KeyboardEvent): void {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
-        const ways: Record<string, Pixel> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+        const ways: Record<string, Pixel> = {
+            ArrowLeft: [-1, 0],
+            ArrowRight: [1, 0],
+            ArrowUp: [0, -1],
+            ArrowDown: [0, 1],
+        };
         const way = ways[event.key];
         const actions: Record<string, () => void> = {
             '+': () => this.zoom(1.5),
@@ -331,9 +364,12 @@ export class StartMap {
     private step(way: Pixel): void {
         const { view, data } = this;
         if (!view || data.stations.length === 0) return;
-        const pixels = data.stations.map(one => pixelOf(view, mapPoint(one)));
-        const now = data.stations.findIndex(one => one.icao === this.chosen);
-        const next = now < 0 ? nearestPixel(pixels, view.width / 2, view.height / 2, Infinity) : pixelToward(pixels, pixels[now]!, way);
+        const pixels = data.stations.map((one) => pixelOf(view, mapPoint(one)));
+        const now = data.stations.findIndex((one) => one.icao === this.chosen);
+        const next =
+            now < 0
+                ? nearestPixel(pixels, view.width / 2, view.height / 2, Infinity)
+                : pixelToward(pixels, pixels[now]!, way);
         if (next < 0) return;
         this.choose(data.stations[next]!.icao);
         this.bringIn(pixels[next]!);
@@ -341,8 +377,14 @@ export class StartMap {
     }
     private bringIn([x, y]: Pixel): void {
         const { width, height } = this.view!;
-        const left = element('places').getBoundingClientRect().right < width / 2 ? element('places').getBoundingClientRect().right : 0;
-        const [dx, dy] = [Math.max(0, left + edge - x) - Math.max(0, x - width + edge), Math.max(0, edge + 60 - y) - Math.max(0, y - height + edge)];
+        const left =
+            element('places').getBoundingClientRect().right < width / 2
+                ? element('places').getBoundingClientRect().right
+                : 0;
+        const [dx, dy] = [
+            Math.max(0, left + edge - x) - Math.max(0, x - width + edge),
+            Math.max(0, edge + 60 - y) - Math.max(0, y - height + edge),
+        ];
         if (dx !== 0 || dy !== 0) this.move(dx, dy);
     }
 
@@ -354,14 +396,17 @@ export class StartMap {
         else this.toggleBoxes();
     }
     private boxToChosen(): void {
-        const pixels = [this.anchor, this.chosen].map(icao => {
-            const station = this.data.stations.find(one => one.icao === icao);
+        const pixels = [this.anchor, this.chosen].map((icao) => {
+            const station = this.data.stations.find((one) => one.icao === icao);
             return station && pixelOf(this.view!, mapPoint(station));
         });
         const [a, b] = pixels;
         if (!a || !b) return;
         const grow = 12;
-        this.drawBox([Math.min(a[0], b[0]) - grow, Math.min(a[1], b[1]) - grow], [Math.max(a[0], b[0]) + grow, Math.max(a[1], b[1]) + grow]);
+        this.drawBox(
+            [Math.min(a[0], b[0]) - grow, Math.min(a[1], b[1]) - grow],
+            [Math.max(a[0], b[0]) + grow, Math.max(a[1], b[1]) + grow],
+        );
     }
 
     // -- the list

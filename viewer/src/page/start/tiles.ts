@@ -54,10 +54,23 @@ export class Tiles {
         for (let up = 0; up <= Math.min(mostUp, tile.zoom); ++up) {
             const [column, row] = [tile.column >> up, tile.row >> up];
             const place = { zoom: tile.zoom - up, column, row };
-            const other = this.drawn.get(picture.domain)!.map(one => this.kept.get(Tiles.key(one, place))).find(one => one?.isThere);
+            const other = this.drawn
+                .get(picture.domain)!
+                .map((one) => this.kept.get(Tiles.key(one, place)))
+                .find((one) => one?.isThere);
             if (!other) continue;
             const side = other.image.width / 2 ** up;
-            pen.drawImage(other.image, (tile.column - (column << up)) * side, (tile.row - (row << up)) * side, side, side, tile.x, tile.y, tile.side, tile.side);
+            pen.drawImage(
+                other.image,
+                (tile.column - (column << up)) * side,
+                (tile.row - (row << up)) * side,
+                side,
+                side,
+                tile.x,
+                tile.y,
+                tile.side,
+                tile.side,
+            );
             return;
         }
     }
@@ -92,7 +105,11 @@ export class Tiles {
                         kept.isThere = true;
                         this.loaded();
                     },
-                    () => void window.setTimeout(() => this.again(key), againAfterMs * Math.min(++kept.tries, longestPause)),
+                    () =>
+                        void window.setTimeout(
+                            () => this.again(key),
+                            againAfterMs * Math.min(++kept.tries, longestPause),
+                        ),
                 )
                 .then(() => {
                     --this.loading;
