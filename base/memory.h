@@ -10,7 +10,7 @@ namespace stormcellar {
 
 // Keeps freed memory for later use, up to 128 MiB at the end of each of malloc's arenas. Otherwise
 // glibc returns the arrays of each volume to the system, and those of the next volume come page by
-// page, which takes up to a tenth of the time of decoding (docs/performance.md). This is for the
+// page, which takes up to a tenth of the time of decoding (docs/decisions.md). This is for the
 // main() of a program that decodes one volume after another; a library leaves it to its program. It
 // does nothing with another C library.
 void keep_freed_memory();
@@ -33,7 +33,7 @@ void free_array(std::vector<Value>& values) {
 }
 
 // Asks the system for large pages when this memory is first touched: 2 MiB at once instead of 4
-// KiB, which takes a sixth of the time (docs/performance.md). This is a hint. It does nothing if
+// KiB, which takes a sixth of the time (docs/decisions.md). This is a hint. It does nothing if
 // the system has no large pages, or for parts that do not fill whole large pages.
 void prefer_large_pages(void* memory, std::size_t bytes);
 

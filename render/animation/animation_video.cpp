@@ -22,7 +22,7 @@ struct Codec {
     std::array<std::pair<const char*, const char*>, 6> settings;  // unused entries are null
 };
 
-// The codecs in order of preference. docs/decisions/animation-formats.md explains the settings.
+// The codecs in order of preference. docs/decisions.md explains the settings.
 constexpr std::array codecs{
     Codec{VideoContainer::mp4,
           "libx264",

@@ -1,6 +1,6 @@
 // WebP through libwebp's animation encoder. It is lossless because colors are data, and lossy WebP
 // halves their resolution. Method 1 and effort 50 give most of the compression for little time
-// (docs/decisions/animation-formats.md).
+// (docs/decisions.md).
 #include <climits>
 #include <cmath>
 #include <span>

@@ -24,7 +24,7 @@ namespace stormcellar::render {
 class CornerTable {
   public:
     // Returns true for grids of up to 2^24 cells with codes of one byte, if each cell would be
-    // sampled 12 times or more without any skipping (docs/decisions/slicer.md has the
+    // sampled 12 times or more without any skipping (docs/decisions.md has the
     // measurements).
     [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
