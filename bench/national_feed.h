@@ -1,5 +1,5 @@
 // bench/national_feed.h -- the heaviest national hour of Level II: 160 sites, 13.8 GB an hour in
-// some 33 chunks a second (docs/performance.md has the figures of the real one).
+// some 33 chunks a second.
 //
 // Sites     The first 160 WSR-88Ds by ICAO; if there are fewer, each sends as much.
 // Volumes   Each site sends one of three real volumes again and again: six sites of eight a storm

@@ -219,14 +219,12 @@ TEST(Documents, FindItNamesFilesThatAreThere) {
         EXPECT_TRUE(fs::exists(root / named)) << named;
 }
 
-// Paths of sources that documents name, from the root: `grid/beam/sounding.h`. Tables of results
-// are of their day.
+// Paths of sources that documents name, from the root: `grid/beam/sounding.h`.
 TEST(Documents, SourcesThatTheyNameAreThere) {
     static const std::regex path(R"(`((?:[a-z_0-9]+/)+[a-z_0-9-]+\.(?:h|cpp|toml|yml|cmake))`)");
     const fs::path root = testing::source_directory();
     std::size_t checked = 0;
     for (const fs::path& document : documents()) {
-        if (document.parent_path() == "docs/results") continue;
         for (const std::string& named : found_in(testing::text_of(root / document), path)) {
             ++checked;
             EXPECT_TRUE(fs::exists(root / named) || fs::exists(root / "include" / named))
