@@ -19,19 +19,18 @@ def feed(runs):
     words = ['--as', 'growing', '--threads', '2', '--work', runs.work / 'feed']
     if runs.quick:
         words += ['--sites', QUICK_SITES, '--speeds', '10 160', '--seconds', '10']
-    letter, (paced, fast) = runs.bench('bench_feed', *words)
+    paced, fast = runs.bench('bench_feed', *words)
     radars = fast['sites'] * fast['sustained_x']
-    way = f'{fast["sites"]} sites, played {fast["sustained_x"]:g} times as fast as they send'
-    arrived = f'{paced["sites"]} sites at {paced["speed"]:g} times their speed'
+    way = f'{fast["sites"]} sites, {fast["sustained_x"]:g} times their speed'
     results = {
-        '1.1': Ours(text=f'{known(paced["latency_p95_s"])} s (p95) from the last chunk to the grid; {arrived}', by=letter),
-        '1.2': Ours(radars, text=way, by=letter),
-        '1.3': Ours(fast['raw_mb_per_s'], text='sustained', by=letter),
+        '1.1': Ours(text=f'{known(paced["latency_p95_s"])} s (p95) after the last chunk'),
+        '1.2': Ours(radars, text=way),
+        '1.3': Ours(fast['raw_mb_per_s'], text='sustained'),
     }
-    letter, rows = runs.bench('bench_bunzip', '--runs', '3', '--threads', '1',
-                              runs.data / 'volumes' / 'KLBB20160601_150025_V06')
+    rows = runs.bench('bench_bunzip', '--runs', '3', '--threads', '1',
+                      runs.data / 'volumes' / 'KLBB20160601_150025_V06')
     best = max(row['ratio'] for row in rows if row['path'] not in ('libbz2', 'lbzip2'))
-    results['1.4'] = Ours(does=True, text=f'{best:.1f} times as fast as libbz2 on one thread', by=letter)
+    results['1.4'] = Ours(does=True, text=f'{best:.1f} times as fast as libbz2')
     return results
 
 
@@ -40,14 +39,13 @@ def users(runs):
     words = ['--hour', '--asked', '0', '--work', runs.work / 'feed']
     if runs.quick:
         words += ['--sites', QUICK_SITES, '--seconds', '10']
-    letter, rows = runs.bench('bench_events', *words)
+    rows = runs.bench('bench_events', *words)
     row = rows[-1]
     good = row['lost'] == 0 and row['failed'] == 0 and row['closed'] == 0
-    held = f'{row["streams"]} clients of the data server at the same time; lost {row["lost"]}, refused {row["failed"]}'
+    held = f'{row["streams"]} clients at the same time; lost {row["lost"]}, refused {row["failed"]}'
     return {
-        '7.3': Ours(does=good, text=held, by=letter),
-        '9.1': Ours(does=good, text=f'{row["streams"]} people hear of a grid {known(row["event_p95_ms"])} ms after it is there (p95); '
-                    f'{row["web_cores"]:g} of a core', by=letter),
+        '7.3': Ours(does=good, text=held),
+        '9.1': Ours(does=good, text=f'{row["streams"]} hear of a grid after {known(row["event_p95_ms"])} ms (p95)'),
     }
 
 
@@ -57,28 +55,21 @@ def sites(runs):
     hours = 1 if runs.quick else HOURS
     scale = HOURS / hours
     counts = QUICK_ROWS if runs.quick else SITES
-    rows, letters = [], {}
+    rows = []
     for count in counts:
-        letters[count], measured = runs.bench('bench_mosaic', '--only', count, '--alone', '--hours', hours, '--work',
-                                              runs.work / 'mosaic')
-        rows += measured
+        rows += runs.bench('bench_mosaic', '--only', count, '--alone', '--hours', hours, '--work', runs.work / 'mosaic')
     minutes = {(row['sites'], row['threads']): row['total_s'] * scale / 60 for row in rows}
     note = '' if hours == HOURS else f'extrapolated: {scale:g} times {hours} hour'
     results = {}
     for number, count, threads in (('4.1', 1, 1), ('4.2', 1, 2), ('4.3', 100, 1), ('4.4', 100, 2)):
-        results[number] = Ours(minutes[count, threads], text=note, by=letters[count])
-    for number, count in (('4.5', 30), ('4.6', 50), ('4.7', 100)):
-        if count not in counts:
-            results[number] = Ours(text='left out by `--quick`')
-            continue
-        gain = 100 * (minutes[count, 1] / minutes[count, 2] - 1)
-        results[number] = Ours(text=f'{gain:.0f} % with 2 threads: {minutes[count, 1]:.3g} and {minutes[count, 2]:.3g} minutes'
-                               + (f' ({note})' if note else ''), by=letters[count])
-    for number, count in (('4.8', 1), ('4.9', 10)):
-        results[number] = Ours(minutes[count, 2] / minutes[count, 1], by=letters[count])
+        results[number] = Ours(minutes[count, threads])
+    gains = [f'{100 * (minutes[count, 1] / minutes[count, 2] - 1):.0f} % ({count} sites)' for count in (30, 50, 100)
+             if count in counts]
+    results['4.5'] = Ours(text=', '.join(gains))
+    for number, count in (('4.6', 1), ('4.7', 10)):
+        results[number] = Ours(minutes[count, 2] / minutes[count, 1])
     raw_gb = {row['sites']: row['raw_gb'] * scale for row in rows}
-    results['4.11'] = Ours(text=f'{1000 * raw_gb[1]:.0f} MB' + (f' ({note})' if note else ''), by=letters[1])
-    results['4.12'] = Ours(text=f'{raw_gb[100]:.1f} GB' + (f' ({note})' if note else ''), by=letters[100])
+    results['4.9'] = Ours(text=f'{1000 * raw_gb[1]:.0f} MB, {raw_gb[100]:.1f} GB')
     chart = charts.sites(
         'Minutes for five hours of data' + (f' (ours: {note})' if note else ''),
         {'2008, in sequence': (charts.PAPER, {1: BY_NUMBER['4.1'].value, 100: BY_NUMBER['4.3'].value}),
@@ -88,17 +79,9 @@ def sites(runs):
     return results, chart
 
 
-def ways(row, fastest, claim):
-    """How exact a row of bench_render is, and the fastest way beside it."""
-    text = f'dE {row["de_p99"]:g}'
-    if fastest is row:
-        return text
-    return f'{text}; {fastest["method"]}: {fastest["fps"]:g}, dE {fastest["de_p99"]:g}, ratio {fastest["fps"] / claim.value:.3g}'
-
-
 def rates(runs):
     """Table 1, figures 6 and 7. Returns results and the three charts."""
-    letter, rows = runs.bench('bench_render', '--threads', '2', '--runs', '1' if runs.quick else '4')
+    rows = runs.bench('bench_render', '--threads', '2', '--runs', '1' if runs.quick else '4')
     like, best = {}, {}
     for row in rows:
         cell = row['volume'], row['slices']
@@ -111,15 +94,14 @@ def rates(runs):
         for i, slices in enumerate(TABLE_1):
             row, fastest = like[volume, slices], best[volume, slices]
             claim = BY_NUMBER[f'5.{column * len(TABLE_1) + i + 1}']
-            results[claim.number] = Ours(row['fps'], by=letter,
-                                         text=ways(row, fastest, claim))
+            results[claim.number] = Ours(row['fps'], text=f'dE {row["de_p99"]:g}')
             bars.append((volume, slices, claim.value, row['fps'], fastest['fps']))
             stacks.append((volume, slices, row['t1_s'], row['t2_s'], row['t3_s']))
     share = [100 * row['t3_s'] / (row['t1_s'] + row['t2_s'] + row['t3_s']) for row in like.values()]
-    results['5.16'] = Ours(text=f'drawing is {min(share):.0f} to {max(share):.0f} % of a frame; the chart below', by=letter)
+    results['5.16'] = Ours(text=f'drawing is {min(share):.0f} to {max(share):.0f} %')
     cell = VOLUMES[0], 256
-    results['5.17'] = Ours(like[cell]['fps'], by=letter, text=ways(like[cell], best[cell], BY_NUMBER['5.17']))
-    results['5.21'] = Ours(does=True, by=letter, text='parallel to the picture; ours go front to back and stop when nothing shows through')
+    results['5.17'] = Ours(like[cell]['fps'], text=f'dE {like[cell]["de_p99"]:g}')
+    results['5.21'] = Ours(does=True, text='front to back')
     machines = charts.machines([
         ('Quadro FX 3500 (table 1)', float(TABLE_1[256][0]), charts.PAPER),
         ('GeForce 8800 GTX (figure 7)', float(BY_NUMBER['5.17'].value), charts.PAPER),

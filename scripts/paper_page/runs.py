@@ -7,6 +7,9 @@ import time
 from pathlib import Path
 
 
+BENCH_WORDS = ' --data ../shared/data --json'  # of every benchmark; the page says it once
+
+
 class Failed(Exception):
     """A command did not do what it should; the page says so in the rows that needed it."""
 
@@ -15,10 +18,8 @@ class Runs:
     def __init__(self, build, data, work, quick):
         self.build, self.data, self.work, self.quick = build, data, work, quick
         self.section = ''
-        self.commands = {}  # by section: (letter, text, seconds)
+        self.commands = {}  # by section: as a reader types them, each once
         self.machine = None
-        alphabet = 'ABCDEFGHIJKLMNOPQRSTUVWXYZ'
-        self.letters = iter([*alphabet, *('A' + letter for letter in alphabet)])
 
     def program(self, name):
         """A program of the build; none if it was not built."""
@@ -41,14 +42,14 @@ class Runs:
             shown.append(f"'{word}'" if ' ' in word else word)
         return ' '.join(shown)
 
-    def note(self, words, seconds=None):
-        """Puts a command on the page, with its time if it ended by itself. Returns its letter."""
-        letter = next(self.letters)
-        self.commands.setdefault(self.section, []).append((letter, self.shown(words), seconds))
-        return letter
+    def note(self, words):
+        """Puts a command on the page."""
+        commands, text = self.commands.setdefault(self.section, []), self.shown(words).removesuffix(BENCH_WORDS)
+        if text not in commands:
+            commands.append(text)
 
     def run(self, name, *words, timeout_s=7200):
-        """Returns (letter, standard output, seconds) of a program of the build or of the system."""
+        """Returns (standard output, seconds) of a program of the build or of the system."""
         program = self.program(name) or shutil.which(name)
         if not program:
             raise Failed(f'{name} is not there')
@@ -61,14 +62,15 @@ class Runs:
         if done.returncode != 0:
             last = (done.stderr.strip() or done.stdout.strip() or 'nothing was said').splitlines()[-1]
             raise Failed(f'{name} ended with status {done.returncode}: {last}')
-        return self.note(command, seconds), done.stdout, seconds
+        self.note(command)
+        return done.stdout, seconds
 
     def bench(self, name, *words):
-        """Returns (letter, rows) of a benchmark."""
-        letter, out, _ = self.run(name, *words, '--data', self.data, '--json')
+        """Returns the rows of a benchmark."""
+        out, _ = self.run(name, *words, '--data', self.data, '--json')
         said = json.loads(out)
         self.machine = self.machine or said['machine']
-        return letter, said['rows']
+        return said['rows']
 
     def in_place(self, name):
         path = Path(self.work) / name

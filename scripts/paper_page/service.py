@@ -64,7 +64,7 @@ class Server:
     """stormcellar serve, at a port that it chooses."""
     def __init__(self, runs, *words):
         command = [runs.program('stormcellar'), 'serve', *map(str, words), '--listen', '127.0.0.1:0']
-        self.letter = runs.note(command)
+        runs.note(command)
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
                                         text=True)
         self.address = None

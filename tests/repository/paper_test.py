@@ -17,7 +17,7 @@ FACTS = {'cores': 2, 'most_gain': 100, 'machine': 'none', 'notes': [], 'charts':
 
 def made_page(values):
     """A page with these values of ours; every other claim is one that nobody tried."""
-    return page(values, {'1': [('A', 'command', 1.0)]}, FACTS, '', '')
+    return page(values, {'1': ['command']}, FACTS, '', '')
 
 
 class ThePage(unittest.TestCase):
@@ -57,19 +57,23 @@ class ThePage(unittest.TestCase):
             stands = rows_of(self.text)[claim.number][0][-1]
             for status in ('beaten', 'met', 'not met', 'cannot be compared: ', ''):
                 if status != stands:
-                    self.assertNotEqual(self.faults_with(claim.number, 6, status + ' |'), [], f'{claim.number}: {status}')
+                    self.assertNotEqual(self.faults_with(claim.number, 4, status + ' |'), [], f'{claim.number}: {status}')
 
     def test_another_ratio_is_found(self):
+        ratios = 0
         for number, rows in rows_of(self.text).items():
-            if re.match(r'[0-9]', rows[0][4]):
-                self.assertNotEqual(self.faults_with(number, 4, rows[0][4] + '1'), [], number)
+            if rows[0][-1].endswith(')'):
+                other = rows[0][-1].removesuffix(')') + '1)'
+                self.assertNotEqual(self.faults_with(number, 4, other + ' |'), [], number)
+                ratios += 1
+        self.assertGreaterEqual(ratios, 20)
 
 
 class Statuses(unittest.TestCase):
     def status(self, number, ours):
         text = made_page({number: ours})
         self.assertEqual(faults_of(text), [])
-        return rows_of(text)[number][0][-1]
+        return re.sub(r' \([0-9.]+\)$', '', rows_of(text)[number][0][-1])
 
     def test_follow_from_the_ratio(self):
         frames = BY_NUMBER['5.3'].value
@@ -106,7 +110,7 @@ class TheTable(unittest.TestCase):
 
     def test_says_the_value_that_is_compared(self):
         for claim in CLAIMS:
-            if claim.how in ('more', 'less') and 'frames' in claim.unit or claim.unit in ('minutes', 'MB/s'):
+            if claim.how == 'more' and not claim.unit or claim.unit in ('minutes', 'MB/s'):
                 self.assertIn(f'{claim.value:g}', claim.paper, claim.number)
 
 
