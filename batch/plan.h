@@ -2,9 +2,9 @@
 //
 // PLAN/plan.jsonl is JSON, a document a line. The first line has the recipe; each further line is a
 // task, filled up with blanks to the same length, so that task N is found without reading the
-// others (docs/batch.md has the fields). Grid tasks come first, by day and then station; then the
-// frame tasks, by hour, and the statistics, by month and hour of the day. The same source, range
-// and recipe give the same bytes.
+// others (docs/guides/batch.md has the fields). Grid tasks come first, by day and then station; then
+// the frame tasks, by hour, and the statistics, by month and hour of the day. The same source,
+// range and recipe give the same bytes.
 //
 // Threads   A plan may be read by many threads.
 // Errors    not_found, corrupt, io; bad_argument for a number that is no task.

@@ -1,7 +1,7 @@
 // batch/record.h -- what a task did, in a file that appears when the task is done.
 //
 // PLAN/tasks/00012/12345.json is the record of task 12345: a thousand records to a directory. Their
-// sum stands beside them once all are there (batch/check.h). docs/batch.md has the fields.
+// sum stands beside them once all are there (batch/check.h). docs/guides/batch.md has the fields.
 //
 // A record appears by rename. Of two tasks that ran at the same time, the last one's record stays;
 // what they made is the same.

@@ -1,5 +1,5 @@
 # The Debian package: `cpack --config build/release/CPackConfig.cmake`, or the target `package`. It is
-# laid out below /usr whatever prefix the tree was configured with. docs/guides/operate.md, Install.
+# laid out below /usr whatever prefix the tree was configured with. docs/guides/install-and-run.md, Install.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME stormcellar)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})

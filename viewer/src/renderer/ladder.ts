@@ -1,5 +1,5 @@
 // Costs of each way of drawing, and how far it is from the slicer. scripts/viewer-ladder measures and writes
-// the rows below; docs/viewer.md has the same table.
+// the rows below.
 //
 // dE is CIEDE2000 against the slicer with 2048 slices: the 99th percentile over the pixels that show
 // echo in either picture, of the scene where it is largest.
