@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -113,6 +114,21 @@ TEST(Documents, EveryLinkLeadsSomewhere) {
 }
 
 // Beside the program the documents lie as they do here, and nothing else does.
+// The documents had 134,000 words once, which nobody read.
+TEST(Documents, AreShortEnoughToBeRead) {
+    constexpr std::size_t most_words = 65'000;
+    std::vector<fs::path> all = documents();
+    all.insert(all.end(), {"CHANGELOG.md", "SECURITY.md"});
+    std::size_t words = 0;
+    for (const fs::path& document : all) {
+        std::istringstream text(testing::text_of(testing::source_directory() / document));
+        words +=
+            static_cast<std::size_t>(std::distance(std::istream_iterator<std::string>(text), {}));
+    }
+    EXPECT_GT(words, most_words / 2) << "they were not all read";
+    EXPECT_LE(words, most_words);
+}
+
 TEST(Documents, WhatTheInstalledOnesLinkToIsInstalled) {
     for (const fs::path& document : documents()) {
         ASSERT_TRUE(is_installed(document)) << document;
