@@ -1,5 +1,5 @@
 // stormcellard: the service. Its usage is the text below.
-#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -7,13 +7,11 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/service_program.h"
 #include "cache/map_guard.h"
 #include "daemon/care/caretaker.h"
 #include "daemon/care/state_keeper.h"
@@ -27,6 +25,7 @@
 #include "daemon/status/status_server.h"
 #include "daemon/watch/unreadable.h"
 #include "pipeline/keep/instance_lock.h"
+#include "service/program.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
 
@@ -45,15 +44,8 @@ constexpr std::string_view usage =
     "  --check-config   check FILE and, without --no-loops, its loops' scenes, and exit\n"
     "  --version, --help\n";
 
-// Growing volumes and databases of all stations take some 1,000 descriptors, which is the usual
-// soft limit for the sake of old programs. If the limit cannot be raised, the error appears where a
-// descriptor is missing.
-void raise_descriptor_limit() {
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-    limit.rlim_cur = std::max<rlim_t>(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 16'384));
-    (void)::setrlimit(RLIMIT_NOFILE, &limit);
-}
+// Growing volumes and databases of all stations take some 1,000 descriptors.
+constexpr std::uint64_t wanted_descriptors = 16'384;
 
 Status make_directory(const std::filesystem::path& path) {
     std::error_code error;
@@ -143,7 +135,7 @@ std::filesystem::path socket_of(const FixedConfig& config) {
 int serve(const Config& config, const std::filesystem::path& file, bool runs_loops) {
     keep_freed_memory();
     cache::install_map_guard();
-    raise_descriptor_limit();
+    raise_descriptor_limit(wanted_descriptors);
     set_up_logging(config.reloadable.log_level, usual_outlet());
     const FixedConfig& fixed = config.fixed;
     StateKeeper state(fixed.paths.state);

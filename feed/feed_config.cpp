@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "base/printable.h"
-#include "base/service_keys.h"
 #include "base/toml_file.h"
+#include "service/config_keys.h"
 #include "stormcellar/base/station_table.h"
 
 namespace stormcellar::feed {

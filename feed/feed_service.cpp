@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/counted.h"
-#include "base/service_log.h"
+#include "service/log.h"
 
 namespace stormcellar::feed {
 namespace {

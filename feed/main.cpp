@@ -5,14 +5,13 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <systemd/sd-daemon.h>
 
 #include "base/counted.h"
 #include "base/printable.h"
-#include "base/service_log.h"
-#include "base/service_program.h"
-#include "base/waited_signals.h"
 #include "feed/feed_service.h"
+#include "service/log.h"
+#include "service/program.h"
+#include "service/turns.h"
 #include "stormcellar/base/version.h"
 
 namespace stormcellar::feed {
@@ -32,11 +31,6 @@ constexpr std::string_view no_station =
     "[feed] stations names no station, so there is nothing to follow, and the service will not "
     "start";
 
-// Tells systemd. Without it, nothing happens.
-void notify(const std::string& state) {
-    (void)::sd_notify(0, state.c_str());
-}
-
 Result<FeedConfig> load_with_stations(const std::filesystem::path& file) {
     auto config = load_feed_config(file);
     if (config && config->stations.empty()) {
@@ -45,28 +39,22 @@ Result<FeedConfig> load_with_stations(const std::filesystem::path& file) {
     return config;
 }
 
-void publish(FeedService& service) {
-    static bool was_written = true;
-    const Status written = service.publish();
-    if (!written && was_written) say(LogLevel::error, "{}", written.error().message);
-    was_written = written.has_value();
-}
-
 // Runs until a signal comes, and returns its number.
-int run_until_signal(FeedService& service, const WaitedSignals& signals) {
+int run_until_signal(FeedService& service, const Signals& signals, Notifier& notifier) {
     std::atomic<bool> stop{false};
     int number = 0;
     SteadyTime next_look{}, next_report{};
+    FirstFailure written;
     service.run(stop, [&] {
         const SteadyTime now = steady_now();
         if (now < next_look) return;
         next_look = now + between_looks;
-        number = signals.next(std::chrono::milliseconds{0}).value_or(0);
+        number = signals.next().value_or(0);
         stop = number != 0;
         if (now < next_report && !stop) return;
         next_report = now + between_reports;
-        publish(service);
-        notify("WATCHDOG=1");
+        written.note(service.publish());
+        notifier.send("WATCHDOG=1");
     });
     return number;
 }
@@ -90,26 +78,25 @@ std::unique_ptr<FeedService> reloaded(const std::filesystem::path& file) {
 
 int feed(const FeedConfig& config, const std::filesystem::path& file) {
     set_log_level(config.log_level);
-    const WaitedSignals signals;
+    const auto signals = Signals::open();
+    if (!signals) return complain(program, signals.error());
     auto opened = FeedService::open(real_file_system(), config);
     if (!opened) return complain(program, opened.error());
     std::unique_ptr<FeedService> service = std::move(*opened);
     say(LogLevel::info, "stormcellar-feed {}: following {} of {}, whose chunks go to {}",
         software_version, counted(config.stations.size(), "station"), config.bucket,
         config.drop.native());
-    notify("READY=1");
+    SystemdNotifier notifier;
+    notifier.send("READY=1");
     for (;;) {
-        const int number = run_until_signal(*service, signals);
+        const int number = run_until_signal(*service, *signals, notifier);
         if (number != SIGHUP) {
-            say(LogLevel::info, "stopping: received {}", number == SIGTERM ? "SIGTERM" : "SIGINT");
-            break;
+            say_stopping(number, notifier);
+            return EXIT_SUCCESS;
         }
-        notify(reloading_state());
+        const Reloading reloading(notifier);
         if (auto fresh = reloaded(file)) service = std::move(fresh);
-        notify("READY=1");
     }
-    notify("STOPPING=1");
-    return EXIT_SUCCESS;
 }
 
 int run(const ServiceArguments& arguments) {

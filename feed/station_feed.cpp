@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/service_log.h"
+#include "service/log.h"
 
 namespace stormcellar::feed {
 namespace {

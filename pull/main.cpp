@@ -2,26 +2,22 @@
 // below.
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <systemd/sd-daemon.h>
 
 #include "base/counted.h"
 #include "base/printable.h"
-#include "base/service_log.h"
-#include "base/service_program.h"
-#include "base/waited_signals.h"
 #include "pull/pull_service.h"
+#include "service/log.h"
+#include "service/program.h"
+#include "service/turns.h"
 #include "stormcellar/base/version.h"
 
 namespace stormcellar::pull {
 namespace {
 
 constexpr std::string_view program = "stormcellar-pull";
-// Period in which the program writes the status and feeds the watchdog.
-constexpr std::chrono::milliseconds turn{1000};
 // A thread that is silent for this long is stuck; a transfer beats at least once a second.
 constexpr std::chrono::minutes longest_silence{5};
 
@@ -31,21 +27,8 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-// Tells systemd. Without it, nothing happens.
-void notify(const std::string& state) {
-    (void)::sd_notify(0, state.c_str());
-}
-
-void publish(PullService& service) {
-    static bool was_written = true;
-    const Status written = service.publish();
-    if (!written && was_written) say(LogLevel::error, "{}", written.error().message);
-    was_written = written.has_value();
-}
-
-// The threads end, and begin anew as the configuration now says.
-void reload(std::unique_ptr<PullService>& service, const std::filesystem::path& file) {
-    notify(reloading_state());
+// The threads end, and begin anew as the configuration now says. Returns false if they cannot.
+bool reload(std::unique_ptr<PullService>& service, const std::filesystem::path& file) {
     const auto fresh = load_pull_config(file);
     if (!fresh) {
         say(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
@@ -57,33 +40,27 @@ void reload(std::unique_ptr<PullService>& service, const std::filesystem::path& 
         if (opened) say(LogLevel::info, "reloaded {}", file.native());
         if (!opened) say(LogLevel::error, "{}", opened.error().message);
     }
-    notify("READY=1");
+    return service != nullptr;
 }
 
 int pull(const PullConfig& config, const std::filesystem::path& file) {
     set_log_level(config.log_level);
-    const WaitedSignals signals;
+    const auto signals = Signals::open();
+    if (!signals) return complain(program, signals.error());
     auto opened = PullService::open(real_file_system(), config);
     if (!opened) return complain(program, opened.error());
     std::unique_ptr<PullService> service = std::move(*opened);
     say(LogLevel::info, "stormcellar-pull {}: asking {} for grids, which go to {}",
         software_version, counted(config.sources.size(), "machine"), config.directory.native());
-    notify("READY=1");
-    for (;;) {
-        publish(*service);
-        if (service->longest_silence() < longest_silence) notify("WATCHDOG=1");
-        const auto number = signals.next(turn);
-        if (!number) continue;
-        if (*number != SIGHUP) {
-            say(LogLevel::info, "stopping: received {}", *number == SIGTERM ? "SIGTERM" : "SIGINT");
-            break;
-        }
-        reload(service, file);
-        if (service == nullptr) return EXIT_FAILURE;
-    }
-    notify("STOPPING=1");
+    SystemdNotifier notifier;
+    FirstFailure written;
+    const bool is_stopped =
+        take_turns({.turn = [&] { written.note(service->publish()); },
+                    .is_well = [&] { return service->longest_silence() < longest_silence; },
+                    .reload = [&] { return reload(service, file); }},
+                   *signals, notifier);
     service.reset();
-    return EXIT_SUCCESS;
+    return is_stopped ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 int run(const ServiceArguments& arguments) {

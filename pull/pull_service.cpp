@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/service_log.h"
+#include "service/log.h"
 
 namespace stormcellar::pull {
 namespace {

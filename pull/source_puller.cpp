@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/service_log.h"
 #include "pull/grid_list.h"
+#include "service/log.h"
 
 namespace stormcellar::pull {
 namespace {

@@ -1,37 +1,31 @@
 // stormcellar-web: the data server as a service. Its usage is the text below.
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/resource.h>
-#include <systemd/sd-daemon.h>
 
 #include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/service_log.h"
-#include "base/service_program.h"
-#include "base/steady_time.h"
-#include "base/waited_signals.h"
 #include "cache/map_guard.h"
+#include "service/log.h"
+#include "service/program.h"
+#include "service/turns.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
 #include "web/config/web_setup.h"
-#include "web/service/watchdog.h"
 #include "web/service/web_service.h"
 
 namespace stormcellar::web {
 namespace {
 
 constexpr std::string_view program = "stormcellar-web";
-// Period in which the program looks for a catalog and feeds the watchdog when it is due.
-constexpr std::chrono::milliseconds turn{1000};
 
 constexpr std::string_view usage =
     "usage: stormcellar-web --config FILE [--check-config]\n"
@@ -39,30 +33,10 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-// Each connection, open grid and raw file takes a descriptor, and 1,024 is the usual soft limit for
-// the sake of old programs.
-void raise_descriptor_limit() {
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-    limit.rlim_cur = std::max<rlim_t>(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 65'536));
-    (void)::setrlimit(RLIMIT_NOFILE, &limit);
-}
-
-// Tells systemd. Without it, nothing happens.
-void notify(const std::string& state) {
-    (void)::sd_notify(0, state.c_str());
-}
-
-Watchdog systemd_watchdog() {
-    std::uint64_t microseconds = 0;
-    std::optional<std::chrono::microseconds> period;
-    if (::sd_watchdog_enabled(0, &microseconds) > 0)
-        period = std::chrono::microseconds{microseconds};
-    return Watchdog(period, [] { notify("WATCHDOG=1"); });
-}
+// Each connection, open grid and raw file takes one.
+constexpr std::uint64_t wanted_descriptors = 65'536;
 
 void reload(WebService& service, const std::filesystem::path& file) {
-    notify(reloading_state());
     const auto fresh = load_web_setup(file);
     if (!fresh) {
         say(LogLevel::error, "the configuration stays as it was: {}", fresh.error().message);
@@ -75,7 +49,6 @@ void reload(WebService& service, const std::filesystem::path& file) {
         if (!taken)
             say(LogLevel::error, "the configuration stays as it was: {}", taken.error().message);
     }
-    notify("READY=1");
 }
 
 // Without the right to read it, clients are told only that a file cannot be read now.
@@ -100,7 +73,6 @@ void take_turn(WebService& service, const std::filesystem::path& file, bool relo
     } catch (const std::exception& error) {
         say(LogLevel::error, "{}: {}",
             reloads ? "the configuration stays as it was" : "a look failed", error.what());
-        if (reloads) notify("READY=1");
     }
 }
 
@@ -108,10 +80,11 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     keep_freed_memory();
     hold_arenas(2 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
     cache::install_map_guard();
-    raise_descriptor_limit();
+    raise_descriptor_limit(wanted_descriptors);
     set_log_level(setup.log_level);
     set_added_stations(setup.added_stations);
-    const WaitedSignals signals;
+    const auto signals = Signals::open();
+    if (!signals) return complain(program, signals.error());
     auto service = WebService::open(setup);
     if (!service) return complain(program, service.error());
     say(LogLevel::info, "stormcellar-web {}: listening on {}", software_version,
@@ -119,21 +92,17 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
     if (!(*service)->has_catalog())
         say(LogLevel::warning, "there is no catalog {} yet", setup.catalog.native());
     look_at_drop(setup.drop);
-    notify("READY=1");
-    Watchdog watchdog = systemd_watchdog();
-    for (;;) {
-        watchdog.feed(**service, steady_now());
-        const auto number = signals.next(turn);
-        if (!number || *number == SIGHUP) {
-            take_turn(**service, file, number.has_value());
-        } else {
-            say(LogLevel::info, "stopping: received {}", *number == SIGTERM ? "SIGTERM" : "SIGINT");
-            break;
-        }
-    }
-    notify("STOPPING=1");
+    SystemdNotifier notifier;
+    const bool is_stopped = take_turns({.turn = [&] { take_turn(**service, file, false); },
+                                        .is_well = [&] { return (*service)->is_at_work(); },
+                                        .reload =
+                                            [&] {
+                                                take_turn(**service, file, true);
+                                                return true;
+                                            }},
+                                       *signals, notifier);
     service->reset();
-    return EXIT_SUCCESS;
+    return is_stopped ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 int run(const ServiceArguments& arguments) {

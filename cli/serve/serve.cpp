@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "base/service_log.h"
-#include "base/waited_signals.h"
 #include "cli/serve/served_files.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/service_places.h"
+#include "service/log.h"
+#include "service/signals.h"
 #include "stormcellar/base/station_table.h"
 #include "web/service/web_service.h"
 
@@ -88,7 +88,8 @@ int run_serve(const ServeOptions& options) {
     set_added_stations(setup->added_stations);
     set_log_level(options.verbose ? "debug" : "warning");
     // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
-    const WaitedSignals signals;
+    const auto signals = Signals::open();
+    if (!signals) return report_error(signals.error());
     std::unique_ptr<ServedFiles> files;
     if (!options.files.empty()) {
         auto taken = ServedFiles::take(options.files, options.threads);
@@ -102,7 +103,7 @@ int run_serve(const ServeOptions& options) {
         fmt::print("listening on {}\n", address);
     std::fflush(stdout);
     if (files) files->take_rest();
-    serve_until_signal(signals, **service);
+    serve_until_signal(*signals, **service);
     service->reset();
     return exit_done;
 }

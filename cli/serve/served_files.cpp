@@ -50,7 +50,7 @@ void serve_files(const ServedFiles& files, web::WebSetup& setup) {
     setup.web.silent = std::chrono::hours{24 * 365 * 100};
 }
 
-void serve_until_signal(const WaitedSignals& signals, web::WebService& service) {
+void serve_until_signal(const Signals& signals, web::WebService& service) {
     for (;;) {
         const auto number = signals.next(std::chrono::seconds{1});
         if (number && *number != SIGHUP) return;

@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "base/waited_signals.h"
 #include "cli/serve/scratch_cellar.h"
+#include "service/signals.h"
 #include "stormcellar/base/result.h"
 #include "web/service/web_service.h"
 
@@ -51,6 +51,6 @@ class ServedFiles {
 void serve_files(const ServedFiles& files, web::WebSetup& setup);
 
 // Returns when a signal asks the program to end.
-void serve_until_signal(const WaitedSignals& signals, web::WebService& service);
+void serve_until_signal(const Signals& signals, web::WebService& service);
 
 }  // namespace stormcellar::cli

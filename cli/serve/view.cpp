@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "base/service_log.h"
-#include "base/waited_signals.h"
 #include "cli/serve/browser.h"
 #include "cli/serve/served_files.h"
 #include "cli/shared/commands.h"
+#include "service/log.h"
+#include "service/signals.h"
 #include "web/doors/viewer_files.h"
 #include "web/service/web_service.h"
 
@@ -41,7 +41,8 @@ int run_view(const ViewOptions& options) {
     }
     set_log_level("warning");
     // From here on Ctrl-C waits until somebody asks for it, so nothing is left behind.
-    const WaitedSignals signals;
+    const auto signals = Signals::open();
+    if (!signals) return report_error(signals.error());
     auto files = ServedFiles::take(options.files, options.threads);
     if (!files) return report_error(files.error());
     auto setup = setup_of_files(**files);
@@ -54,7 +55,7 @@ int run_view(const ViewOptions& options) {
     fmt::print("{}Ctrl-C ends it\n", is_opened ? "" : "open this address in a browser; ");
     std::fflush(stdout);
     (*files)->take_rest();
-    serve_until_signal(signals, **service);
+    serve_until_signal(*signals, **service);
     service->reset();
     return exit_done;
 }

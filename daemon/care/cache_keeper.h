@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "base/steady_time.h"
-#include "daemon/process/pulse.h"
 #include "daemon/queue/sink.h"
+#include "service/pulse.h"
 
 namespace stormcellar::daemon {
 

@@ -17,9 +17,9 @@
 #include <mutex>
 #include <thread>
 
-#include "daemon/process/pulse.h"
 #include "pipeline/care/mend_cache.h"
 #include "pipeline/mosaic/site_watch.h"
+#include "service/pulse.h"
 
 namespace stormcellar::daemon {
 

@@ -12,8 +12,8 @@
 #include <future>
 
 #include "base/steady_time.h"
-#include "daemon/process/pulse.h"
 #include "daemon/queue/sink.h"
+#include "service/pulse.h"
 
 namespace stormcellar::daemon {
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "base/printable.h"
-#include "daemon/process/child.h"
+#include "service/child.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 

@@ -3,7 +3,7 @@
 // The program itself is run for this, since the daemon reads no scenes and links no renderer.
 // Nothing is drawn or written, and neither the cache nor the directories of outputs need to exist.
 //
-// Threads   Main thread only (daemon/process/child.h).
+// Threads   Main thread only (service/child.h).
 #pragma once
 
 #include <filesystem>

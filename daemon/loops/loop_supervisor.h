@@ -22,10 +22,10 @@
 
 #include "base/steady_time.h"
 #include "daemon/config/loop_config.h"
-#include "daemon/process/child.h"
-#include "daemon/process/pulse.h"
 #include "daemon/process/wake_up.h"
 #include "daemon/watch/file_stamp.h"
+#include "service/child.h"
+#include "service/pulse.h"
 
 namespace stormcellar::daemon {
 

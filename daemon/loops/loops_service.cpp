@@ -9,9 +9,9 @@
 
 #include "base/counted.h"
 #include "base/printable.h"
-#include "base/service_program.h"
 #include "daemon/log/log.h"
 #include "daemon/status/status.h"
+#include "service/program.h"
 
 namespace stormcellar::daemon {
 namespace {

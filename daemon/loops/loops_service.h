@@ -22,9 +22,9 @@
 
 #include "daemon/config/config.h"
 #include "daemon/loops/loop_supervisor.h"
-#include "daemon/process/notify.h"
-#include "daemon/process/signals.h"
+#include "daemon/process/main_loop.h"
 #include "daemon/process/wake_up.h"
+#include "service/notify.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::daemon {

@@ -30,10 +30,10 @@
 
 #include "daemon/config/config.h"
 #include "daemon/partials/machine_directory.h"
-#include "daemon/process/pulse.h"
 #include "daemon/process/wake_up.h"
 #include "daemon/status/machine_facts.h"
 #include "pipeline/mosaic/mosaic_maker.h"
+#include "service/pulse.h"
 #include "stormcellar/base/station_rule.h"
 
 namespace stormcellar::daemon {

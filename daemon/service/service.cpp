@@ -10,8 +10,8 @@
 #include "base/counted.h"
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/service_program.h"
 #include "daemon/log/log.h"
+#include "service/program.h"
 
 namespace stormcellar::daemon {
 namespace {

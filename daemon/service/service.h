@@ -30,10 +30,8 @@
 #include "daemon/care/state_keeper.h"
 #include "daemon/config/config.h"
 #include "daemon/loops/loop_supervisor.h"
-#include "daemon/process/notify.h"
-#include "daemon/process/pulse.h"
+#include "daemon/process/main_loop.h"
 #include "daemon/process/readiness.h"
-#include "daemon/process/signals.h"
 #include "daemon/process/wake_up.h"
 #include "daemon/queue/intake.h"
 #include "daemon/queue/sink.h"
@@ -46,6 +44,8 @@
 #include "daemon/watch/inotify.h"
 #include "daemon/watch/watcher.h"
 #include "pipeline/mosaic/site_watch.h"
+#include "service/notify.h"
+#include "service/pulse.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::daemon {

@@ -10,8 +10,8 @@
 
 #include <string>
 
-#include "daemon/status/metrics_writer.h"
 #include "daemon/status/status.h"
+#include "service/metrics_writer.h"
 
 namespace stormcellar::daemon {
 

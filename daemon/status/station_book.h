@@ -25,7 +25,7 @@
 
 #include "daemon/queue/worker_pool.h"
 #include "daemon/status/status_names.h"
-#include "daemon/status/timings.h"
+#include "service/timings.h"
 #include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::daemon {

@@ -25,9 +25,9 @@
 #include "daemon/status/rejected_paths.h"
 #include "daemon/status/station_book.h"
 #include "daemon/status/status_names.h"
-#include "daemon/status/timings.h"
 #include "daemon/watch/unreadable.h"
 #include "pipeline/mosaic/site_watch.h"
+#include "service/timings.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/cache/store.h"
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "daemon/process/notify.h"
 #include "daemon/status/status.h"
+#include "service/notify.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::daemon {

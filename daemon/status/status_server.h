@@ -28,9 +28,9 @@
 #include <string>
 #include <thread>
 
-#include "daemon/process/pulse.h"
 #include "daemon/process/wake_up.h"
 #include "daemon/status/status_board.h"
+#include "service/pulse.h"
 
 namespace stormcellar::daemon {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/process/notify.h"
+#include "service/notify.h"
 
 namespace stormcellar::daemon {
 

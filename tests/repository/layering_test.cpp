@@ -22,6 +22,7 @@ using Rooms = std::set<std::string>;
 
 const std::map<std::string, Rooms> allowed = {
     {"base", {}},
+    {"service", {"base"}},
     {"accuracy", {"base"}},
     {"bunzip", {}},
     {"archive", {"base"}},
@@ -37,15 +38,15 @@ const std::map<std::string, Rooms> allowed = {
     {"batch", {"archive", "base", "cache", "catalog", "fetch", "grid", "level2", "pipeline"}},
     {"daemon",
      {"base", "accuracy", "archive", "bunzip", "level2", "catalog", "grid", "cache", "pipeline",
-      "web/config"}},
+      "service", "web/config"}},
     {"web",
      {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache", "render", "export",
-      "pipeline"}},
-    {"pull", {"base", "cache", "grid", "level2"}},
-    {"feed", {"base", "fetch", "level2"}},
+      "pipeline", "service"}},
+    {"pull", {"base", "cache", "grid", "level2", "service"}},
+    {"feed", {"base", "fetch", "level2", "service"}},
     {"cli",
      {"base", "accuracy", "archive", "batch", "bunzip", "fetch", "level2", "catalog", "grid",
-      "cache", "render", "synth", "export", "pipeline", "web"}},
+      "cache", "render", "synth", "export", "pipeline", "service", "web"}},
 };
 
 // The inner rooms that each inner room may include beside itself; the lowest ones first. A room

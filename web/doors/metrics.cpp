@@ -1,11 +1,13 @@
 #include "web/doors/metrics.h"
 
+#include "service/metrics_writer.h"
+
 namespace stormcellar::web {
 
 Answer MetricsDoor::answer(const Request& request) {
     if (segments_of(request.path).size() != 1)
         return sentence(404, "There is nothing below /metrics.");
-    Answer answer = text_answer(200, "text/plain; version=0.0.4; charset=utf-8", counters_->text());
+    Answer answer = text_answer(200, metrics_content_type, counters_->text());
     answer.with("Cache-Control", "no-store");
     return answer;
 }

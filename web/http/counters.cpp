@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace stormcellar::web {
 namespace {
@@ -15,27 +14,6 @@ bool lies_below(std::string_view path, std::string_view prefix) {
     return path.size() == prefix.size() || prefix.ends_with('/') || path[prefix.size()] == '/';
 }
 
-// Prefixes come from the program, yet a quotation mark in one must not break the text.
-std::string label_text(std::string_view text) {
-    std::string result;
-    for (const char letter : text) {
-        if (letter == '\\' || letter == '"') result += '\\';
-        result += letter == '\n' ? ' ' : letter;
-    }
-    return result;
-}
-
-std::string metric_number(double value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value > 0 ? "+Inf" : "-Inf";
-    return fmt::format("{}", value);
-}
-
-void begin_family(std::string& text, std::string_view name, std::string_view type,
-                  std::string_view help) {
-    text += fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name, type);
-}
-
 }  // namespace
 
 void Counters::add_door(std::string prefix) {
@@ -43,17 +21,14 @@ void Counters::add_door(std::string prefix) {
 }
 
 void Counters::add_gauge(std::string name, std::string help, std::function<double()> value,
-                         const Fields& labels) {
-    std::string text;
-    for (const auto& [label, content] : labels)
-        text += fmt::format("{}{}=\"{}\"", text.empty() ? "{" : ",", label, label_text(content));
-    if (!text.empty()) text += '}';
-    functions_.push_back(
-        {std::move(name), std::move(help), std::move(text), "gauge", std::move(value)});
+                         Fields labels) {
+    functions_.push_back({std::move(name), std::move(help), std::move(labels),
+                          MetricsWriter::Type::gauge, std::move(value)});
 }
 
 void Counters::add_counter(std::string name, std::string help, std::function<double()> value) {
-    functions_.push_back({std::move(name), std::move(help), {}, "counter", std::move(value)});
+    functions_.push_back(
+        {std::move(name), std::move(help), {}, MetricsWriter::Type::counter, std::move(value)});
 }
 
 Counters::PerDoor& Counters::door_of(const Request* request) {
@@ -95,48 +70,38 @@ std::vector<const Counters::PerDoor*> Counters::all_doors() const {
 }
 
 std::string Counters::text() const {
-    std::string text;
+    using Type = MetricsWriter::Type;
+    MetricsWriter metrics;
     const auto doors = all_doors();
-    begin_family(text, "stormcellar_web_requests_total", "counter",
-                 "Answers by door and status; 0 stands for all other statuses.");
+    metrics.family("stormcellar_web_requests_total", Type::counter,
+                   "Answers by door and status; 0 stands for all other statuses.");
     for (const PerDoor* door : doors) {
         for (std::size_t i = 0; i <= counted_statuses.size(); ++i) {
             const std::uint64_t count = door->statuses[i];
             if (count == 0) continue;
-            text += fmt::format("stormcellar_web_requests_total{{door=\"{}\",status=\"{}\"}} {}\n",
-                                label_text(door->prefix),
-                                i < counted_statuses.size() ? counted_statuses[i] : 0, count);
+            const unsigned status = i < counted_statuses.size() ? counted_statuses[i] : 0;
+            metrics.sample(count, {{"door", door->prefix}, {"status", std::to_string(status)}});
         }
     }
-    begin_family(text, "stormcellar_web_answer_bytes_total", "counter",
-                 "Bytes of the bodies of answers by door, without event streams.");
+    metrics.family("stormcellar_web_answer_bytes_total", Type::counter,
+                   "Bytes of the bodies of answers by door, without event streams.");
+    for (const PerDoor* door : doors)
+        metrics.sample(door->bytes.load(), {{"door", door->prefix}});
+    metrics.family("stormcellar_web_answer_seconds", Type::histogram,
+                   "Seconds from a request to its answer by door, without the time of sending.");
     for (const PerDoor* door : doors) {
-        text += fmt::format("stormcellar_web_answer_bytes_total{{door=\"{}\"}} {}\n",
-                            label_text(door->prefix), door->bytes.load());
-    }
-    begin_family(text, "stormcellar_web_answer_seconds", "histogram",
-                 "Seconds from a request to its answer by door, without the time of sending.");
-    for (const PerDoor* door : doors) {
-        const std::string label = label_text(door->prefix);
-        std::uint64_t count = 0;
-        for (std::size_t i = 0; i <= counted_seconds.size(); ++i) {
-            count += door->buckets[i];
-            text += fmt::format(
-                "stormcellar_web_answer_seconds_bucket{{door=\"{}\",le=\"{}\"}} {}\n", label,
-                i < counted_seconds.size() ? metric_number(counted_seconds[i]) : "+Inf", count);
-        }
-        const double sum = static_cast<double>(door->microseconds.load()) / 1e6;
-        text += fmt::format("stormcellar_web_answer_seconds_sum{{door=\"{}\"}} {}\n", label,
-                            metric_number(sum));
-        text +=
-            fmt::format("stormcellar_web_answer_seconds_count{{door=\"{}\"}} {}\n", label, count);
+        const std::vector<std::uint64_t> counts(door->buckets.begin(), door->buckets.end());
+        metrics.sample(counted_seconds, counts,
+                       static_cast<double>(door->microseconds.load()) / 1e6,
+                       {"door", door->prefix});
     }
     for (const Function& function : functions_) {
-        begin_family(text, function.name, function.type, function.help);
-        text += fmt::format("{}{} {}\n", function.name, function.labels,
-                            metric_number(function.value()));
+        metrics.family(function.name, function.type, function.help);
+        const std::vector<MetricsWriter::Label> labels(function.labels.begin(),
+                                                       function.labels.end());
+        metrics.sample(function.value(), labels);
     }
-    return text;
+    return metrics.take();
 }
 
 }  // namespace stormcellar::web

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "service/metrics_writer.h"
 #include "web/http/server_options.h"
 
 namespace stormcellar::web {
@@ -39,7 +40,7 @@ class Counters {
     // A number that rises and falls, or that only rises. The name is that of the family:
     // "stormcellar_web_kept_bytes".
     void add_gauge(std::string name, std::string help, std::function<double()> value,
-                   const Fields& labels = {});
+                   Fields labels = {});
     void add_counter(std::string name, std::string help, std::function<double()> value);
 
     void count(const Served& served);
@@ -55,8 +56,9 @@ class Counters {
         std::atomic<std::uint64_t> bytes{0}, microseconds{0};
     };
     struct Function {
-        std::string name, help, labels;  // labels as they are written
-        std::string_view type;
+        std::string name, help;
+        Fields labels;
+        MetricsWriter::Type type;
         std::function<double()> value;
     };
     PerDoor& door_of(const Request* request);

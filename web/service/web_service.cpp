@@ -12,8 +12,8 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include "base/service_log.h"
 #include "base/steady_time.h"
+#include "service/log.h"
 #include "stormcellar/base/descriptor.h"
 
 namespace stormcellar::web {
@@ -142,6 +142,12 @@ Status WebService::serve() try {
 
 std::vector<std::string> WebService::addresses() const {
     return server_ ? server_->addresses() : std::vector<std::string>{};
+}
+
+bool WebService::is_at_work() const {
+    if (!is_listening()) return false;
+    (void)facts();
+    return true;
 }
 
 void WebService::look_again() {

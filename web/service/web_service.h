@@ -29,6 +29,9 @@ class WebService {
     [[nodiscard]] bool has_catalog() const { return sources_.catalog != nullptr; }
     // Returns false if the server could not be opened again after a reload. look_again() tries to.
     [[nodiscard]] bool is_listening() const { return server_ != nullptr; }
+    // Returns true if it listens and its server answers what its facts are, which a server that is
+    // stuck never does.
+    [[nodiscard]] bool is_at_work() const;
     // Call once a second.
     void look_again();
 

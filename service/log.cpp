@@ -1,4 +1,4 @@
-#include "base/service_log.h"
+#include "service/log.h"
 
 #include <array>
 #include <atomic>

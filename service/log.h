@@ -1,4 +1,4 @@
-// base/service_log.h -- the lines that a service writes to stderr: start, stop, trouble.
+// service/log.h -- the lines that a service writes to stderr: start, stop, trouble.
 // Only programs and their services call it.
 //
 // Under systemd, lines carry the "<N>" prefix by which the journal knows their level; otherwise the
@@ -10,6 +10,8 @@
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "stormcellar/base/result.h"
 
 namespace stormcellar {
 
@@ -24,5 +26,17 @@ template <class... Arguments>
 void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... values) {
     if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
 }
+
+// Logs the first of several failures in a row, and the next one only after a success.
+class FirstFailure {
+  public:
+    void note(const Status& status) {
+        if (!status && was_fine_) say(LogLevel::error, "{}", status.error().message);
+        was_fine_ = status.has_value();
+    }
+
+  private:
+    bool was_fine_ = true;
+};
 
 }  // namespace stormcellar

@@ -1,4 +1,4 @@
-#include "daemon/process/child.h"
+#include "service/child.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 
 extern char** environ;
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ std::string Child::ended() {
     return ended_;
 }
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,4 +1,4 @@
-// daemon/process/child.h -- starts a program beside the daemon and reads its output.
+// service/child.h -- starts a program beside the daemon and reads its output.
 //
 // The program has no input, default signals, a process group of its own (so that Ctrl-C in a
 // terminal reaches only the daemon) and a lower priority; it is the first to be killed if memory
@@ -17,7 +17,7 @@
 
 #include "stormcellar/base/result.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 // Returns the path of the program of this name: beside this one, else on PATH; empty if there is
 // none.
@@ -79,4 +79,4 @@ class Child {
     std::string ended_;
 };
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,4 +1,4 @@
-#include "daemon/status/metrics_writer.h"
+#include "service/metrics_writer.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "base/printable.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 namespace {
 
 std::string_view word_of(MetricsWriter::Type type) {
@@ -17,6 +17,8 @@ std::string_view word_of(MetricsWriter::Type type) {
             return "gauge";
         case MetricsWriter::Type::summary:
             return "summary";
+        case MetricsWriter::Type::histogram:
+            return "histogram";
     }
     return "untyped";
 }
@@ -45,36 +47,55 @@ void MetricsWriter::family(std::string_view name, Type type, std::string_view he
     text_ += fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name, word_of(type));
 }
 
-void MetricsWriter::line(std::string_view suffix, Labels labels, std::string_view quantile,
+void MetricsWriter::line(std::string_view suffix, std::span<const Label> labels, const Label& extra,
                          std::string_view value) {
     text_ += name_;
     text_ += suffix;
     std::string inside;
-    for (const auto& [label, text] : labels)
-        inside += fmt::format("{}{}=\"{}\"", inside.empty() ? "" : ",", label, escaped(text));
-    if (!quantile.empty())
-        inside += fmt::format("{}quantile=\"{}\"", inside.empty() ? "" : ",", quantile);
+    const auto add = [&](const Label& label) {
+        inside += fmt::format("{}{}=\"{}\"", inside.empty() ? "" : ",", label.first,
+                              escaped(label.second));
+    };
+    for (const Label& label : labels)
+        add(label);
+    if (!extra.first.empty()) add(extra);
     if (!inside.empty()) text_ += fmt::format("{{{}}}", inside);
     text_ += fmt::format(" {}\n", value);
 }
 
 void MetricsWriter::sample(double value, Labels labels) {
-    line("", labels, "", number(value));
+    line("", labels, {}, number(value));
+}
+
+void MetricsWriter::sample(double value, std::span<const Label> labels) {
+    line("", labels, {}, number(value));
 }
 
 void MetricsWriter::sample(std::uint64_t value, Labels labels) {
-    line("", labels, "", fmt::format("{}", value));
+    line("", labels, {}, fmt::format("{}", value));
 }
 
 void MetricsWriter::sample(const Timings& timings, Labels labels) {
     const LatencySummary summary = timings.summary();
     if (summary.count > 0) {
-        line("", labels, "0.5", number(summary.median));
-        line("", labels, "0.95", number(summary.p95));
-        line("", labels, "1", number(summary.max));
+        line("", labels, {"quantile", "0.5"}, number(summary.median));
+        line("", labels, {"quantile", "0.95"}, number(summary.p95));
+        line("", labels, {"quantile", "1"}, number(summary.max));
     }
-    line("_sum", labels, "", number(timings.sum_s()));
-    line("_count", labels, "", fmt::format("{}", timings.count()));
+    line("_sum", labels, {}, number(timings.sum_s()));
+    line("_count", labels, {}, fmt::format("{}", timings.count()));
 }
 
-}  // namespace stormcellar::daemon
+void MetricsWriter::sample(std::span<const double> bounds, std::span<const std::uint64_t> counts,
+                           double sum, const Label& label) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        count += counts[i];
+        const std::string bound = i < bounds.size() ? number(bounds[i]) : "+Inf";
+        line("_bucket", {&label, 1}, {"le", bound}, fmt::format("{}", count));
+    }
+    line("_sum", {&label, 1}, {}, number(sum));
+    line("_count", {&label, 1}, {}, fmt::format("{}", count));
+}
+
+}  // namespace stormcellar

@@ -1,4 +1,4 @@
-// daemon/process/pulse.h -- whether the threads make progress, for the watchdog.
+// service/pulse.h -- whether the threads make progress, for the watchdog.
 //
 // A working thread reports each step; a thread that waits for work is at rest. What counts is how
 // long the current step of a thread has lasted, so long work is no hang if it has steps:
@@ -21,7 +21,7 @@
 
 #include "base/steady_time.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 class Pulse {
   public:
@@ -73,4 +73,4 @@ class Pulses {
     std::vector<Watched> all_;
 };
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,4 +1,4 @@
-#include "base/service_arguments.h"
+#include "service/arguments.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "daemon/process/signals.h"
+#include "daemon/process/main_loop.h"
 
 #include <csignal>
 
@@ -8,7 +8,7 @@ namespace stormcellar::daemon {
 namespace {
 
 // They stay blocked in this thread, as in that of the service.
-TEST(Signals, AreTakenOneAfterTheOther) {
+TEST(TakeSignals, AreTakenOneAfterTheOther) {
     const Result<Signals> signals = Signals::open();
     ASSERT_TRUE(signals);
     int reloads = 0;

@@ -1,4 +1,4 @@
-#include "daemon/process/notify.h"
+#include "service/notify.h"
 
 #include <cstdlib>
 
@@ -6,14 +6,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "base/service_program.h"
 #include "tests/daemon/notify_socket.h"
 #include "tests/daemon/steady_start.h"
 #include "tests/testing/temporary_directory.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 namespace {
 
+using daemon::NotifySocket;
+using daemon::t0;
 using std::chrono::microseconds;
 using std::chrono::seconds;
 
@@ -122,4 +123,4 @@ TEST(Watchdog, TheOldestStepOfAllCounts) {
 }
 
 }  // namespace
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

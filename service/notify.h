@@ -1,4 +1,4 @@
-// daemon/process/notify.h -- what the service tells its service manager (sd_notify(3)), and the
+// service/notify.h -- what the service tells its service manager (sd_notify(3)), and the
 // watchdog. Without a service manager, none of it does anything.
 //
 // Threads   One thread at a time.
@@ -9,9 +9,9 @@
 #include <string>
 
 #include "base/steady_time.h"
-#include "daemon/process/pulse.h"
+#include "service/pulse.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 class Notifier {
   public:
@@ -34,15 +34,30 @@ class SystemdNotifier final : public Notifier {
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
+// Tells the manager that the service reloads, as long as the object lives; READY=1 ends it.
+class Reloading {
+  public:
+    explicit Reloading(Notifier& notifier);
+    Reloading(const Reloading&) = delete;
+    Reloading& operator=(const Reloading&) = delete;
+    ~Reloading();
+
+  private:
+    Notifier& notifier_;
+};
+
+// Returns "RELOADING=1" with the monotonic time that systemd requires (sd_notify(3)).
+[[nodiscard]] std::string reloading_state();
+
 // Decides when the watchdog is fed: four times a period, and only while no thread has been at one
 // step (pulse.h) for longer than a whole period. So a stuck thread is not hidden by the main loop,
-// which still runs. Such a step is logged once, with or without a watchdog.
+// which still runs. Such a step is reported once, with or without a watchdog.
 class WatchdogFeed {
   public:
     static constexpr std::chrono::seconds without_watchdog{180};
 
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
-    [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest);
+    [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest = std::nullopt);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     // Returns true if this step is now found to last too long and was not before.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
@@ -52,11 +67,7 @@ class WatchdogFeed {
 
     std::optional<std::chrono::microseconds> period_;
     SteadyTime next_{};
-    std::optional<SteadyTime> found_hanging_;  // the start of the step that was logged
+    std::optional<SteadyTime> found_hanging_;  // the start of the step that was reported
 };
 
-// Feeds the watchdog if it is due, and logs a thread that hangs.
-void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
-          const std::optional<Step>& oldest);
-
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,15 +1,13 @@
-#include "daemon/process/notify.h"
+#include "service/notify.h"
 
 #include <cstdint>
+#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
 #include <systemd/sd-daemon.h>
 
-#include "base/printable.h"
-#include "daemon/log/log.h"
-
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 // A failure is ignored: the service manager's own timeouts react to silence.
 void SystemdNotifier::send(const std::string& state) {
@@ -20,6 +18,21 @@ std::optional<std::chrono::microseconds> SystemdNotifier::watchdog() const {
     std::uint64_t period_us = 0;
     if (sd_watchdog_enabled(0, &period_us) <= 0) return std::nullopt;
     return std::chrono::microseconds{period_us};
+}
+
+std::string reloading_state() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
+                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
+}
+
+Reloading::Reloading(Notifier& notifier) : notifier_(notifier) {
+    notifier_.send(reloading_state());
+}
+
+Reloading::~Reloading() {
+    notifier_.send("READY=1");
 }
 
 bool WatchdogFeed::hangs(SteadyTime now, const std::optional<Step>& oldest) const {
@@ -42,15 +55,4 @@ std::optional<SteadyTime> WatchdogFeed::next_time() const {
     return next_;
 }
 
-void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
-          const std::optional<Step>& oldest) {
-    if (watchdog.is_due(now, oldest)) notifier.send("WATCHDOG=1");
-    if (!watchdog.hangs_now(now, oldest)) return;
-    log_error({Event::hang},
-              "hang: {} has been at one step for {} s; the watchdog is not fed until it goes on, "
-              "so systemd may restart the service",
-              printable(oldest->who),
-              std::chrono::duration_cast<std::chrono::seconds>(now - oldest->since).count());
-}
-
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

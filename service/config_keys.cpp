@@ -1,4 +1,4 @@
-#include "base/service_keys.h"
+#include "service/config_keys.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
-#include "base/service_program.h"
+#include "service/program.h"
 
-#include <cstdint>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "base/printable.h"
 #include "stormcellar/base/version.h"
@@ -52,11 +52,11 @@ int complain(std::string_view program, const Error& error) {
     return exit_failed;
 }
 
-std::string reloading_state() {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return fmt::format("RELOADING=1\nMONOTONIC_USEC={}",
-                       std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
+void raise_descriptor_limit(std::uint64_t wanted) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = std::max<rlim_t>(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, wanted));
+    (void)::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 }  // namespace stormcellar

@@ -1,4 +1,4 @@
-// daemon/status/metrics_writer.h -- writes the text format in which Prometheus reads metrics,
+// service/metrics_writer.h -- writes the text format in which Prometheus reads metrics,
 // version 0.0.4.
 //
 // Families follow each other: "# HELP", "# TYPE", then the samples, one line each:
@@ -12,28 +12,35 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "daemon/status/timings.h"
+#include "service/timings.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 inline constexpr std::string_view metrics_content_type = "text/plain; version=0.0.4; charset=utf-8";
 
 class MetricsWriter {
   public:
-    using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+    using Label = std::pair<std::string_view, std::string_view>;
+    using Labels = std::initializer_list<Label>;
 
-    enum class Type { counter, gauge, summary };
+    enum class Type { counter, gauge, summary, histogram };
     // Begins a family. A name is used once, and all its samples follow before the next family.
     void family(std::string_view name, Type type, std::string_view help);
     void sample(double value, Labels labels = {});
+    void sample(double value, std::span<const Label> labels);
     void sample(std::uint64_t value, Labels labels = {});
     // Writes a sample of a summary: median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1)
     // of the last values, if there are any, and sum and count of all since the start.
     void sample(const Timings& timings, Labels labels = {});
+    // Writes a sample of a histogram with one label: how many values were at most each bound and,
+    // last in `counts`, beyond all of them; and the sum of the values.
+    void sample(std::span<const double> bounds, std::span<const std::uint64_t> counts, double sum,
+                const Label& label);
 
     // Families of one sample without labels.
     void gauge(std::string_view name, std::string_view help, double value) {
@@ -56,11 +63,12 @@ class MetricsWriter {
     [[nodiscard]] std::string take() { return std::move(text_); }
 
   private:
-    void line(std::string_view suffix, Labels labels, std::string_view quantile,
+    // `extra` is one more label, after the others, if it has a name.
+    void line(std::string_view suffix, std::span<const Label> labels, const Label& extra,
               std::string_view value);
 
     std::string name_;
     std::string text_;
 };
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

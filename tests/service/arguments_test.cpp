@@ -1,5 +1,5 @@
 // A check of the configuration says as which user it was made.
-#include "base/service_arguments.h"
+#include "service/arguments.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

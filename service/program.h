@@ -1,13 +1,14 @@
-// base/service_program.h -- what the programs of the services have in common: answers to --help,
-// --version and wrong arguments, errors on stderr, and the words of a reload.
+// service/program.h -- what the programs of the services have in common: answers to --help,
+// --version and wrong arguments, and errors on stderr.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/service_arguments.h"
+#include "service/arguments.h"
 
 namespace stormcellar {
 
@@ -26,7 +27,8 @@ struct ServiceProgram {
 // Writes an error to stderr as that of the program. Returns the exit status of a failure, 1.
 int complain(std::string_view program, const Error& error);
 
-// Returns "RELOADING=1" with the monotonic time that systemd requires (sd_notify(3)).
-[[nodiscard]] std::string reloading_state();
+// Raises the soft limit of descriptors to `wanted`, as far as the hard limit allows: 1,024 is usual
+// for the sake of old programs. If that fails, the error appears where a descriptor is missing.
+void raise_descriptor_limit(std::uint64_t wanted);
 
 }  // namespace stormcellar

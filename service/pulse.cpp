@@ -1,6 +1,6 @@
-#include "daemon/process/pulse.h"
+#include "service/pulse.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 std::optional<Step> Pulses::oldest() const {
     std::optional<Step> oldest;
@@ -11,4 +11,4 @@ std::optional<Step> Pulses::oldest() const {
     return oldest;
 }
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,4 +1,4 @@
-// base/service_keys.h -- keys of the configuration that more than one service has.
+// service/config_keys.h -- keys of the configuration that more than one service has.
 //
 // Threads   Pure functions, but for the table that they read.
 // Errors    Complaints of the table.

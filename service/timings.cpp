@@ -1,9 +1,9 @@
-#include "daemon/status/timings.h"
+#include "service/timings.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 LatencySummary summarise(std::vector<double> seconds) {
     LatencySummary summary;
@@ -31,4 +31,4 @@ void Timings::add(double seconds) {
     }
 }
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

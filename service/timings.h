@@ -1,4 +1,4 @@
-// daemon/status/timings.h -- how long something took, over its last times.
+// service/timings.h -- how long something took, over its last times.
 //
 // Count and sum are over all times, as the counters of a monitoring system need them. Median, 95th
 // percentile and maximum are over the last `window` values, so memory is bounded.
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 struct LatencySummary {
     std::size_t count = 0;
@@ -37,4 +37,4 @@ class Timings {
     double sum_s_ = 0;
 };
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar

@@ -1,4 +1,4 @@
-// base/service_arguments.h -- the arguments of a service: --config FILE, and little else.
+// service/arguments.h -- the arguments of a service: --config FILE, and little else.
 //
 // Threads   Functions without state.
 // Errors    bad_argument for anything else, and if there is no file.

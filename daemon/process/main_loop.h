@@ -1,0 +1,24 @@
+// daemon/process/main_loop.h -- what the main loops of the service and of the loops' service do in
+// each turn: take signals and feed the watchdog.
+//
+// Threads   One thread at a time.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "base/steady_time.h"
+#include "service/notify.h"
+#include "service/signals.h"
+
+namespace stormcellar::daemon {
+
+// Takes all pending signals and calls `reload` for each SIGHUP. Returns true if one of them asked
+// for the end, which is logged. A null `signals` has none.
+[[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
+
+// Feeds the watchdog if it is due, and logs a thread that hangs.
+void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
+          const std::optional<Step>& oldest);
+
+}  // namespace stormcellar::daemon
