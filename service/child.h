@@ -1,8 +1,8 @@
-// service/child.h -- starts a program beside the daemon and reads its output.
+// service/child.h -- starts a program beside the service and reads its output.
 //
 // The program has no input, default signals, a process group of its own (so that Ctrl-C in a
-// terminal reaches only the daemon) and a lower priority; it is the first to be killed if memory
-// runs out. It inherits none of the daemon's files. Its output is read line by line.
+// terminal reaches only the service) and a lower priority; it is the first to be killed if memory
+// runs out. It inherits none of the service's files. Its output is read line by line.
 //
 // Threads   One thread, which must live as long as the child if the child asks to be ended with its
 //           parent (PR_SET_PDEATHSIG follows the thread).
@@ -18,10 +18,6 @@
 #include "stormcellar/base/result.h"
 
 namespace stormcellar {
-
-// Returns the path of the program of this name: beside this one, else on PATH; empty if there is
-// none.
-[[nodiscard]] std::filesystem::path find_program(std::string_view name);
 
 // The reading end of a pipe, read by lines. Never blocks.
 class LineReader {

@@ -1,17 +1,15 @@
 #include "cli/batch/task_pool.h"
 
-#include <array>
 #include <cerrno>
 #include <deque>
 #include <map>
 #include <string>
 
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/system_error.h"
+#include "base/spawn.h"
 #include "cli/batch/batch.h"
 
 namespace stormcellar::cli {
@@ -24,25 +22,12 @@ struct Turn {
     int tries = 1;
 };
 
+// The task writes where this program does, and ends with it by Ctrl-C.
 Result<pid_t> start(const PoolJob& job, std::size_t task) {
-    const std::array<std::string, 9> words{job.program.native(),
-                                           "batch",
-                                           job.command,
-                                           "--plan",
-                                           job.plan,
-                                           "--task",
-                                           std::to_string(task),
-                                           "--threads",
-                                           std::to_string(job.threads)};
-    std::vector<char*> arguments;
-    for (const std::string& word : words)
-        arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    const int error =
-        ::posix_spawn(&child, words[0].c_str(), nullptr, nullptr, arguments.data(), environ);
-    if (error != 0) return system_failure(words[0], error);
-    return child;
+    return spawn(job.program,
+                 {"batch", job.command, "--plan", job.plan, "--task", std::to_string(task),
+                  "--threads", std::to_string(job.threads)},
+                 {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO, false});
 }
 
 }  // namespace

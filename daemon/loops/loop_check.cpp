@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/printable.h"
+#include "base/spawn.h"
 #include "service/child.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"

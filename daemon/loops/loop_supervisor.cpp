@@ -11,6 +11,7 @@
 
 #include "base/counted.h"
 #include "base/printable.h"
+#include "base/spawn.h"
 #include "daemon/log/log.h"
 #include "daemon/queue/schedule.h"
 

@@ -229,12 +229,6 @@ TEST(LoopArguments, SayWhatTheTableSays) {
                             "--scene", "/s.toml"));
 }
 
-TEST(FindProgram, IsBesideOrOnThePath) {
-    EXPECT_EQ(find_program("sh").filename(), "sh");
-    EXPECT_EQ(find_program("daemon_test").filename(), "daemon_test") << "beside this program";
-    EXPECT_EQ(find_program("no-such-program"), "");
-}
-
 TEST(LineReader, GivesWholeLinesAndTheRestAtTheEnd) {
     int ends[2] = {};
     ASSERT_EQ(::pipe(ends), 0);

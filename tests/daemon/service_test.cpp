@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/inotify.h>
 
-#include "tests/daemon/fake_notifier.h"
+#include "tests/service/fake_notifier.h"
 #include "tests/daemon/fake_sink.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"

@@ -1,4 +1,4 @@
-// tests/daemon/fake_notifier.h -- records what the service manager would be told.
+// tests/service/fake_notifier.h -- records what the service manager would be told.
 #pragma once
 
 #include <mutex>
@@ -7,7 +7,7 @@
 
 #include "service/notify.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar {
 
 class FakeNotifier final : public Notifier {
   public:
@@ -30,4 +30,4 @@ class FakeNotifier final : public Notifier {
     std::vector<std::string> sent_;
 };
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar
